@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What DP and the drive side say to each other, as plain values that may cross between threads.
+/// Neither knows the other: DP fills a Layout and outputs, the poller fills inputs and answers.
+///
+/// Layout generation: on these devices the master picks the tags at run time, so the meaning of input word 3
+/// changes. Each accepted Chk_Cfg that changes the layout counts a generation up; a value counts only under
+/// the generation it was read for, so no reply carries values of tags that were asked for before.
+#pragma once
+
+#include "dpslave/base/units.hpp"
+
+#include <array>
+#include <cstdint>
+
+namespace dpslave {
+
+/// Process parameters that one station can have at most (HA026290 ch. 5: 117 words in and out).
+inline constexpr std::size_t kMaxParameters = 117;
+
+using Generation = std::uint32_t; ///< 0 = there is no layout
+
+/// One process parameter as the master chose it.
+struct Parameter {
+    std::uint16_t tag = 0;
+    bool reads = false;  ///< from the drive to the master (an input word)
+    bool writes = false; ///< from the master to the drive (an output word)
+    friend bool operator==(const Parameter&, const Parameter&) = default;
+};
+
+/// The parameters of a station, in the order of the identifiers (Demand Data not counted).
+struct Layout {
+    Generation generation = 0;
+    std::uint8_t count = 0;
+    std::array<Parameter, kMaxParameters> parameters{};
+};
+
+/// From DP to the drive side: what the master wants written now.
+/// words[i] belongs to layout.parameters[i]; it has a meaning only where that parameter writes.
+struct OutputImage {
+    Layout layout{};
+    /// From the first Data_Exchange or Clear_Data accepted in this layout until the layout ends. Nothing is
+    /// written before.
+    bool may_write = false;
+    std::array<std::uint16_t, kMaxParameters> words{};
+};
+
+/// How far a parameter has come on the drive side.
+enum class WordState : std::uint8_t {
+    untried,      ///< not read yet in this layout
+    good,         ///< read and converted
+    stale,        ///< held: the drive does not answer at present
+    invalid_tag,  ///< the drive (or the tag table) has no such tag: the input reads 0, the output is dropped
+    read_only,    ///< the write was refused: read only
+    out_of_range, ///< the write was refused, or the value does not fit in 16 bit
+    refused,      ///< the drive refused for another reason (not stopped, not in configuration mode, type)
+};
+
+/// From the drive side to DP. words[i] belongs to parameter i of the layout with the same generation.
+struct InputImage {
+    Generation generation = 0;
+    bool every_input_tried = false; ///< each reading parameter was tried once, with whatever result
+    bool drive_answers = false;     ///< false: the values are held and stale
+    std::array<std::uint16_t, kMaxParameters> words{};
+};
+
+/// Why an access to one tag failed on the drive side.
+enum class AccessError : std::uint8_t {
+    none,
+    no_answer, ///< the drive is silent; no code of Demand Data stands for it
+    invalid_tag,
+    read_only,
+    out_of_range,
+    not_stopped,       ///< only while the drive is stopped
+    not_config_mode,   ///< only in configuration mode
+    unsupported_type,  ///< for example a STRING
+    value_not_encoded, ///< the drive could not read the value (EE 07C8)
+};
+
+/// One order of Demand Data for the drive side.
+struct DemandOrder {
+    enum class Kind : std::uint8_t {
+        cancel, ///< nothing is asked any more: a standing read ends
+        read,   ///< read again and again until the next order
+        write,  ///< write once
+    };
+    Kind kind = Kind::cancel;
+    std::uint16_t tag = 0;
+    std::uint16_t value = 0;   ///< of a write
+    std::uint32_t number = 0;  ///< counts the orders of a station; an answer names the order it belongs to
+    Generation generation = 0; ///< the layout in which the master gave it
+};
+
+/// What became of an order; a standing read gives one after each refresh.
+struct DemandAnswer {
+    std::uint32_t number = 0;
+    AccessError error = AccessError::none;
+    std::uint16_t value = 0; ///< of a read without error; of a write the value written
+};
+
+/// From DP to the drive side, each once and in order: data exchange was left, the outputs of that layout go
+/// to the safe state.
+struct LeftDataExchange {
+    Generation generation = 0;
+};
+
+} // namespace dpslave
