@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Which rate the bus runs at, found by listening. Evidence goes in, rates come out; no clock, no tty.
+/// Source: wire reference 7.
+#pragma once
+
+#include "dpslave/base/units.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace dpslave::fdl {
+
+enum class BaudState : std::uint8_t {
+    fixed,        ///< the configuration says the rate
+    baud_search,  ///< listening; the station is silent
+    baud_control, ///< a rate is found; T_BC without evidence leads back to the search
+    dp_control,   ///< the watchdog of at least one slave guards the line
+};
+std::string_view text(BaudState state) noexcept;
+
+struct BaudSearchSettings {
+    Baud highest = Baud::k1500; ///< where the search begins: the highest rate that the UART can do
+    Baud lowest = Baud::k9_6;
+    std::chrono::nanoseconds dwell_fast = std::chrono::seconds{2}; ///< per rate, from 93.75 kbit/s up
+    std::chrono::nanoseconds dwell_slow = std::chrono::seconds{4}; ///< per rate below
+    std::chrono::nanoseconds baud_control = std::chrono::milliseconds{320}; ///< T_BC = 2 * 16 * 10 ms
+};
+
+/// Baud_Search, Baud_Control and DP_Control (wire reference 7.1). Begins in Baud_Search.
+/// Precondition of the settings: lowest <= highest, with at least one searched rate between them (45.45
+/// kbit/s is none).
+class BaudSearch {
+public:
+    /// `begin_with`: the first rate to listen at (the one that was right the last time, say); a rate that is
+    /// not searched stands for the highest. The first dwell begins with the first call that says the time.
+    BaudSearch(const BaudSearchSettings& settings, Baud begin_with);
+
+    /// `good` characters came without and `bad` ones with a parity or framing error.
+    void on_characters(std::size_t good, std::size_t bad, Instant at);
+    /// An error-free SD1, SD2 or SD3 of anybody; `to_us`: its DA is one of our addresses. Never SD4 or SC:
+    /// those have no checksum.
+    void on_telegram(bool to_us, Instant at);
+    /// What the masters made of our slaves: whether any is parameterised, and any with its watchdog on.
+    void on_supervision(bool any_owned, bool any_supervised, Instant at);
+    void on_time(Instant now);
+
+    Instant next_deadline() const { return deadline_; } ///< kNever in DP_Control
+    Baud baud() const { return baud_; }
+    BaudState state() const { return state_; }
+
+private:
+    std::chrono::nanoseconds dwell() const;
+    void begin_if_new(Instant at);
+    void search(Baud baud, Instant at);
+    void control(Instant at);
+    Baud next_rate() const;
+
+    BaudSearchSettings settings_;
+    Baud baud_;
+    BaudState state_ = BaudState::baud_search;
+    bool begun_ = false;
+    bool any_owned_ = false;
+    bool any_supervised_ = false;
+    Instant deadline_{}; // at once: the first call of on_time() begins the first dwell
+    std::uint32_t characters_ = 0;
+    std::uint32_t bad_ = 0;
+};
+
+} // namespace dpslave::fdl

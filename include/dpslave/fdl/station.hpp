@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Passive stations (slaves) on layer 2: all station addresses of one bus behind one table look-up.
+/// Octets and times go in, octets, deadlines and counters come out; it makes no system call, starts no thread
+/// and allocates nothing. Source: wire reference 1.5, 2, 3, 6.7.
+#pragma once
+
+#include "dpslave/base/units.hpp"
+#include "dpslave/fdl/baud_search.hpp"
+#include "dpslave/fdl/sap_user.hpp"
+#include "dpslave/fdl/telegram.hpp"
+
+#include <array>
+#include <bitset>
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+namespace dpslave::fdl {
+
+/// Idle time after which a new request may begin, the same at all rates. Unit: T_bit. Source: EN 50170-2,
+/// T_SYN.
+inline constexpr Tbit kTsyn{33};
+
+struct StationSettings {
+    Baud baud = Baud::k187_5; ///< the fixed rate; with `search` the rate to begin with
+    /// Search the rate (wire reference 7); none = fixed.
+    std::optional<BaudSearchSettings> search;
+    /// From the edge's "send" to the first bit on the wire: the deadline is moved forward by it.
+    std::chrono::nanoseconds start_up_latency{0};
+};
+
+/// What happened on the wire, for `dpctl counters`. All count upwards from the start.
+struct Counters {
+    std::uint64_t octets = 0;
+    std::uint64_t telegrams = 0; ///< valid ones, of anybody
+    std::uint64_t requests = 0;  ///< valid, to one of our addresses or to all
+    std::uint64_t replies = 0;   ///< handed to the edge
+    std::uint64_t retries = 0;   ///< answered with the stored reply
+    std::uint64_t overtaken = 0; ///< requests not answered because something followed them
+    std::uint64_t late = 0;      ///< replies suppressed because the deadline had passed
+    std::uint64_t own_address =
+        0; ///< telegrams that carry one of our addresses as sender: an address conflict
+    std::array<std::uint64_t, kFlaws> flaws{};
+};
+
+class Station {
+public:
+    explicit Station(const StationSettings& settings);
+
+    /// From now on `user` answers at `address`, with replies no later than max(max_tsdr, min T_SDR + 50
+    /// T_bit). The user outlives the station. max_tsdr has one value per rate, in the order of kBauds. False,
+    /// and nothing is attached, if the address is no station address (0..126).
+    bool attach(std::uint8_t address, SapUser& user, const std::array<Tbit, kBauds.size()>& max_tsdr);
+
+    /// Octets read from the line in one go; `read_at` is taken right after the read.
+    void on_bytes(Bytes bytes, Instant read_at);
+    /// The UART reported a bad character (parity, framing, break): the telegram it belongs to is invalid. To
+    /// be called in the place of that octet, between the on_bytes() of the good ones before and behind it.
+    void on_character_error(Instant read_at);
+    /// Time passes. Call it after every on_bytes() and at next_deadline().
+    void on_time(Instant now);
+
+    /// The reply that may start now, if there is one: to be written at once and whole. Valid until the next
+    /// on_bytes(). Call it after on_time(): before the window opens there is none, and after it closed there
+    /// is none any more.
+    std::optional<Bytes> take_transmit();
+
+    /// When on_time() wants to be called next. kNever = only octets can wake this station. A moment that has
+    /// passed means: at once.
+    Instant next_deadline() const;
+
+    /// Which users were called since the last take: what the edge has to publish. Bit n = address n.
+    std::bitset<128> take_touched();
+
+    /// The rate to switch the line to, when the search decided so: the edge flushes the line and sets it.
+    std::optional<Baud> take_baud_change();
+
+    Baud baud() const;
+    BaudState baud_state() const;
+    const Counters& counters() const;
+
+private:
+    static constexpr std::size_t kAddresses = 127; // 0..126
+
+    /// One station address: who lives there, and its frame count memory (wire reference 2.6).
+    struct Place {
+        SapUser* user = nullptr;
+        std::array<Tbit, kBauds.size()> max_tsdr{};
+        Supervision supervision = Supervision::unowned;
+        bool stored = false; // whether what follows is valid
+        bool fcb = false;    // FCBM
+        std::uint8_t sa = 0; // SAM
+        Function function{}; // of the stored request
+        std::optional<std::uint8_t> dsap;
+        Frame reply;
+    };
+    /// A reply that waits for its window.
+    struct Pending {
+        Bytes octets;
+        Instant not_before;
+        Instant not_after;
+        bool open = false;
+    };
+
+    // From octets to telegrams.
+    void end_silence(std::size_t octets, Instant read_at);
+    bool rate_is_kept(std::size_t good, std::size_t bad, Instant at);
+    void consume(Instant read_at, bool all_read);
+    void on_frame(Bytes frame, Instant read_at, bool newest);
+    void on_sdn(const Telegram& telegram, Instant at);
+    void drop_unfinished();
+    void cancel_reply();
+    void count(Flaw flaw) { ++counters_.flaws[static_cast<std::size_t>(flaw)]; }
+
+    // From a request to its reply.
+    void on_request(std::uint8_t address, const Telegram& request, Instant at);
+    void on_counted_request(std::uint8_t address, const Telegram& request, Instant at, const Pending& window);
+    Frame execute(std::uint8_t address, const Telegram& request, Instant at);
+    Pending window_of(const Place& place, Instant at) const;
+    void reply_with(const Frame& frame, const Pending& window);
+    static bool is_retry(const Place& place, const Telegram& request);
+
+    // After a user was called.
+    void called(std::uint8_t address, Instant at);
+    void sample(Place& place, Instant at);
+    void wake_users(Instant now);
+    void follow_search();
+
+    StationSettings settings_;
+    Baud baud_;
+    std::optional<BaudSearch> search_;
+    BaudState baud_state_ = BaudState::fixed;
+    std::optional<Baud> baud_change_;
+
+    std::array<Place, kAddresses> places_{};
+    std::array<std::uint8_t, kAddresses> attached_{}; // the addresses in use, for what concerns all of them
+    std::size_t attached_count_ = 0;
+    std::size_t owned_ = 0;      // how many users a master has parameterised
+    std::size_t supervised_ = 0; // how many of them with the watchdog on
+    Instant users_due_ = kNever; // no user wants on_time() before this
+    std::bitset<128> touched_;
+
+    std::array<std::uint8_t, 2 * kMaxTelegram> rx_{}; // an unfinished telegram, and room for what comes next
+    std::size_t used_ = 0;
+    bool spoilt_ = false; // the unfinished telegram holds a bad character
+    Instant gap_ends_ = kNever;
+
+    std::optional<Pending> pending_;
+    Frame unstored_; // a reply that belongs to no frame count sequence
+    ReplyData scratch_;
+    Counters counters_;
+};
+
+} // namespace dpslave::fdl

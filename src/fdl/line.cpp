@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The receiving half of a station: from octets to telegrams, and which of them concern us.
+#include "dpslave/fdl/station.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace dpslave::fdl {
+namespace {
+
+/// How long the line may be silent within a telegram before it counts as unfinished: T_SYN and an allowance
+/// for the UART's FIFO and the scheduler, because reads say little about the times on the wire (wire
+/// reference 1.5).
+std::chrono::nanoseconds gap_limit(Baud baud)
+{
+    using std::chrono::milliseconds;
+    return duration_of(kTsyn, baud) + (baud >= Baud::k93_75 ? milliseconds{5} : milliseconds{20});
+}
+
+bool is_sdn(const Telegram& telegram)
+{
+    return telegram.function() == Function::sdn_low || telegram.function() == Function::sdn_high;
+}
+
+/// Whether a slave answers this function at all. Time_Event and the reserved codes are met with silence.
+bool is_answered(Function function)
+{
+    switch (function) {
+        case Function::sda_low:
+        case Function::sda_high:
+        case Function::msrd:
+        case Function::fdl_status:
+        case Function::srd_low:
+        case Function::srd_high:
+        case Function::ident:
+        case Function::lsap_status: return true;
+        case Function::time_event:
+        case Function::sdn_low:
+        case Function::sdn_high: break;
+    }
+    return false;
+}
+
+} // namespace
+
+void Station::on_bytes(Bytes bytes, Instant read_at)
+{
+    if (bytes.empty()) return;
+    cancel_reply();
+    counters_.octets += bytes.size();
+    end_silence(bytes.size(), read_at);
+    if (!rate_is_kept(bytes.size(), 0, read_at)) return;
+
+    while (!bytes.empty()) {
+        const std::size_t taken = std::min(bytes.size(), rx_.size() - used_);
+        std::memcpy(rx_.data() + used_, bytes.data(), taken);
+        used_ += taken;
+        bytes = bytes.subspan(taken);
+        consume(read_at, bytes.empty());
+    }
+    gap_ends_ = used_ == 0 ? kNever : read_at + gap_limit(baud_);
+}
+
+void Station::on_character_error(Instant read_at)
+{
+    cancel_reply();
+    ++counters_.octets;
+    count(Flaw::character);
+    end_silence(1, read_at);
+    if (!rate_is_kept(0, 1, read_at)) return;
+    if (used_ == 0) return; // no telegram has begun: it is skipped like any octet that cannot begin one
+
+    const auto length = frame_length(Bytes{rx_}.first(used_));
+    if (!length || *length == 0) {
+        used_ = 0; // the end of this telegram cannot be known any more
+    } else {
+        rx_[used_++] = 0; // keeps the place of the octet, so that the end of the telegram is found
+        spoilt_ = true;
+        consume(read_at, true);
+    }
+    gap_ends_ = used_ == 0 ? kNever : read_at + gap_limit(baud_);
+}
+
+/// A silence within a telegram ended when the first of these octets began, not when they were read.
+void Station::end_silence(std::size_t octets, Instant read_at)
+{
+    const Tbit on_wire{static_cast<std::uint32_t>(octets) * kCharacter.count};
+    if (used_ != 0 && read_at - duration_of(on_wire, baud_) >= gap_ends_) drop_unfinished();
+}
+
+/// Tells the search what was heard. False: the rate has been given up, and what was heard at it means
+/// nothing.
+bool Station::rate_is_kept(std::size_t good, std::size_t bad, Instant at)
+{
+    if (!search_) return true;
+    if (!baud_change_) {
+        search_->on_characters(good, bad, at);
+        follow_search();
+    }
+    return !baud_change_;
+}
+
+/// Takes the telegrams off the front of rx_; what is left at the end is the beginning of one.
+void Station::consume(Instant read_at, bool all_read)
+{
+    Bytes rest = Bytes{rx_}.first(used_);
+    while (!rest.empty()) {
+        const auto length = frame_length(rest);
+        if (!length) {
+            count(length.error());
+            rest = rest.subspan(1); // hunt on; silence is never waited for: a busy bus has none
+            continue;
+        }
+        if (*length == 0 || rest.size() < *length) break;
+        if (spoilt_)
+            spoilt_ = false; // the bad character was counted when it came
+        else
+            on_frame(rest.first(*length), read_at, all_read && rest.size() == *length);
+        rest = rest.subspan(*length);
+    }
+    std::memmove(rx_.data(), rest.data(), rest.size());
+    used_ = rest.size();
+}
+
+/// `newest`: nothing was heard behind this telegram.
+void Station::on_frame(Bytes frame, Instant read_at, bool newest)
+{
+    const auto telegram = decode(frame);
+    if (!telegram) {
+        count(telegram.error());
+        return;
+    }
+    ++counters_.telegrams;
+    if (!telegram->has_fc()) return; // SC and token: no checksum, no evidence, nobody asked
+
+    const bool ours = telegram->da < kAddresses && places_[telegram->da].user != nullptr;
+    if (search_) {
+        const bool silent = search_->state() == BaudState::baud_search;
+        search_->on_telegram(ours, read_at);
+        follow_search();
+        if (silent) return; // the telegram that ends the search is still heard in it
+    }
+    if (places_[telegram->sa].user != nullptr) {
+        ++counters_.own_address;
+        return;
+    }
+    const bool known_code = (telegram->fc & 0x80) == 0; // bit 7 is a second code table with nothing for us
+    if (!telegram->is_request() || !known_code) return;
+
+    if (is_sdn(*telegram)) {
+        if (!ours && telegram->da != kBroadcast) return;
+        ++counters_.requests;
+        on_sdn(*telegram, read_at);
+    } else if (ours && is_answered(telegram->function())) {
+        ++counters_.requests;
+        if (newest)
+            on_request(telegram->da, *telegram, read_at);
+        else
+            ++counters_.overtaken; // dropped whole, FCB included: the master's retry still looks new
+    }
+}
+
+void Station::on_sdn(const Telegram& telegram, Instant at)
+{
+    const Indication indication{
+        .sa = telegram.sa, .dsap = telegram.dsap, .ssap = telegram.ssap, .data = telegram.data, .at = at};
+    if (telegram.da != kBroadcast) {
+        places_[telegram.da].user->sdn(indication);
+        called(telegram.da, at);
+        return;
+    }
+    for (std::size_t i = 0; i < attached_count_; ++i) {
+        places_[attached_[i]].user->sdn(indication);
+        called(attached_[i], at);
+    }
+}
+
+void Station::drop_unfinished()
+{
+    count(Flaw::unfinished);
+    used_ = 0;
+    spoilt_ = false;
+    gap_ends_ = kNever;
+}
+
+/// Somebody speaks: the moment for the reply is over. What the request did and its stored reply stay.
+void Station::cancel_reply()
+{
+    if (!pending_) return;
+    pending_.reset();
+    ++counters_.overtaken;
+}
+
+} // namespace dpslave::fdl

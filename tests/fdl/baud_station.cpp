@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A station that searches its rate, on a bus whose masters have one (wire reference 7; C-24).
+#include "bench.hpp"
+
+using namespace dpslave;
+using namespace test;
+using fdl::BaudState;
+using fdl::Supervision;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+namespace {
+
+class Searching : public testing::Test {
+protected:
+    Searching()
+    {
+        station.attach(kUs, user, kClassMaxTsdr);
+        bus.advance({});
+    }
+
+    /// A master that polls slave 5 once in 20 ms, as long as `limit` or until the station knows the rate.
+    void poll_until_found(std::chrono::nanoseconds limit)
+    {
+        const Instant end = bus.now() + limit;
+        while (bus.now() < end && station.baud_state() == BaudState::baud_search) {
+            bus.master_sends(sd1(kUs, kMaster, kFdlStatus));
+            bus.line_is_idle_for(milliseconds{20});
+        }
+    }
+
+    RecordingUser user;
+    fdl::Station station{{.baud = Baud::k1500, .search = fdl::BaudSearchSettings{}, .start_up_latency = {}}};
+    Bus bus{station, {.baud = Baud::k1500, .min_tsdr = 11_tbit, .max_tsdr = {}}};
+};
+
+TEST_F(Searching, StationIsSilentAndTheTelegramThatEndsTheSearchIsNotAnsweredYet)
+{
+    bus.master_sends(sd1(kUs, kMaster, kFdlStatus));
+    EXPECT_FALSE(bus.reply());
+    EXPECT_TRUE(user.heards.empty());
+    EXPECT_EQ(station.baud_state(), BaudState::baud_control);
+
+    bus.master_sends(sd1(kUs, kMaster, kFdlStatus));
+    EXPECT_TRUE(bus.reply());
+}
+
+TEST_F(Searching, TokensAndShortAcknowledgesAreNoEvidence)
+{
+    bus.master_sends(token(3, 2));
+    bus.master_sends(sc());
+
+    EXPECT_EQ(station.baud_state(), BaudState::baud_search);
+}
+
+TEST_F(Searching, BrokenTelegramsAreNoEvidence)
+{
+    bus.master_sends(octets("10 05 02 49 51 16"));
+
+    EXPECT_EQ(station.baud_state(), BaudState::baud_search);
+}
+
+TEST_F(Searching, TrafficOfTwoOtherStationsIsEvidence)
+{
+    bus.master_sends(sd2(kMaster, kOther, 0x08, {1, 2}));
+
+    EXPECT_EQ(station.baud_state(), BaudState::baud_control);
+}
+
+TEST_F(Searching, SilentLineIsSearchedDownwards)
+{
+    bus.advance(milliseconds{2100});
+    EXPECT_EQ(bus.take_baud_changes(), std::vector<Baud>{Baud::k500});
+    bus.advance(seconds{14});
+
+    EXPECT_EQ(bus.take_baud_changes(),
+              (std::vector<Baud>{Baud::k187_5, Baud::k93_75, Baud::k19_2, Baud::k9_6, Baud::k1500}));
+}
+
+TEST_F(Searching, FixedRateIsNeverLeft)
+{
+    fdl::Station fixed{{.baud = Baud::k45_45, .search = {}, .start_up_latency = {}}};
+    Bus line{fixed, {.baud = Baud::k45_45, .min_tsdr = 11_tbit, .max_tsdr = {}}};
+    line.advance(seconds{100});
+
+    EXPECT_EQ(fixed.baud_state(), BaudState::fixed);
+    EXPECT_TRUE(line.take_baud_changes().empty());
+    EXPECT_EQ(fixed.next_deadline(), kNever);
+}
+
+class EverySearchedRate : public Searching, public testing::WithParamInterface<Baud> {};
+
+TEST_P(EverySearchedRate, IsFoundAndThenAnswered)
+{
+    bus.set_baud(GetParam());
+    poll_until_found(seconds{30});
+
+    ASSERT_EQ(station.baud(), GetParam());
+    bus.master_sends(sd1(kUs, kMaster, kFdlStatus));
+    EXPECT_EQ(bus.reply(), octets("10 02 05 00 07 16"));
+}
+
+TEST_P(EverySearchedRate, IsFoundAgainAfterTheMasterChangedToIt)
+{
+    poll_until_found(seconds{1});
+    ASSERT_EQ(station.baud(), Baud::k1500);
+    bus.set_baud(GetParam());
+    bus.line_is_idle_for(milliseconds{400});
+    poll_until_found(seconds{30});
+
+    EXPECT_EQ(station.baud(), GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(A006, EverySearchedRate,
+                         testing::Values(Baud::k9_6, Baud::k19_2, Baud::k93_75, Baud::k187_5, Baud::k500,
+                                         Baud::k1500));
+
+TEST_F(Searching, WrongRateWithTrafficIsLeftBeforeItsDwellIsOver)
+{
+    bus.set_baud(Baud::k187_5);
+    const Instant begin = bus.now();
+    poll_until_found(seconds{30});
+
+    EXPECT_EQ(station.baud(), Baud::k187_5);
+    EXPECT_LT(bus.now() - begin, milliseconds{500}); // two rates of 2 s each were cut short
+}
+
+TEST_F(Searching, LossOfTheMasterLeadsBackToTheSearchAndTheFrameCountIsForgotten)
+{
+    poll_until_found(seconds{1});
+    bus.master_sends(sd2(kUs, kMaster, kSrdFcb1, {1}));
+    ASSERT_TRUE(bus.reply());
+    bus.line_is_idle_for(milliseconds{400});
+    EXPECT_EQ(station.baud_state(), BaudState::baud_search);
+    EXPECT_TRUE(user.times.empty()); // DP is not told
+
+    poll_until_found(seconds{1});
+    bus.master_sends(sd2(kUs, kMaster, kSrdFcb1, {1}));
+    ASSERT_TRUE(bus.reply());
+    EXPECT_EQ(user.srds.size(), 2u); // executed anew
+}
+
+TEST_F(Searching, WatchdogOfASlaveKeepsTheRate)
+{
+    poll_until_found(seconds{1});
+    user.level = Supervision::supervised; // Set_Prm with WD_On
+    user.deadline = bus.now() + seconds{5};
+    user.level_after_on_time = Supervision::unowned;
+    bus.master_sends(sd2(kUs, kMaster, kSrdFirst, Saps{61, 62}, {1}));
+    ASSERT_TRUE(bus.reply());
+    EXPECT_EQ(station.baud_state(), BaudState::dp_control);
+    bus.line_is_idle_for(seconds{4});
+    EXPECT_EQ(station.baud_state(), BaudState::dp_control);
+    bus.line_is_idle_for(milliseconds{1100});
+    EXPECT_EQ(user.times.size(), 1u);
+    EXPECT_EQ(station.baud_state(), BaudState::baud_control);
+    bus.line_is_idle_for(milliseconds{320});
+
+    EXPECT_EQ(station.baud_state(), BaudState::baud_search);
+}
+
+TEST_F(Searching, PollsToOthersKeepTheRateUntilASlaveIsOwned)
+{
+    poll_until_found(seconds{1});
+    for (int i = 0; i < 10; ++i) {
+        bus.master_sends(sd1(kOther, kMaster, kFdlStatus));
+        bus.line_is_idle_for(milliseconds{100});
+    }
+    EXPECT_EQ(station.baud_state(), BaudState::baud_control);
+
+    user.level = Supervision::owned;
+    bus.master_sends(sd2(kUs, kMaster, kSrdFirst, Saps{61, 62}, {1}));
+    for (int i = 0; i < 4; ++i) {
+        bus.master_sends(sd1(kOther, kMaster, kFdlStatus));
+        bus.line_is_idle_for(milliseconds{100});
+    }
+    EXPECT_EQ(station.baud_state(), BaudState::baud_search);
+}
+
+TEST_F(Searching, OctetsAtARateThatWasGivenUpAreNotLookedAt)
+{
+    const Instant now = bus.now();
+    for (int i = 0; i < 20; ++i) station.on_character_error(now);
+    station.on_bytes(octets("10 05 02 49 50 16"), now); // still heard at 1.5 Mbit/s
+    EXPECT_EQ(station.baud_state(), BaudState::baud_search);
+    EXPECT_EQ(station.counters().telegrams, 0u);
+
+    EXPECT_EQ(station.take_baud_change(), Baud::k500);
+    station.on_bytes(octets("10 05 02 49 50 16"), now);
+    EXPECT_EQ(station.baud_state(), BaudState::baud_control);
+}
+
+} // namespace

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What the tests of layer 2 stand on: a SAP user that writes down how it was called, and a slave 5 on a bus.
+#pragma once
+
+#include "support/bus.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace test {
+
+class RecordingUser final : public dpslave::fdl::SapUser {
+public:
+    struct Call {
+        std::uint8_t sa;
+        std::optional<std::uint8_t> dsap;
+        std::optional<std::uint8_t> ssap;
+        Octets data;
+        dpslave::Instant at;
+    };
+
+    dpslave::fdl::Answer srd(const dpslave::fdl::Indication& request, dpslave::fdl::ReplyData& reply) override
+    {
+        srds.push_back(call(request));
+        reply.append(inputs);
+        min_tsdr_bits = min_tsdr_after_srd.value_or(min_tsdr_bits);
+        return answer;
+    }
+    void sdn(const dpslave::fdl::Indication& request) override { sdns.push_back(call(request)); }
+    void heard(std::uint8_t sa, dpslave::Instant at) override { heards.push_back({sa, {}, {}, {}, at}); }
+    dpslave::Tbit min_tsdr() const override { return min_tsdr_bits; }
+    dpslave::fdl::Supervision supervision() const override { return level; }
+    void on_time(dpslave::Instant now) override
+    {
+        times.push_back(now);
+        deadline = deadline_after_on_time;
+        level = level_after_on_time.value_or(level);
+    }
+    dpslave::Instant next_deadline() const override
+    {
+        ++deadline_questions;
+        return deadline;
+    }
+
+    // What it is to say.
+    dpslave::fdl::Answer answer = dpslave::fdl::Answer::low;
+    Octets inputs{0x12, 0x34};
+    dpslave::Tbit min_tsdr_bits{11};
+    std::optional<dpslave::Tbit> min_tsdr_after_srd;
+    dpslave::fdl::Supervision level = dpslave::fdl::Supervision::unowned;
+    std::optional<dpslave::fdl::Supervision> level_after_on_time;
+    dpslave::Instant deadline = dpslave::kNever;
+    dpslave::Instant deadline_after_on_time = dpslave::kNever;
+
+    // What it heard.
+    std::vector<Call> srds;
+    std::vector<Call> sdns;
+    std::vector<Call> heards;
+    std::vector<dpslave::Instant> times;
+    mutable std::size_t deadline_questions = 0;
+
+private:
+    static Call call(const dpslave::fdl::Indication& request)
+    {
+        return {
+            request.sa, request.dsap, request.ssap, {request.data.begin(), request.data.end()}, request.at};
+    }
+};
+
+inline constexpr std::uint8_t kUs = 5;
+inline constexpr std::uint8_t kOther = 9; // another slave, not of this station
+inline constexpr std::uint8_t kMaster = 2;
+inline constexpr std::uint8_t kOtherMaster = 3;
+
+// FC of requests (wire reference 2.3).
+inline constexpr std::uint8_t kFdlStatus = 0x49;
+inline constexpr std::uint8_t kSrdFirst = 0x6D;
+inline constexpr std::uint8_t kSrdFcb0 = 0x5D;
+inline constexpr std::uint8_t kSrdFcb1 = 0x7D;
+inline constexpr std::uint8_t kSrdUncounted = 0x4D;
+inline constexpr std::uint8_t kSdnHigh = 0x46;
+
+/// Slave 5 at 187.5 kbit/s with the class default of 60 T_bit.
+class FdlStation : public testing::Test {
+protected:
+    FdlStation()
+    {
+        station.attach(kUs, user, kClassMaxTsdr);
+        bus.advance({}); // the edge wakes up once
+    }
+
+    RecordingUser user;
+    dpslave::fdl::Station station{{.baud = dpslave::Baud::k187_5, .search = {}, .start_up_latency = {}}};
+    Bus bus{station};
+};
+
+inline const auto kNameOf = [](const auto& info) { return std::string{info.param.name}; };
+
+} // namespace test
