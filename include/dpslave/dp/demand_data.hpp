@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Demand Data: access to any tag through the first eight octets of the cyclic exchange.
+/// Source: HA389815 ch. 7; 2408f/2404f handbook ch. 7; acceptance rows, C-060 to C-069.
+#pragma once
+
+#include "dpslave/base/process_image.hpp"
+#include "dpslave/dp/personality.hpp"
+#include "dpslave/dp/queue.hpp"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+namespace dpslave::dp {
+
+/// The eight octets as words: command and tag, extended tag, reserved, value or error code.
+using DemandRegisters = std::array<std::uint16_t, 4>;
+
+class DemandData {
+public:
+    explicit DemandData(const Personality& personality) : personality_(&personality) {}
+
+    /// A layout with Demand Data begins: nothing is asked, the reply is 0.
+    void begin(Generation generation);
+    /// The layout ended: what stands is cancelled, and a write that nobody has fetched yet is not made any
+    /// more.
+    void end();
+
+    /// The registers that are active now. Only a change makes an order.
+    void request(const DemandRegisters& registers);
+    /// What became of an order; dropped when the order no longer stands.
+    void answer(const DemandAnswer& answer);
+
+    const DemandRegisters& reply() const { return reply_; }
+    std::optional<DemandOrder> take_order() { return orders_.pop(); }
+
+    std::uint64_t orders() const { return ordered_; }   ///< reads and writes ordered
+    std::uint64_t rejects() const { return rejected_; } ///< replies that became 7
+    std::uint64_t lost() const { return lost_; }        ///< orders that nobody fetched in time
+
+private:
+    /// What the master wants, without the parts of the registers that do not matter for its command.
+    struct Wanted {
+        std::uint8_t command = 0;
+        std::uint16_t tag_field = 0;
+        std::uint16_t extended_tag = 0;
+        std::uint16_t value = 0;
+        friend bool operator==(const Wanted&, const Wanted&) = default;
+    };
+    Wanted wanted_by(const DemandRegisters& registers) const;
+    void give(DemandOrder::Kind kind);
+    void withdraw();
+    void reply_with(std::uint16_t command, std::uint16_t value);
+    void reject(std::uint16_t code);
+
+    const Personality* personality_;
+    Generation generation_ = 0;
+    Wanted wanted_{};
+    DemandOrder standing_{}; ///< the order given last; `cancel` = none stands
+    DemandRegisters reply_{};
+    /// One call stack fetches after each telegram, so one place would do; eight are for a caller that is
+    /// late.
+    Queue<DemandOrder, 8> orders_;
+    std::uint64_t ordered_ = 0;
+    std::uint64_t rejected_ = 0;
+    std::uint64_t lost_ = 0;
+};
+
+} // namespace dpslave::dp

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+/// All that DP asks of a device type. Devices are data: a profile fills this, and no code here knows a
+/// product.
+#pragma once
+
+#include "dpslave/base/process_image.hpp"
+#include "dpslave/base/units.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace dpslave::dp {
+
+/// A legal identifier octet of Cfg_Data and what its parameter does: one word per direction.
+struct Identifier {
+    std::uint8_t octet = 0;
+    bool reads = false;  ///< one input word
+    bool writes = false; ///< one output word
+};
+
+/// How the list of tags in User_Prm_Data ends.
+enum class TagList : std::uint8_t {
+    first_zero_ends, ///< fixed length, the first tag 0 ends the list, what follows is not counted (A-052)
+    zeros_at_end,    ///< tags, then zeros only; a zero between tags is a fault (code 0014)
+    exact,           ///< as many tags as octets say, none of them zero
+    none,            ///< no tags: each identifier stands for the parameter of its place, counted from 1
+};
+
+/// Where the tags stand in User_Prm_Data (Set_Prm from octet 8 on).
+struct PrmLayout {
+    std::size_t tags_at = 0;    ///< offset of the first tag
+    std::size_t min_length = 0; ///< octets of User_Prm_Data
+    std::size_t max_length = 0;
+    bool may_be_absent = false;   ///< no User_Prm_Data at all = no tags
+    bool dpv1_status = false;     ///< the first three octets are DPV1_Status_1..3 (with WD_Base)
+    std::uint16_t max_tag = 2047; ///< a higher tag is a Prm_Fault
+    TagList list = TagList::first_zero_ends;
+};
+
+/// Form of Demand Data in the first eight octets of both directions.
+enum class DemandForm : std::uint8_t {
+    none,
+    basic,    ///< commands 0, 1, 2; tag in bits 10..0 (HA389815 ch. 7)
+    extended, ///< also 3 and 4 with the tag in register 2 (2408f/2404f handbook ch. 7)
+};
+
+struct Personality {
+    std::uint16_t ident = 0;
+    std::array<Tbit, kBauds.size()> max_tsdr{}; ///< per rate, in the order of kBauds; 0 = rate not supported
+
+    std::vector<Identifier> identifiers; ///< of process parameters
+    std::uint8_t demand_identifier = 0;  ///< legal in first position only; 0 = none
+    std::size_t max_parameters = 0;      ///< process parameters, Demand Data not counted; <= kMaxParameters
+    bool may_have_no_parameters = true;  ///< Demand Data alone is a legal configuration
+
+    PrmLayout prm;
+    DemandForm demand = DemandForm::none;
+    std::uint16_t demand_error_base = 0; ///< added to the error codes 0, 1, 2 (X-09)
+
+    bool sync = false;
+    bool freeze = false;
+    bool fail_safe = false;          ///< zero-length Data_Exchange in Clear is legal
+    std::size_t max_diag_length = 6; ///< octets of Slave_Diag, 6..244
+};
+
+} // namespace dpslave::dp

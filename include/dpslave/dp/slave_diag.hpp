@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Slave_Diag: six standard octets and blocks of extended diagnosis. Source: wire reference 5.
+#pragma once
+
+#include "dpslave/base/bytes.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace dpslave::dp {
+
+inline constexpr std::size_t kStandardDiagnosis = 6;
+inline constexpr std::uint8_t kNoMaster = 0xFF; ///< Master_Add of a slave that nobody has parameterised
+
+/// What the six standard octets say, by name.
+struct StandardDiagnosis {
+    bool station_not_ready = true;
+    bool cfg_fault = false;
+    bool ext_diag = false;
+    bool not_supported = false;
+    bool prm_fault = false;
+    bool prm_req = true;
+    bool stat_diag = false;
+    bool watchdog_on = false;
+    bool freeze = false;
+    bool sync = false;
+    bool overflow = false;
+    std::uint8_t master = kNoMaster;
+    std::uint16_t ident = 0;
+};
+void encode(const StandardDiagnosis& diagnosis, ByteBuffer<244>& into);
+
+/// The extended part: blocks back to back as they go on the wire, no more whole blocks than fit.
+class ExtendedDiagnosis {
+public:
+    /// What became of the blocks.
+    struct Outcome {
+        bool changed = false; ///< what a master would read is another now: the owner must be told
+        bool well_formed =
+            false; ///< false: a header promised what was not there; from there on nothing was taken
+    };
+    /// `room`: octets beside the standard part. `fault`: a block reports a fault, not only a status.
+    Outcome set(Bytes blocks, bool fault, std::size_t room);
+
+    Bytes blocks() const { return blocks_; }
+    bool fault() const { return fault_ && !blocks_.empty(); }
+    bool overflow() const { return overflow_; }
+
+private:
+    ByteBuffer<244 - kStandardDiagnosis> blocks_;
+    bool fault_ = false;
+    bool overflow_ = false;
+};
+
+} // namespace dpslave::dp

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dpslave/dp/demand_data.hpp"
+
+namespace dpslave::dp {
+namespace {
+
+// Register 1: bits 15..12 command, bit 11 reserved (not looked at, answered 0), bits 10..0 tag.
+constexpr std::uint16_t kTagField = 0x07FF;
+constexpr std::uint16_t kMaxExtendedTag = 16'383;
+
+enum : std::uint8_t {
+    kNoCommand = 0,
+    kRead = 1, // in a reply: transferred
+    kWrite = 2,
+    kExtendedRead = 3,
+    kExtendedWrite = 4,
+    kReject = 7,
+};
+
+constexpr bool is_extended(std::uint8_t command)
+{
+    return command == kExtendedRead || command == kExtendedWrite;
+}
+
+// Error codes, before the personality's base.
+constexpr std::uint16_t kInvalidTag = 0;
+constexpr std::uint16_t kReadOnly = 1;
+constexpr std::uint16_t kOutOfRange = 2;
+
+/// Source: EI-ASCII reference 4, mapping; acceptance X-34.
+constexpr std::uint16_t code_of(AccessError error)
+{
+    switch (error) {
+        case AccessError::read_only:
+        case AccessError::not_stopped:
+        case AccessError::not_config_mode: return kReadOnly;
+        case AccessError::out_of_range:
+        case AccessError::value_not_encoded: return kOutOfRange;
+        case AccessError::none:
+        case AccessError::no_answer:
+        case AccessError::invalid_tag:
+        case AccessError::unsupported_type: break;
+    }
+    return kInvalidTag;
+}
+
+} // namespace
+
+void DemandData::begin(Generation generation)
+{
+    generation_ = generation;
+    wanted_ = {};
+    reply_ = {};
+}
+
+void DemandData::end()
+{
+    // A write that is still here was ordered by a master that is gone: it is not made behind the safe state
+    // of the outputs. A cancel that is still here is dropped with it and given anew, under the generation
+    // that it ends.
+    const bool unfetched = !orders_.empty();
+    orders_.clear();
+    if (unfetched || standing_.kind != DemandOrder::Kind::cancel) give(DemandOrder::Kind::cancel);
+    generation_ = 0;
+    wanted_ = {};
+    reply_ = {};
+}
+
+DemandData::Wanted DemandData::wanted_by(const DemandRegisters& registers) const
+{
+    Wanted wanted;
+    wanted.command = static_cast<std::uint8_t>(registers[0] >> 12);
+    if (wanted.command == kNoCommand) return wanted; // whatever stands in the tag field
+    wanted.tag_field = registers[0] & kTagField;
+    if (personality_->demand == DemandForm::extended && is_extended(wanted.command))
+        wanted.extended_tag = registers[1];
+    if (wanted.command == kWrite || wanted.command == kExtendedWrite) wanted.value = registers[3];
+    return wanted;
+}
+
+void DemandData::request(const DemandRegisters& registers)
+{
+    const Wanted wanted = wanted_by(registers);
+    if (wanted == wanted_) return; // a standing read goes on, a write was executed once
+    wanted_ = wanted;
+    const bool extended = personality_->demand == DemandForm::extended && is_extended(wanted.command);
+    if (wanted.command == kNoCommand) {
+        withdraw();
+        reply_ = {};
+    } else if (wanted.command == kRead || wanted.command == kWrite) {
+        give(wanted.command == kRead ? DemandOrder::Kind::read : DemandOrder::Kind::write);
+    } else if (extended && wanted.tag_field == 0 && wanted.extended_tag <= kMaxExtendedTag) {
+        give(wanted.command == kExtendedRead ? DemandOrder::Kind::read : DemandOrder::Kind::write);
+    } else {
+        withdraw();
+        reject(kInvalidTag);
+    }
+}
+
+void DemandData::give(DemandOrder::Kind kind)
+{
+    standing_ = {.kind = kind, .number = standing_.number + 1, .generation = generation_};
+    if (kind != DemandOrder::Kind::cancel) {
+        standing_.tag = is_extended(wanted_.command) ? wanted_.extended_tag : wanted_.tag_field;
+        standing_.value = wanted_.value;
+        ++ordered_;
+    }
+
+    // Nobody fetched the last order yet: a read or cancel is superseded, for only the newest can still be
+    // answered. A write stays: a master that does not wait for its answer still wants it executed, and in
+    // order.
+    if (!orders_.empty() && orders_.newest().kind != DemandOrder::Kind::write) {
+        orders_.newest() = standing_;
+        return;
+    }
+    if (orders_.full()) {
+        orders_.pop();
+        ++lost_;
+    }
+    orders_.push(standing_);
+}
+
+void DemandData::withdraw()
+{
+    if (standing_.kind != DemandOrder::Kind::cancel) give(DemandOrder::Kind::cancel);
+}
+
+void DemandData::answer(const DemandAnswer& answer)
+{
+    if (standing_.kind == DemandOrder::Kind::cancel || answer.number != standing_.number) return;
+    switch (answer.error) {
+        case AccessError::no_answer: return; // no code stands for it: the previous answer stays
+        case AccessError::none: reply_with(kRead, answer.value); return;
+        default: reject(code_of(answer.error)); return;
+    }
+}
+
+void DemandData::reply_with(std::uint16_t command, std::uint16_t value)
+{
+    const bool extended = personality_->demand == DemandForm::extended && is_extended(wanted_.command);
+    const auto echo = extended ? std::uint16_t{0} : wanted_.tag_field;
+    reply_ = {static_cast<std::uint16_t>((command << 12) | echo),
+              extended ? wanted_.extended_tag : std::uint16_t{0}, std::uint16_t{0}, value};
+}
+
+void DemandData::reject(std::uint16_t code)
+{
+    const DemandRegisters before = reply_;
+    reply_with(kReject, static_cast<std::uint16_t>(code + personality_->demand_error_base));
+    if (reply_ != before) ++rejected_; // a standing read that is refused at each refresh counts once
+}
+
+} // namespace dpslave::dp

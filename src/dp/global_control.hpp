@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Global_Control: what two octets order. Source: wire reference 4.10.
+#pragma once
+
+#include "dpslave/base/bytes.hpp"
+
+#include <cstdint>
+
+namespace dpslave::dp {
+
+enum class Switch : std::uint8_t { keep, on, off };
+
+struct GlobalCommand {
+    bool clear = false;         ///< carried out before the others
+    Switch sync = Switch::keep; ///< on again while on: take the outputs received meanwhile
+    Switch freeze = Switch::keep;
+    std::uint8_t groups = 0; ///< Group_Select; 0 = everybody
+
+    /// Is a slave with this Group_Ident meant?
+    bool selects(std::uint8_t group_ident) const { return groups == 0 || (groups & group_ident) != 0; }
+};
+
+/// Precondition: data.size() == 2.
+constexpr GlobalCommand global_command(Bytes data)
+{
+    constexpr auto pair = [](unsigned bits, unsigned set, unsigned undo) { // the un-function has priority
+        if ((bits & undo) != 0) return Switch::off;
+        return (bits & set) != 0 ? Switch::on : Switch::keep;
+    };
+    return {.clear = (data[0] & 0x02) != 0,
+            .sync = pair(data[0], 0x20, 0x10),
+            .freeze = pair(data[0], 0x08, 0x04),
+            .groups = data[1]};
+}
+
+} // namespace dpslave::dp

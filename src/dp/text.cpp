@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dpslave/dp/refusal.hpp"
+#include "dpslave/dp/slave.hpp"
+
+namespace dpslave::dp {
+
+std::string_view text(State state) noexcept
+{
+    switch (state) {
+        case State::power_on: return "Power_On";
+        case State::wait_prm: return "Wait_Prm";
+        case State::wait_cfg: return "Wait_Cfg";
+        case State::data_exch: return "Data_Exch";
+    }
+    return "?";
+}
+
+std::string_view text(LeaveReason reason) noexcept
+{
+    switch (reason) {
+        case LeaveReason::none: return "";
+        case LeaveReason::prm_fault: return "Set_Prm was refused";
+        case LeaveReason::not_supported: return "Set_Prm asked for a function that the device does not have";
+        case LeaveReason::cfg_fault: return "Chk_Cfg was refused";
+        case LeaveReason::watchdog: return "the watchdog expired: the master is silent";
+        case LeaveReason::unlock: return "the master released the slave";
+        case LeaveReason::output_length: return "Data_Exchange of a wrong length";
+        case LeaveReason::new_parameters: return "the master chose other parameters";
+        case LeaveReason::stop: return "the slave was stopped";
+    }
+    return "?";
+}
+
+std::string_view text(Refusal why) noexcept
+{
+    switch (why) {
+        case Refusal::none: return "";
+        case Refusal::prm_ident: return "the Ident_Number is that of another device";
+        case Refusal::prm_watchdog: return "the watchdog is on with a factor 0";
+        case Refusal::prm_not_supported: return "Sync or Freeze is requested, which the device does not have";
+        case Refusal::prm_length: return "User_Prm_Data has a wrong length";
+        case Refusal::prm_dpv1: return "DPV1_Status asks for functions that the device does not have";
+        case Refusal::prm_tag_too_large: return "a tag in User_Prm_Data is too large";
+        case Refusal::prm_zero_tag: return "a zero stands between the tags in User_Prm_Data";
+        case Refusal::cfg_empty: return "Cfg_Data is empty";
+        case Refusal::cfg_too_long: return "Cfg_Data has too many identifiers";
+        case Refusal::cfg_identifier: return "an identifier is not legal here";
+        case Refusal::cfg_too_few: return "Cfg_Data has fewer identifiers than User_Prm_Data has tags";
+        case Refusal::cfg_too_many: return "Cfg_Data has more identifiers than User_Prm_Data has tags";
+        case Refusal::cfg_changed: return "Cfg_Data is another than the accepted one while data is exchanged";
+    }
+    return "?";
+}
+
+} // namespace dpslave::dp

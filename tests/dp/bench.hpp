@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What the tests of DP stand on: device types made by hand, masters that keep their frame count bit, and a
+/// slave 5 behind a real layer 2 on the simulated bus.
+#pragma once
+
+#include "support/bus.hpp"
+
+#include "dpslave/dp/slave.hpp"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace test {
+
+inline constexpr std::uint8_t kUs = 5;
+
+/// The slave of the examples in the wire reference: ident 4711, two octets in (11), two out (21), no tags.
+dpslave::dp::Personality example_device();
+/// HA389815: ident 0533, 24 octets with 12 tags, 73 / 50 / 60, Sync and Freeze, six octets of diagnosis.
+dpslave::dp::Personality option_board();
+/// HA463561: DPV1_Status, tags from octet 3, also 70 (read and write), up to 30 parameters.
+dpslave::dp::Personality technology_box();
+/// 2408f/2404f handbook: no Sync, no Freeze, extended Demand Data.
+dpslave::dp::Personality controller();
+
+/// A DP master by the second hand. Requests are answered in a short form: "SC", "RS", "RR", "DL 12 34", "DH
+/// 12 34";
+/// "-" is silence.
+class Master {
+public:
+    Master(Bus& bus, std::uint8_t address) : bus_(bus), address_(address) {}
+
+    std::string asks(std::uint8_t dsap, const Octets& data = {}, std::uint8_t ssap = 62);
+    std::string data_exchange(const Octets& outputs);
+    std::string data_exchange(std::string_view outputs) { return data_exchange(octets(outputs)); }
+    std::string rd_inp(const Octets& data = {}) { return asks(56, data); }
+    std::string rd_outp(const Octets& data = {}) { return asks(57, data); }
+    std::string get_cfg(const Octets& data = {}) { return asks(59, data); }
+    std::string slave_diag(const Octets& data = {}) { return asks(60, data); }
+    std::string set_prm(std::string_view prm) { return asks(61, octets(prm)); }
+    std::string chk_cfg(std::string_view cfg) { return asks(62, octets(cfg)); }
+    /// Global_Control to all stations: control command, group select.
+    void control(std::string_view data);
+    std::string fdl_status();
+    /// The last request once more, as after a lost reply.
+    std::string repeats();
+    /// One telegram, written out, and the reply to it in octets ("-": none).
+    std::string says(std::string_view telegram);
+
+    /// When the slave had read the last request.
+    dpslave::Instant asked_at() const { return asked_at_; }
+
+private:
+    std::string send(const Octets& telegram);
+    std::uint8_t next_fc();
+
+    Bus& bus_;
+    std::uint8_t address_;
+    std::uint8_t fc_ = 0;
+    Octets last_;
+    dpslave::Instant asked_at_{};
+};
+
+/// Set_Prm of the option board: status, factors, min T_SDR, ident, group, then 12 tags (the rest 0).
+std::string board_prm(const std::vector<std::uint16_t>& tags,
+                      std::string_view header = "88 14 01 0B 05 33 01");
+
+class DpBench : public testing::Test {
+protected:
+    explicit DpBench(dpslave::dp::Personality device);
+
+    /// Set_Prm and Chk_Cfg, which must be accepted.
+    void start_up(std::string_view prm, std::string_view cfg);
+    /// The drive side has tried every input of the present layout; these are its words.
+    void inputs_are(const std::vector<std::uint16_t>& words);
+    /// The owner reads diagnosis, so that nothing is pending any more.
+    void diagnosis_is_read() { master.slave_diag(); }
+    void time_is(dpslave::Instant at) { bus.advance(at - bus.now()); }
+
+    dpslave::dp::State state() const { return slave.state(); }
+    dpslave::dp::Snapshot seen() const { return slave.snapshot(); }
+    dpslave::Generation generation() const { return slave.snapshot().layout.generation; }
+    std::vector<dpslave::dp::Event> events();
+    /// How often "left Data_Exch" was told since the last question.
+    std::vector<dpslave::Generation> left();
+
+    dpslave::dp::Personality personality;
+    dpslave::fdl::Station station{{.baud = dpslave::Baud::k187_5, .search = {}, .start_up_latency = {}}};
+    dpslave::dp::Slave slave{personality, kUs};
+    Bus bus{station};
+    Master master{bus, 2};
+    Master foreign{bus, 9};
+};
+
+/// The example device, with the prm and cfg of wire reference 4.2.
+class ExampleSlave : public DpBench {
+protected:
+    explicit ExampleSlave(dpslave::dp::Personality device = example_device()) : DpBench(std::move(device)) {}
+    static constexpr std::string_view kPrm = "88 14 01 0B 47 11 01";
+    static constexpr std::string_view kPrmNoWatchdog = "80 00 00 0B 47 11 01";
+    static constexpr std::string_view kPrmSyncFreeze = "B8 14 01 0B 47 11 01";
+    static constexpr std::string_view kCfg = "11 21";
+    /// Data_Exch without Stat_Diag, nothing pending.
+    void exchanges(std::string_view prm = kPrm);
+    /// All master to slave: Slave_Diag without the ident, "02 05 00 FF".
+    std::string diag_of(Master& who) { return who.slave_diag().substr(3, 11); }
+};
+
+class OptionBoard : public DpBench {
+protected:
+    OptionBoard() : DpBench(option_board()) {}
+};
+
+} // namespace test
