@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The one narrow door to a drive, whatever protocol it speaks. A call may block for one response time-out,
+/// no longer: repetitions are the poller's business, so that one dead drive does not stop the others.
+#pragma once
+
+#include "dpslave/base/process_image.hpp"
+#include "dpslave/drive/tag.hpp"
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace dpslave::drive {
+
+/// Where a drive is found on its line: EI-ASCII group and unit id ("00"), or a Modbus slave address.
+struct UnitAddress {
+    std::uint8_t group = 0; ///< EI-ASCII GID 0..15; 0 with Modbus
+    std::uint8_t unit = 0;  ///< EI-ASCII UID 0..15; Modbus 1..247
+    friend bool operator==(UnitAddress, UnitAddress) = default;
+};
+
+/// How many tags one read may take, and how many unasked tags may lie between two of them.
+struct BlockRule {
+    std::uint16_t max_tags = 1;
+    std::uint16_t max_gap = 0;
+};
+
+class Backend {
+public:
+    virtual ~Backend() = default;
+
+    virtual BlockRule block_rule() const = 0;
+
+    /// Reads `count` tags from `first` on (count 1 unless block_rule() allows more) into `words`.
+    /// For a single tag `tag` is its row; of a block only the numbers matter.
+    virtual AccessError read(UnitAddress unit, const Tag& tag, std::span<std::uint16_t> words) = 0;
+
+    virtual AccessError write(UnitAddress unit, const Tag& tag, std::uint16_t word) = 0;
+
+    /// Is somebody there? Any well-formed answer counts.
+    virtual bool probe(UnitAddress unit) = 0;
+
+    /// What went wrong in the last call, in words for the log ("EE >05C8"); empty when nothing did.
+    virtual std::string last_trouble() const = 0;
+};
+
+} // namespace dpslave::drive

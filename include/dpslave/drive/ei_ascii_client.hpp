@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The EI-ASCII master on one serial line with one or several drives. One attempt per call: the poller
+/// repeats.
+#pragma once
+
+#include "dpslave/drive/backend.hpp"
+#include "dpslave/drive/ei_ascii.hpp"
+#include "dpslave/drive/serial_line.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dpslave::drive {
+
+/// One drive of the line: where it is and how its family names tags. The form of an ENUM goes with the rule.
+struct EiUnit {
+    UnitAddress address{};
+    MnemonicRule mnemonics = MnemonicRule::none;
+};
+
+struct EiTiming {
+    std::uint32_t baud = 9600; ///< bit/s; ten bits a character
+    std::chrono::milliseconds timeout{
+        200}; ///< from the end of the request to the first character of the answer
+};
+
+class EiAsciiClient final : public Backend {
+public:
+    /// `line` outlives the client. A unit that is not among `units` has only the mnemonics of the tag table.
+    EiAsciiClient(SerialLine& line, EiTiming timing, std::vector<EiUnit> units);
+
+    BlockRule block_rule() const override { return {}; }
+    AccessError read(UnitAddress unit, const Tag& tag, std::span<std::uint16_t> words) override;
+    AccessError write(UnitAddress unit, const Tag& tag, std::uint16_t word) override;
+    bool probe(UnitAddress unit) override;
+    std::string last_trouble() const override { return trouble_; }
+
+private:
+    std::optional<ei::Answer> exchange(const ei::Frame& request, ei::AnswerParser::To kind);
+    std::optional<ei::Answer> poll(UnitAddress unit, ei::Mnemonic mnemonic);
+    std::optional<std::uint16_t> last_error_of(UnitAddress unit);
+    std::optional<ei::Mnemonic> mnemonic_for(UnitAddress unit, const Tag& tag);
+    AccessError unknown_parameter(UnitAddress unit, const Tag& tag);
+    AccessError refused(UnitAddress unit, bool is_write);
+    AccessError take_value(UnitAddress unit, const Tag& tag, const std::string& text, std::uint16_t& word);
+    AccessError take_unlisted(UnitAddress unit, const Tag& tag, const std::string& text, std::uint16_t& word);
+    MnemonicRule rule_of(UnitAddress unit) const;
+    std::chrono::nanoseconds duration_of(std::size_t characters) const;
+    void drain();
+
+    SerialLine& line_;
+    EiTiming timing_;
+    std::vector<EiUnit> units_;
+    std::set<std::pair<std::uint16_t, std::uint16_t>>
+        words_; ///< unit and number of unlisted tags that answered with '>'
+    std::string trouble_;
+};
+
+} // namespace dpslave::drive

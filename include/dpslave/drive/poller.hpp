@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Decides which transaction of a drive line comes next, for all the drives on it. Pure: it is told layouts,
+/// outputs, orders, results and the time, and gives transactions, inputs and answers as values.
+#pragma once
+
+#include "dpslave/base/process_image.hpp"
+#include "dpslave/drive/backend.hpp"
+#include "dpslave/drive/tag.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace dpslave::drive {
+
+/// What becomes of the outputs when the master is lost.
+enum class OutputLoss : std::uint8_t {
+    zero, ///< every output is written 0 once, then writing stops
+    hold, ///< writing stops; nothing is zeroed
+};
+
+/// One drive of the line, as the poller knows it.
+struct UnitSettings {
+    UnitAddress address{};
+    const TagTable* tags = nullptr;                                    ///< outlives the poller
+    bool tags_only_from_table = false;                                 ///< unlisted_tags = "refuse"
+    std::chrono::nanoseconds output_refresh = std::chrono::seconds{1}; ///< 0 = every cycle
+    OutputLoss output_loss = OutputLoss::zero;
+    int retries = 2;
+    std::chrono::nanoseconds probe_interval =
+        std::chrono::seconds{1}; ///< while lost, and while nothing else is asked
+};
+
+/// Who asked for a transaction.
+enum class Purpose : std::uint8_t { input, output, safe_state, demand, operate, probe };
+
+/// The next thing to do on the line. Handed to a Backend, its outcome to Poller::done().
+struct Transaction {
+    enum class Kind : std::uint8_t { read, write, probe };
+    Kind kind = Kind::probe;
+    Purpose purpose = Purpose::probe;
+    std::size_t unit = 0;     ///< index of the drive in the settings
+    const Tag* tag = nullptr; ///< first tag of a read; valid until done()
+    std::uint16_t count = 1;  ///< tags of a block read
+    std::uint16_t word = 0;   ///< of a write
+};
+
+/// What became of it. `words` holds `count` words after a read without error.
+struct Outcome {
+    AccessError error = AccessError::none;
+    std::span<const std::uint16_t> words;
+};
+
+/// State of one drive for `dpctl`, as a plain value. reads and writes count what the drive did, refusals what
+/// it refused, silences what it did not answer (or not so that it can be believed), losses how often it was
+/// given up.
+struct UnitSnapshot {
+    bool known = false; ///< false until the first answer or the first loss
+    bool answers = false;
+    Generation generation = 0;
+    std::array<std::uint16_t, kMaxParameters> words{}; ///< inputs as read, outputs as last written
+    std::array<WordState, kMaxParameters> states{};
+    std::array<Instant, kMaxParameters> updated_at{}; ///< last success; default = never
+    std::chrono::nanoseconds cycle{};                 ///< the last whole round over this unit's parameters
+    std::uint64_t reads = 0, writes = 0, silences = 0, refusals = 0, losses = 0;
+};
+
+/// An order of `dpctl` for one drive: read or write one tag now.
+struct OperateOrder {
+    std::uint32_t number = 0;
+    std::size_t unit = 0;
+    bool is_write = false;
+    std::uint16_t tag = 0;
+    std::uint16_t word = 0;
+};
+struct OperateAnswer {
+    std::uint32_t number = 0;
+    AccessError error = AccessError::none;
+    std::uint16_t word = 0;
+};
+
+class Poller {
+public:
+    Poller(const std::vector<UnitSettings>& units, BlockRule rule);
+    ~Poller();
+
+    // What the master wants, by the index of the drive. An image with another generation is a new layout. An
+    // image and an order to leave may come in either order; orders of Demand Data come after the image of
+    // their layout or before.
+    void set_outputs(std::size_t unit, const OutputImage& image, Instant now);
+    void left_data_exchange(std::size_t unit, const LeftDataExchange& left, Instant now);
+    void set_demand(std::size_t unit, const DemandOrder& order);
+    /// False: too many wait already, or there is no such drive. A lost drive is answered for at once:
+    /// no_answer. The limits of the tag table are not looked at: parse_value() has done it.
+    bool operate(const OperateOrder& order);
+
+    /// What to do now; nothing = wait until next_deadline() or until something new is set.
+    std::optional<Transaction> next(Instant now);
+    /// What became of the transaction given last.
+    void done(const Outcome& outcome, Instant now);
+    /// When next() has something to do, if nothing new is set before; a moment that has passed: now. kNever
+    /// while a transaction is under way.
+    Instant next_deadline() const;
+
+    /// The inputs of a drive, when they changed since the last take. Nothing before it is known whether the
+    /// drive answers.
+    std::optional<InputImage> take_inputs(std::size_t unit);
+    std::optional<DemandAnswer> take_demand_answer(std::size_t unit);
+    std::optional<OperateAnswer> take_operate_answer();
+
+    /// Does an output still wait to be written to its safe state?
+    bool safe_state_pending() const;
+
+    const UnitSnapshot& snapshot(std::size_t unit) const;
+
+private:
+    class Unit; ///< one drive: what is wanted of it and what is known of it
+
+    std::vector<std::unique_ptr<Unit>> units_;
+    std::size_t turn_ = 0;             ///< whose turn is next
+    std::optional<Transaction> doing_; ///< given by next(), not yet done()
+};
+
+} // namespace dpslave::drive

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What a client needs of a serial line to drives. The line knows no protocol, the client knows no
+/// descriptor.
+#pragma once
+
+#include "dpslave/base/bytes.hpp"
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace dpslave::drive {
+
+class SerialLine {
+public:
+    /// Hands `octets` to the line; it need not wait until they have left. False: the line does not take them
+    /// (unplugged).
+    virtual bool write(Bytes octets) = 0;
+
+    /// Waits at most `timeout` for the first octet, then gives what is there, at least one and at most
+    /// `into.size()`. 0: nothing came in this time, or the line is gone. Parity is removed; an octet with
+    /// wrong parity comes as 00.
+    virtual std::size_t read(std::span<std::uint8_t> into, std::chrono::nanoseconds timeout) = 0;
+
+    /// Forgets all that was received and not yet read.
+    virtual void discard() = 0;
+
+protected:
+    ~SerialLine() = default;
+};
+
+} // namespace dpslave::drive

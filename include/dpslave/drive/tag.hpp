@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What is known about the parameters of a drive: a table by tag number, made from a CSV file, then constant.
+#pragma once
+
+#include "dpslave/base/process_image.hpp"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dpslave::drive {
+
+enum class TagType : std::uint8_t {
+    number,  ///< INT or REAL of the table: signed 16 bit with `decimals`; unsigned where min >= 0 and max >
+             ///< 32767
+    word,    ///< 16 bits, hexadecimal
+    boolean, ///< 0 or 1
+    enumeration, ///< 0..255
+    string,      ///< not transported: unsupported_type
+};
+std::string_view
+text(TagType type) noexcept; ///< as the table's column spells it: INT, WORD, BOOL, ENUM, STRING
+
+enum class Access : std::uint8_t { unknown, read_only, read_write, write_only };
+
+/// A name for one value (value=label) or for one bit (bitN=label).
+struct Label {
+    bool is_bit = false;
+    std::uint16_t number = 0; ///< the value, or the number of the bit
+    std::string text;
+};
+
+/// One row of the table.
+struct Tag {
+    std::uint16_t number = 0;
+    std::string name;
+    TagType type = TagType::number;
+    std::uint8_t decimals = 0; ///< 0..4, of a number
+    bool is_unsigned = false;
+    std::optional<std::int32_t> min; ///< in counts: displayed value x 10^decimals
+    std::optional<std::int32_t> max;
+    Access access = Access::unknown;
+    std::string mnemonic;                         ///< two characters; empty = by the profile's rule
+    std::optional<std::uint16_t> modbus_register; ///< none = the tag's number
+    std::vector<Label> labels;
+    std::string section;
+    std::string notes;
+    std::vector<std::string> aliases; ///< further names of the same tag
+    bool listed = true;               ///< false: in no table; its type is what the drive's answer shows
+};
+
+/// The row of a tag that is in no table: a WORD without a name.
+Tag unlisted_tag(std::uint16_t number);
+
+/// Displayed form of the 16 bits: "-327.68", ">1A2B", "1 (Running)" where a label is known, ">0101 (ready,
+/// running)" where labels of bits that are set are known.
+std::string displayed(const Tag& tag, std::uint16_t word);
+
+/// The 16 bits of a displayed value, with the table's decimals, limits and labels.
+/// Accepts "12.5", ">1A2B", "0x1A2B", a label of a value (any case). Of a WORD only the hexadecimal forms and
+/// one single digit: "0203" could mean 203 or 0203h, and a command word is no place to guess.
+struct ParsedValue {
+    std::uint16_t word = 0;
+    AccessError error = AccessError::none; ///< out_of_range, value_not_encoded or unsupported_type
+};
+ParsedValue parse_value(const Tag& tag, std::string_view text);
+
+class TagTable {
+public:
+    TagTable() = default;
+    /// Rows in any order; numbers are unique (the reader has joined aliases).
+    explicit TagTable(std::vector<Tag> tags);
+
+    const Tag* find(std::uint16_t number) const;                 ///< nullptr = not in the table
+    std::vector<const Tag*> search(std::string_view name) const; ///< part of a name or alias, any case
+    const std::vector<Tag>& all() const { return tags_; }        ///< ascending by number
+
+private:
+    std::vector<Tag> tags_;
+};
+
+/// How a drive family makes the two-character mnemonic of a tag (EI-ASCII reference, section 3).
+enum class MnemonicRule : std::uint8_t {
+    none,       ///< only the table's own mnemonics
+    dc_590plus, ///< "590plus"
+    ac,         ///< "ac"
+};
+
+/// Source: EI-ASCII reference, section 3. PNO: the 590+ parameters that PROFIBUS numbers 1000 + PNO
+/// (HA463561U002). The mnemonic of `tag`: of the table if it has one, else by the rule; nothing if neither
+/// gives one.
+std::optional<std::array<char, 2>> mnemonic_of(const Tag& tag, MnemonicRule rule);
+std::optional<std::array<char, 2>> mnemonic_by_rule(std::uint16_t number, MnemonicRule rule);
+
+} // namespace dpslave::drive

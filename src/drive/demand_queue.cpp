@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "demand_queue.hpp"
+
+#include "generations.hpp"
+
+#include <algorithm>
+
+namespace dpslave::drive {
+namespace {
+
+/// A master that gives writes faster than the line carries them waits for its answers; this many may wait for
+/// one that does not. Then the newest takes the place of the one before it: the last value is what counts.
+constexpr std::size_t kMaxWaiting = 64;
+constexpr std::size_t kMaxAnswers = 64;
+
+} // namespace
+
+void DemandQueue::set(const DemandOrder& order, const Tag* row, AccessError verdict)
+{
+    if (!entries_.empty() && entries_.back().order.kind == DemandOrder::Kind::read) entries_.pop_back();
+    if (order.kind == DemandOrder::Kind::cancel) return;
+    if (verdict != AccessError::none) {
+        answer({order.number, verdict, 0});
+        return;
+    }
+    if (entries_.size() == kMaxWaiting) entries_.pop_back();
+    entries_.push_back({order, row});
+}
+
+void DemandQueue::end(Generation generation)
+{
+    entries_.erase(
+        std::remove_if(entries_.begin(), entries_.end(),
+                       [generation](const Entry& e) { return !is_newer(e.order.generation, generation); }),
+        entries_.end());
+}
+
+void DemandQueue::done(std::uint32_t number, AccessError error, std::uint16_t value)
+{
+    const auto at = std::find_if(entries_.begin(), entries_.end(),
+                                 [number](const Entry& e) { return e.order.number == number; });
+    if (at == entries_.end()) return; // it no longer stands: what comes late is dropped
+    answer({number, error, error == AccessError::none ? value : std::uint16_t{0}});
+    at->answered = true;
+    if (at->order.kind == DemandOrder::Kind::write) entries_.erase(at);
+}
+
+void DemandQueue::answer(const DemandAnswer& what)
+{
+    if (answers_.size() == kMaxAnswers) answers_.pop_front();
+    answers_.push_back(what);
+}
+
+std::optional<DemandAnswer> DemandQueue::take_answer()
+{
+    if (answers_.empty()) return std::nullopt;
+    const DemandAnswer first = answers_.front();
+    answers_.pop_front();
+    return first;
+}
+
+} // namespace dpslave::drive

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+/// One drive of a Poller: joins reads, outputs and orders into "what next", and keeps the state of the link.
+#pragma once
+
+#include "demand_queue.hpp"
+#include "output_plan.hpp"
+#include "read_plan.hpp"
+
+#include "dpslave/drive/poller.hpp"
+
+#include <deque>
+#include <map>
+
+namespace dpslave::drive {
+
+class Poller::Unit {
+public:
+    Unit(const UnitSettings& settings, BlockRule rule, std::size_t index);
+
+    void set_outputs(const OutputImage& image);
+    void left_data_exchange(Generation generation);
+    void set_demand(const DemandOrder& order);
+    bool operate(const OperateOrder& order);
+
+    std::optional<Transaction> next(Instant now);
+    void done(const Transaction& transaction, const Outcome& outcome, Instant now);
+    Instant next_deadline() const;
+
+    std::optional<InputImage> take_inputs();
+    std::optional<DemandAnswer> take_demand_answer() { return demand_.take_answer(); }
+    std::optional<OperateAnswer> take_operate_answer();
+    bool safe_state_pending() const { return outputs_.zeros_wait(); }
+    const UnitSnapshot& snapshot() const { return snapshot_; }
+
+private:
+    struct WaitingOperate {
+        OperateOrder order;
+        const Tag* row = nullptr;
+        int attempts = 0;
+    };
+    /// Outputs of a layout that is no longer the present one and whose end has not been told yet.
+    struct PastLayout {
+        Generation generation = 0;
+        std::vector<const Tag*> outputs;
+    };
+    /// What the transaction under way is for.
+    struct Job {
+        std::uint32_t layout = 0; ///< serial_ when it was given
+        ReadPlan::Block block{};
+        std::size_t output = 0;
+        std::uint32_t order = 0;
+    };
+
+    const Tag* row_of(std::uint16_t number);
+    AccessError verdict(const Tag& row, bool is_write) const;
+    bool has_ended(Generation generation) const;
+
+    void new_layout(const OutputImage& image);
+    std::vector<ReadPlan::Item> inputs_of(const Layout& layout);
+    std::vector<OutputPlan::Item> outputs_of(const Layout& layout);
+    std::vector<const Tag*> output_rows() const;
+    void zero_all(const std::vector<const Tag*>& rows);
+
+    std::optional<Transaction> asked(Instant now);
+    std::optional<Transaction> ordered();
+    std::optional<Transaction> cyclic(Instant now);
+    std::optional<Transaction> probe(Instant now);
+    Transaction make(Purpose purpose, Transaction::Kind kind, const Tag* row, std::uint16_t word = 0) const;
+    void begin_round(Instant now);
+
+    void link(bool answered, Instant now);
+    void lose();
+    void done_output(const Transaction& transaction, AccessError error, Instant now);
+    void done_input(const Outcome& outcome, Instant now);
+    void done_operate(const Transaction& transaction, const Outcome& outcome);
+    void count(const Transaction& transaction, AccessError error);
+    void show();
+
+    UnitSettings settings_;
+    std::size_t index_;
+    std::map<std::uint16_t, Tag> unlisted_; ///< rows of tags that are in no table; they stay where they are
+
+    OutputImage image_;              ///< as told last
+    std::uint32_t serial_ = 0;       ///< counts layouts: a result for an older one is dropped
+    std::optional<Generation> left_; ///< the newest generation known to have ended
+    std::vector<PastLayout> past_;
+    ReadPlan reads_;
+    OutputPlan outputs_;
+    DemandQueue demand_;
+    std::deque<WaitingOperate> operates_;
+    std::deque<OperateAnswer> operate_answers_;
+    Job job_;
+
+    int orders_in_round_ = 0;     ///< transactions of Demand Data in this round
+    bool order_was_last_ = false; ///< of Demand Data or dpctl: now a cyclic one first
+    bool zero_waits_ = false;     ///< the last zero was not answered: something else first
+    bool in_round_ = false;       ///< a cyclic read was given since the round began
+    std::optional<Instant> round_began_;
+
+    int silences_ = 0; ///< in a row
+    bool lost_ = false;
+    bool ever_asked_ = false;
+    Instant asked_at_{}; ///< end of the last transaction
+    bool inputs_changed_ = false;
+    UnitSnapshot snapshot_;
+};
+
+} // namespace dpslave::drive

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A poller with drives of words in memory and a clock that only transactions and waiting move.
+#pragma once
+
+#include "dpslave/drive/poller.hpp"
+
+#include <array>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace dpslave::drive::test {
+
+using namespace std::chrono_literals;
+
+inline constexpr std::chrono::nanoseconds kAnswerTime = 20ms;   ///< of one transaction with an answer
+inline constexpr std::chrono::nanoseconds kSilenceTime = 220ms; ///< of one without
+
+struct MemoryDrive {
+    std::map<int, std::uint16_t> words;      ///< the tags that it has
+    std::map<int, AccessError> write_errors; ///< tags that refuse writes
+    std::set<int> silent_tags;
+    bool alive = true;
+    int lost_answers = 0; ///< so many transactions are done and not answered
+};
+
+struct Done {
+    Purpose purpose;
+    Transaction::Kind kind;
+    std::size_t unit;
+    int tag;
+    std::uint16_t count;
+    std::uint16_t word;
+    AccessError error;
+    Instant at; ///< begin
+};
+
+class PollerBench {
+public:
+    explicit PollerBench(const std::vector<UnitSettings>& units, BlockRule rule = {})
+        : drives(units.size()), images(units.size()), poller(units, rule)
+    {}
+
+    std::vector<MemoryDrive> drives;
+    std::vector<OutputImage> images;
+    Poller poller;
+    Instant now{};
+    std::vector<Done> log;
+    std::function<void(const Transaction&)> meanwhile; ///< called while a transaction is under way
+
+    /// A new layout: tags that are read, then tags that are written.
+    void layout(std::size_t unit, Generation generation, const std::vector<int>& reads,
+                const std::vector<int>& writes = {})
+    {
+        OutputImage& image = images[unit];
+        image = {};
+        image.layout.generation = generation;
+        for (const int tag : reads) add(image, tag, true, false);
+        for (const int tag : writes) add(image, tag, false, true);
+        tell(unit);
+    }
+    void tell(std::size_t unit) { poller.set_outputs(unit, images[unit], now); }
+    void master_writes(std::size_t unit, int tag, int word)
+    {
+        OutputImage& image = images[unit];
+        image.may_write = true;
+        for (std::size_t i = 0; i < image.layout.count; ++i)
+            if (image.layout.parameters[i].tag == tag) image.words[i] = static_cast<std::uint16_t>(word);
+        tell(unit);
+    }
+    void master_leaves(std::size_t unit)
+    {
+        images[unit].may_write = false;
+        tell(unit);
+        poller.left_data_exchange(unit, {images[unit].layout.generation}, now);
+    }
+
+    /// One transaction; false when there is nothing to do now.
+    bool step()
+    {
+        const auto transaction = poller.next(now);
+        if (!transaction) return false;
+        const Instant began = now;
+        if (meanwhile) meanwhile(*transaction);
+        std::array<std::uint16_t, 64> words{};
+        const AccessError error = carry_out(*transaction, words);
+        now += error == AccessError::no_answer ? kSilenceTime : kAnswerTime;
+        log.push_back({transaction->purpose, transaction->kind, transaction->unit,
+                       transaction->tag != nullptr ? transaction->tag->number : -1, transaction->count,
+                       transaction->word, error, began});
+        poller.done({error, std::span{words}.first(transaction->count)}, now);
+        return true;
+    }
+    void steps(int count)
+    {
+        for (int i = 0; i < count; ++i) step();
+    }
+    /// Until `duration` has passed.
+    void run(std::chrono::nanoseconds duration)
+    {
+        const Instant end = now + duration;
+        while (now < end) {
+            if (step()) continue;
+            now = std::min(end, std::max(now + 1us, poller.next_deadline()));
+        }
+    }
+
+    std::size_t count(const std::function<bool(const Done&)>& which) const
+    {
+        std::size_t n = 0;
+        for (const Done& done : log) n += which(done) ? 1u : 0u;
+        return n;
+    }
+    std::size_t writes_of(int tag) const
+    {
+        return count([tag](const Done& d) { return d.kind == Transaction::Kind::write && d.tag == tag; });
+    }
+    std::size_t reads_of(int tag) const
+    {
+        return count([tag](const Done& d) { return d.kind == Transaction::Kind::read && d.tag == tag; });
+    }
+    /// The purposes of the log as letters: i o s d c (dpctl) p.
+    std::string purposes() const
+    {
+        std::string out;
+        for (const Done& done : log) out += "iosdcp"[static_cast<std::size_t>(done.purpose)];
+        return out;
+    }
+
+private:
+    static void add(OutputImage& image, int tag, bool reads, bool writes)
+    {
+        image.layout.parameters[image.layout.count++] = {static_cast<std::uint16_t>(tag), reads, writes};
+    }
+
+    AccessError carry_out(const Transaction& transaction, std::array<std::uint16_t, 64>& words)
+    {
+        MemoryDrive& drive = drives[transaction.unit];
+        if (!drive.alive) return AccessError::no_answer;
+        if (transaction.kind == Transaction::Kind::probe) return AccessError::none;
+        const int tag = transaction.tag->number;
+        if (drive.silent_tags.count(tag) != 0) return AccessError::no_answer;
+        const AccessError error = transaction.kind == Transaction::Kind::read
+                                      ? read(drive, transaction, words)
+                                      : write(drive, transaction);
+        if (drive.lost_answers > 0) {
+            --drive.lost_answers;
+            return AccessError::no_answer;
+        }
+        return error;
+    }
+    static AccessError read(MemoryDrive& drive, const Transaction& transaction,
+                            std::array<std::uint16_t, 64>& words)
+    {
+        for (std::uint16_t i = 0; i < transaction.count; ++i) {
+            const auto at = drive.words.find(transaction.tag->number + i);
+            if (at == drive.words.end()) return AccessError::invalid_tag;
+            words[i] = at->second;
+        }
+        return AccessError::none;
+    }
+    static AccessError write(MemoryDrive& drive, const Transaction& transaction)
+    {
+        const int tag = transaction.tag->number;
+        if (drive.words.count(tag) == 0) return AccessError::invalid_tag;
+        const auto refused = drive.write_errors.find(tag);
+        if (refused != drive.write_errors.end()) return refused->second;
+        drive.words[tag] = transaction.word;
+        return AccessError::none;
+    }
+};
+
+inline TagTable table_of(const std::vector<int>& numbers)
+{
+    std::vector<Tag> tags;
+    for (const int number : numbers) {
+        Tag tag;
+        tag.number = static_cast<std::uint16_t>(number);
+        tag.name = "tag " + std::to_string(number);
+        tags.push_back(tag);
+    }
+    return TagTable{tags};
+}
+
+inline TagTable table_up_to(int last)
+{
+    std::vector<int> numbers;
+    for (int i = 0; i <= last; ++i) numbers.push_back(i);
+    return table_of(numbers);
+}
+
+} // namespace dpslave::drive::test
