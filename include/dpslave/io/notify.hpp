@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Tells systemd how the service does (sd_notify(3)). Without NOTIFY_SOCKET in the environment nothing
+/// happens.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string_view>
+
+namespace dpslave::io {
+
+class Notifier {
+public:
+    void ready(std::string_view status); ///< READY=1 and what `systemctl status` shows
+    void status(std::string_view text);  ///< one line; a line break in it becomes a blank
+    void watchdog();                     ///< alive
+    void stopping();
+
+    /// WatchdogSec= of the unit: watchdog() has to be called more often than this. None: nobody watches this
+    /// process.
+    std::optional<std::chrono::microseconds> watchdog_interval() const;
+};
+
+} // namespace dpslave::io

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A serial port: raw octets at any rate, read without waiting. Knows nothing of what the octets mean.
+/// Source: wire reference 11.1 and 11.4.
+#pragma once
+
+#include "dpslave/base/bytes.hpp"
+#include "dpslave/base/result.hpp"
+#include "dpslave/io/fd.hpp"
+#include "dpslave/io/parity_marks.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <system_error>
+
+namespace dpslave::io {
+
+struct TtySettings {
+    std::uint32_t baud = 0;   ///< bit/s, any number: what the UART makes of it is read back and judged
+    int data_bits = 8;        ///< 7 or 8
+    char parity = 'E';        ///< 'N', 'E', 'O'
+    int stop_bits = 1;        ///< 1 or 2
+    bool mark_errors = false; ///< tell bad characters (parity, framing, break) by Chunk::bad_character;
+                              ///< without it one with wrong parity reads as 00
+};
+
+/// What one read gave.
+struct Chunk {
+    std::span<std::uint8_t> octets; ///< good characters, in the caller's buffer; empty = nothing has come
+    bool bad_character = false;     ///< right after these octets the UART received a bad character
+    bool more = false; ///< call read() again before acting on it: more has come already, or may have
+};
+
+class Tty {
+public:
+    /// Opens and sets `path`, alone: a second opener is refused. Whatever had come before is thrown away.
+    /// The error is a sentence with path, reason and what to do.
+    static Result<Tty, std::string> open(const std::string& path, const TtySettings& settings);
+
+    Tty(Tty&&) noexcept;
+    Tty& operator=(Tty&&) noexcept;
+    ~Tty();
+
+    int fd() const { return fd_.get(); }
+
+    /// Never waits. `out` has at least one place. After a hang-up (cable of a USB adapter pulled, other end
+    /// of a pty closed) always an error code.
+    Result<Chunk, std::error_code> read(std::span<std::uint8_t> out);
+
+    /// Everything in one write(2). A driver that takes less is waited for, not longer than twice the time
+    /// that the octets need on the line and 20 ms; then std::errc::timed_out, and the rest is not sent.
+    std::error_code write(Bytes octets);
+
+    /// Throws away what has come and was not read yet.
+    std::error_code discard_input();
+
+    /// Waits until read() has something to say, a hang-up included. False: the time is over.
+    bool wait_readable(std::chrono::nanoseconds timeout);
+
+private:
+    struct Marked; // octets read but not given out yet
+    Tty(Fd fd, const TtySettings& settings);
+    Result<Chunk, std::error_code> read_marked(std::span<std::uint8_t> out);
+
+    Fd fd_;
+    std::chrono::nanoseconds character_{};
+    std::unique_ptr<Marked> marked_; // only with mark_errors
+};
+
+} // namespace dpslave::io

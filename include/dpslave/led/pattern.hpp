@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The LED language of a device: what is the case -> which lamp shows what, at which moment. Pure.
+/// Source: HA389815 ch. 9 (acceptance row A-084).
+#pragma once
+
+#include "dpslave/base/units.hpp"
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace dpslave::led {
+
+/// What the lamps speak about.
+struct Condition {
+    bool running = false;       ///< the gateway serves this station at all
+    bool data_exchange = false; ///< with the master
+    bool drive_answers = true;  ///< the link to the drive
+};
+
+/// How one lamp looks: a square wave. period 0 = steady.
+struct Pattern {
+    std::chrono::milliseconds period{0};
+    std::chrono::milliseconds on{0}; ///< lit from the start of each period; with period 0: > 0 = lit
+    friend bool operator==(const Pattern&, const Pattern&) = default;
+};
+
+struct Lamp {
+    std::string_view name; ///< "red", "green": the key of [station.leds]
+    Pattern pattern;
+};
+
+/// Which language a profile speaks.
+enum class Language : std::uint8_t {
+    option_board,     ///< 584S, 590: red steady for an internal fault
+    option_board_620, ///< red flashes 2 Hz for an internal fault (X-32)
+};
+
+/// The lamps of this language, in the order of their places on the board (red left, green right).
+std::vector<Lamp> lamps(Language language, const Condition& condition);
+
+/// In words, for `dpctl leds`: "normal operation: data exchange with the master" ...
+std::string_view meaning(Language language, const Condition& condition);
+
+/// Is a lamp with this pattern lit at `now`? All lamps share the time line: equal patterns flash together.
+bool lit(const Pattern& pattern, Instant now);
+
+/// When a lamp with this pattern changes next after `now`; kNever = steady.
+Instant next_change(const Pattern& pattern, Instant now);
+
+} // namespace dpslave::led

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dpslave/io/realtime.hpp"
+
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+
+#include <array>
+#include <cerrno>
+#include <system_error>
+
+namespace dpslave::io {
+namespace {
+
+std::string text(int error)
+{
+    return std::system_category().message(error);
+}
+
+/// Touches what the thread may use of its stack, so that no page is first met while a master waits.
+[[gnu::noinline]] void prefault_stack()
+{
+    constexpr std::size_t kUsed = 256 * 1024;
+    constexpr std::size_t kPage = 4096;
+    std::array<volatile unsigned char, kUsed> stack; // NOLINT: touched, not used
+    for (std::size_t at = 0; at < kUsed; at += kPage) stack[at] = 0;
+}
+
+/// With everything locked a new thread's stack counts against the limit as a whole: is there room for some?
+bool room_for_threads()
+{
+    constexpr std::size_t kStacks = std::size_t{64} * 1024 * 1024;
+    void* const probe =
+        ::mmap(nullptr, kStacks, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (probe == MAP_FAILED) return false;
+    ::munmap(probe, kStacks);
+    return true;
+}
+
+std::string not_locked(const std::string& why)
+{
+    rlimit limit{};
+    std::string now;
+    if (::getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+        now = ", the limit is " + std::to_string(limit.rlim_cur / 1024) + " KiB";
+    return "memory is not locked (" + why + now +
+           "): replies may be late under memory pressure. Allow it with LimitMEMLOCK=infinity in the unit or "
+           "the "
+           "capability CAP_IPC_LOCK, or set lock_memory = false in [realtime]";
+}
+
+} // namespace
+
+std::vector<std::string> lock_memory()
+{
+    if (::mlockall(MCL_CURRENT | MCL_FUTURE) < 0) return {not_locked(text(errno))};
+    if (room_for_threads()) return {};
+    ::munlockall();
+    return {not_locked("not enough for the threads")};
+}
+
+std::vector<std::string> enter_realtime(int priority, int cpu)
+{
+    std::vector<std::string> warnings;
+    prefault_stack();
+    if (::prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL) < 0)
+        warnings.push_back("timers are not exact (PR_SET_TIMERSLACK: " + text(errno) +
+                           "): replies may start 50 us late");
+
+    if (cpu >= 0) {
+        cpu_set_t set;
+        CPU_ZERO(&set);
+        if (cpu < CPU_SETSIZE) CPU_SET(static_cast<std::size_t>(cpu), &set);
+        if (const int error = ::pthread_setaffinity_np(::pthread_self(), sizeof set, &set); error != 0)
+            warnings.push_back("the thread is not pinned to processor " + std::to_string(cpu) + " (" +
+                               text(error) +
+                               "): set cpu in [realtime] to a processor of this machine (`lscpu`), or to -1");
+    }
+    if (priority > 0) {
+        sched_param param{};
+        param.sched_priority = priority;
+        if (const int error = ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &param); error != 0)
+            warnings.push_back(
+                "the thread runs with ordinary scheduling instead of SCHED_FIFO " + std::to_string(priority) +
+                " (" + text(error) + "): replies may be late on a busy machine. Allow it with LimitRTPRIO=" +
+                std::to_string(priority) +
+                " in the unit or the capability CAP_SYS_NICE, or set priority = 0 in [realtime]");
+    }
+    return warnings;
+}
+
+void name_thread(const char* name)
+{
+    static_cast<void>(::pthread_setname_np(::pthread_self(), name));
+}
+
+} // namespace dpslave::io

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dpslave/io/tty.hpp"
+
+#include "timespec.hpp"
+#include "tty_settings.hpp"
+
+#include "dpslave/io/clock.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/file.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <optional>
+
+namespace dpslave::io {
+namespace {
+
+std::error_code last_error()
+{
+    return {errno, std::system_category()};
+}
+
+/// Waits for `events` or a hang-up.
+bool wait_for(int fd, short events, std::chrono::nanoseconds timeout)
+{
+    const timespec limit = to_timespec(timeout);
+    pollfd waiting{.fd = fd, .events = events, .revents = 0};
+    return ::ppoll(&waiting, 1, &limit, nullptr) > 0;
+}
+
+std::string why_not_opened(const std::string& path, int error)
+{
+    switch (error) {
+        case ENOENT:
+        case ENOTDIR:
+            return path + " is not there: check `port` in the configuration, and the cable of a USB adapter";
+        case EACCES:
+        case EPERM:
+            return path + ": this user may not open it: add the user to the group that owns the device "
+                          "(dialout on Debian)";
+        case EBUSY:
+        case EWOULDBLOCK:
+            return path + " is used by another program: stop that one first (`fuser " + path +
+                   "` shows which it is)";
+        case ENXIO:
+        case ENODEV:
+        case EIO:
+            return path + ": there is no device behind it: check `port` in the configuration, and that the "
+                          "UART is there";
+        default:
+            return path + " cannot be opened (" + std::system_category().message(error) +
+                   "): check `port` in the configuration";
+    }
+}
+
+/// Nobody else reads our octets or writes between them. The lock ends with its owner, however that ends. The
+/// exclusive mode of the tty keeps out those who do not ask for locks, but root ignores it, and on a pty it
+/// outlives its owner as long as the other end stays open: there the lock alone has to do.
+int claim(int fd, bool pty)
+{
+    if (::flock(fd, LOCK_EX | LOCK_NB) < 0) return errno;
+    if (pty) return 0;
+    int exclusive = 0;
+    if (::ioctl(fd, TIOCGEXCL, &exclusive) == 0 && exclusive != 0) return EBUSY;
+    return ::ioctl(fd, TIOCEXCL) < 0 ? errno : 0;
+}
+
+} // namespace
+
+struct Tty::Marked {
+    std::array<std::uint8_t, 1024> raw{};
+    std::size_t begin = 0;
+    std::size_t end = 0;
+    ParityMarks marks;
+};
+
+Tty::Tty(Fd fd, const TtySettings& settings)
+    : fd_(std::move(fd)),
+      character_(character_time(settings)),
+      marked_(settings.mark_errors ? std::make_unique<Marked>() : nullptr)
+{}
+
+Tty::Tty(Tty&&) noexcept = default;
+Tty& Tty::operator=(Tty&&) noexcept = default;
+Tty::~Tty() = default;
+
+Result<Tty, std::string> Tty::open(const std::string& path, const TtySettings& settings)
+{
+    Fd fd{::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)};
+    if (!fd) return Failure{why_not_opened(path, errno)};
+    if (::isatty(fd.get()) == 0)
+        return Failure{path + " is no serial port (no tty): check `port` in the configuration"};
+    const bool pty = is_pty(fd.get());
+    if (const int error = claim(fd.get(), pty); error != 0) return Failure{why_not_opened(path, error)};
+    if (const std::string trouble = apply(fd.get(), settings, pty); !trouble.empty())
+        return Failure{path + ": " + trouble};
+    return Tty{std::move(fd), settings};
+}
+
+Result<Chunk, std::error_code> Tty::read(std::span<std::uint8_t> out)
+{
+    if (marked_) return read_marked(out);
+    const ssize_t got = ::read(fd(), out.data(), out.size());
+    if (got > 0) {
+        const auto octets = out.first(static_cast<std::size_t>(got));
+        return Chunk{.octets = octets, .more = octets.size() == out.size()};
+    }
+    if (got < 0 && (errno == EAGAIN || errno == EINTR)) return Chunk{};
+    // With VMIN 1 a read that finds nothing says EAGAIN; 0 is left for a line that was hung up.
+    return Failure{got == 0 ? std::make_error_code(std::errc::io_error) : last_error()};
+}
+
+Result<Chunk, std::error_code> Tty::read_marked(std::span<std::uint8_t> out)
+{
+    Marked& m = *marked_;
+    bool filled = false;
+    if (m.begin == m.end) {
+        const ssize_t got = ::read(fd(), m.raw.data(), m.raw.size());
+        if (got < 0 && (errno == EAGAIN || errno == EINTR)) return Chunk{};
+        if (got <= 0) return Failure{got == 0 ? std::make_error_code(std::errc::io_error) : last_error()};
+        m.begin = 0;
+        m.end = static_cast<std::size_t>(got);
+        filled = m.end == m.raw.size();
+    }
+    const auto step = m.marks.undo(Bytes{m.raw}.subspan(m.begin, m.end - m.begin), out);
+    m.begin += step.used;
+    return Chunk{.octets = out.first(step.octets),
+                 .bad_character = step.bad_character,
+                 .more = filled || m.begin != m.end};
+}
+
+std::error_code Tty::write(Bytes octets)
+{
+    const auto limit =
+        2 * character_ * static_cast<std::int64_t>(octets.size()) + std::chrono::milliseconds{20};
+    std::optional<Instant>
+        give_up; // asked for only when the driver does not take all at once, which it nearly always does
+    while (!octets.empty()) {
+        const ssize_t taken = ::write(fd(), octets.data(), octets.size());
+        if (taken < 0 && errno != EAGAIN && errno != EINTR) return last_error();
+        if (taken > 0) octets = octets.subspan(static_cast<std::size_t>(taken));
+        if (octets.empty()) break;
+
+        const Instant now = monotonic_now();
+        if (!give_up) give_up = now + limit;
+        if (now >= *give_up) return std::make_error_code(std::errc::timed_out);
+        wait_for(fd(), POLLOUT, *give_up - now);
+    }
+    return {};
+}
+
+std::error_code Tty::discard_input()
+{
+    if (marked_) {
+        marked_->begin = marked_->end = 0;
+        marked_->marks.reset();
+    }
+    return flush_input(fd()) ? std::error_code{} : last_error();
+}
+
+bool Tty::wait_readable(std::chrono::nanoseconds timeout)
+{
+    if (marked_ && marked_->begin != marked_->end) return true;
+    return wait_for(fd(), POLLIN, timeout);
+}
+
+} // namespace dpslave::io

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The serial port against a pty: settings, reading, writing, and the end of the cable.
+/// A pty has no UART: parity, character size and error marks need hardware; its doubling of FF under PARMRK
+/// is real.
+#include "pty.hpp"
+#include "tty_settings.hpp"
+
+#include "dpslave/base/units.hpp"
+#include "dpslave/io/tty.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <numeric>
+
+namespace dpslave::io {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr TtySettings kBus{.baud = 187'500, .mark_errors = true};
+constexpr TtySettings kDrive{.baud = 9'600, .data_bits = 7};
+
+Tty opened(const std::string& path, const TtySettings& settings)
+{
+    auto tty = Tty::open(path, settings);
+    if (!tty) throw std::runtime_error{tty.error()};
+    return *std::move(tty);
+}
+
+std::vector<std::uint8_t> copy(const Chunk& chunk)
+{
+    return {chunk.octets.begin(), chunk.octets.end()};
+}
+
+TEST(TtyOpen, SetsEveryRateOfProfibus)
+{
+    for (const Baud baud : kBauds) {
+        const auto rate = static_cast<std::uint32_t>(baud);
+        Pty cable;
+
+        auto tty = Tty::open(cable.path(), {.baud = rate, .mark_errors = true});
+
+        ASSERT_TRUE(tty) << tty.error();
+        EXPECT_EQ(cable.rate(), rate);
+    }
+}
+
+TEST(TtyOpen, RefusesAUartThatTookAnotherRate)
+{
+    EXPECT_EQ(judge_rate(187'500, 115'200), "this UART cannot do 187500 bit/s (it took 115200): choose a "
+                                            "rate that it can do, or another adapter");
+    EXPECT_THAT(judge_rate(45'450, 9'600), HasSubstr("45450 bit/s (it took 9600)"));
+    EXPECT_THAT(judge_rate(9'600, 4'000'000'000), HasSubstr("it took 4000000000"));
+}
+
+TEST(TtyOpen, TakesARateOffByOnePercentAtMost)
+{
+    EXPECT_EQ(judge_rate(187'500, 187'500), "");
+    EXPECT_EQ(judge_rate(45'450, 45'455), ""); // 0.01 %: a divisor of 33 from 24 MHz
+    EXPECT_EQ(judge_rate(100'000, 101'000), "");
+    EXPECT_EQ(judge_rate(100'000, 99'000), "");
+    EXPECT_NE(judge_rate(100'000, 101'001), "");
+    EXPECT_NE(judge_rate(100'000, 98'999), "");
+}
+
+TEST(TtyOpen, SetsARawLineThatTheOtherEndSeesUnchanged)
+{
+    Pty cable;
+    Tty tty = opened(cable.path(), kDrive);
+
+    ASSERT_FALSE(tty.write(std::vector<std::uint8_t>{0x0A, 0x0D, 0x03, 0x11, 0x13, 0x04, 0x00, 0x7F}));
+
+    EXPECT_THAT(cable.received(), ElementsAre(0x0A, 0x0D, 0x03, 0x11, 0x13, 0x04, 0x00, 0x7F));
+}
+
+TEST(TtyOpen, DoesNotEchoWhatComes)
+{
+    Pty cable;
+    Tty tty = opened(cable.path(), kDrive);
+
+    cable.send({0x41, 0x0D});
+    ASSERT_TRUE(tty.wait_readable(1s));
+
+    EXPECT_TRUE(cable.received().empty());
+}
+
+TEST(TtyOpen, ThrowsAwayWhatCameBefore)
+{
+    Pty cable;
+    const Fd keeps_it_alive{::open(cable.path().c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC)};
+    cable.send({0x01, 0x02, 0x0A});
+
+    Tty tty = opened(cable.path(), kDrive);
+
+    EXPECT_FALSE(tty.wait_readable(0s));
+}
+
+TEST(TtyOpen, RefusesAPortThatIsNotThere)
+{
+    const auto tty = Tty::open("/dev/no-such-port", kBus);
+
+    ASSERT_FALSE(tty);
+    EXPECT_THAT(tty.error(),
+                AllOf(StartsWith("/dev/no-such-port is not there"), HasSubstr("port"), HasSubstr("cable")));
+}
+
+TEST(TtyOpen, RefusesWhatIsNoSerialPort)
+{
+    const auto null = Tty::open("/dev/null", kBus);
+    const auto folder = Tty::open("/dev", kBus);
+
+    ASSERT_FALSE(null);
+    EXPECT_THAT(null.error(), AllOf(StartsWith("/dev/null is no serial port"), HasSubstr("check `port`")));
+    ASSERT_FALSE(folder);
+    EXPECT_THAT(folder.error(), AllOf(StartsWith("/dev "), HasSubstr("check `port`")));
+}
+
+TEST(TtyOpen, RefusesAPortThatIsInUseAndTakesItWhenItIsFreeAgain)
+{
+    Pty cable;
+    {
+        const Tty first = opened(cable.path(), kBus);
+        const auto second = Tty::open(cable.path(), kBus);
+        ASSERT_FALSE(second);
+        EXPECT_THAT(second.error(), AllOf(StartsWith(cable.path()), HasSubstr("used by another program")));
+    }
+
+    EXPECT_TRUE(Tty::open(cable.path(), kBus));
+}
+
+TEST(TtyOpen, ASecondOpenerDoesNotDisturbTheFirst)
+{
+    Pty cable;
+    Tty first = opened(cable.path(), kDrive);
+    cable.send({0x41});
+
+    static_cast<void>(Tty::open(cable.path(), kBus));
+
+    std::array<std::uint8_t, 8> room{};
+    const auto chunk = first.read(room);
+    ASSERT_TRUE(chunk);
+    EXPECT_THAT(copy(*chunk), ElementsAre(0x41));
+}
+
+/// Opens `path` as an ordinary user, in a child process; gives the child's sentence.
+std::string refusal_for_nobody(const std::string& path)
+{
+    int channel[2];
+    if (::pipe(channel) != 0) return "pipe";
+    const pid_t child = ::fork();
+    if (child == 0) {
+        constexpr unsigned kNobody = 65534;
+        std::string sentence = "no way to become an ordinary user";
+        if (::setgid(kNobody) == 0 && ::setuid(kNobody) == 0) {
+            const auto tty = Tty::open(path, kBus);
+            sentence = tty ? "opened" : tty.error();
+        }
+        const bool told = ::write(channel[1], sentence.data(), sentence.size()) > 0;
+        ::_exit(told ? 0 : 1);
+    }
+    ::close(channel[1]);
+    char text[512] = {};
+    const ssize_t got = ::read(channel[0], text, sizeof text - 1);
+    ::close(channel[0]);
+    int status = 0;
+    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    return got > 0 ? text : "";
+}
+
+TEST(TtyOpen, TellsAUserWithoutRightsWhichGroupHelps)
+{
+    if (::geteuid() != 0) GTEST_SKIP() << "needs root to become another user";
+    Pty cable;
+    ASSERT_EQ(::chmod(cable.path().c_str(), 0600), 0);
+
+    EXPECT_THAT(refusal_for_nobody(cable.path()),
+                AllOf(StartsWith(cable.path()), HasSubstr("group"), HasSubstr("dialout")));
+}
+
+TEST(TtyRead, GivesNothingWhenNothingCame)
+{
+    for (const TtySettings& settings : {kBus, kDrive}) {
+        Pty cable;
+        Tty tty = opened(cable.path(), settings);
+        std::array<std::uint8_t, 8> room{};
+
+        const auto chunk = tty.read(room);
+
+        ASSERT_TRUE(chunk) << chunk.error().message();
+        EXPECT_TRUE(chunk->octets.empty());
+        EXPECT_FALSE(chunk->more);
+        EXPECT_FALSE(tty.wait_readable(1ms));
+    }
+}
+
+TEST(TtyRead, GivesEveryOctetValueOnce)
+{
+    for (const TtySettings& settings : {kBus, kDrive}) {
+        Pty cable;
+        Tty tty = opened(cable.path(), settings);
+        std::vector<std::uint8_t> every(256);
+        std::iota(every.begin(), every.end(), std::uint8_t{0});
+
+        cable.send(every);
+
+        std::vector<std::uint8_t> got;
+        std::array<std::uint8_t, 100> room{};
+        while (got.size() < every.size() && tty.wait_readable(1s)) {
+            const auto chunk = tty.read(room);
+            ASSERT_TRUE(chunk);
+            EXPECT_FALSE(chunk->bad_character);
+            got.insert(got.end(), chunk->octets.begin(), chunk->octets.end());
+        }
+        EXPECT_EQ(got, every);
+    }
+}
+
+TEST(TtyRead, SaysThatThereIsMoreUntilAllWasGiven)
+{
+    for (const TtySettings& settings : {kBus, kDrive}) {
+        Pty cable;
+        Tty tty = opened(cable.path(), settings);
+        cable.send({1, 2, 3, 4, 5});
+        ASSERT_TRUE(tty.wait_readable(1s));
+        std::array<std::uint8_t, 3> room{};
+
+        const auto first = tty.read(room);
+        ASSERT_TRUE(first);
+        EXPECT_THAT(copy(*first), ElementsAre(1, 2, 3));
+        EXPECT_TRUE(first->more);
+
+        const auto second = tty.read(room);
+        ASSERT_TRUE(second);
+        EXPECT_THAT(copy(*second), ElementsAre(4, 5));
+        EXPECT_FALSE(second->more);
+    }
+}
+
+TEST(TtyRead, OctetsThatWereReadAheadCountAsReadable)
+{
+    Pty cable;
+    Tty tty = opened(cable.path(), kBus);
+    cable.send({1, 2});
+    ASSERT_TRUE(tty.wait_readable(1s));
+    std::array<std::uint8_t, 1> room{};
+
+    ASSERT_TRUE(tty.read(room));
+
+    EXPECT_TRUE(tty.wait_readable(0s));
+}
+
+TEST(TtyRead, AfterDiscardingNothingOldComes)
+{
+    Pty cable;
+    Tty tty = opened(cable.path(), kBus);
+    std::array<std::uint8_t, 1> room{};
+    cable.send({1, 2, 3});
+    ASSERT_TRUE(tty.wait_readable(1s));
+    ASSERT_TRUE(tty.read(room)); // 2 and 3 are read ahead
+    cable.send({4});
+
+    ASSERT_FALSE(tty.discard_input());
+    cable.send({9});
+    ASSERT_TRUE(tty.wait_readable(1s));
+
+    const auto chunk = tty.read(room);
+    ASSERT_TRUE(chunk);
+    EXPECT_THAT(copy(*chunk), ElementsAre(9));
+}
+
+TEST(TtyRead, AHangUpIsAnErrorAndNotSilence)
+{
+    for (const TtySettings& settings : {kBus, kDrive}) {
+        Pty cable;
+        Tty tty = opened(cable.path(), settings);
+        std::array<std::uint8_t, 8> room{};
+
+        cable.hang_up();
+
+        ASSERT_TRUE(tty.wait_readable(1s));
+        const auto chunk = tty.read(room);
+        ASSERT_FALSE(chunk);
+        EXPECT_EQ(chunk.error(), std::errc::io_error);
+        EXPECT_TRUE(tty.write(std::vector<std::uint8_t>{1}));
+    }
+}
+
+TEST(TtyWrite, AnEndThatTakesNothingIsGivenUpAfterABoundedTime)
+{
+    Pty cable;
+    Tty tty = opened(cable.path(), {.baud = 1'500'000});
+    const std::vector<std::uint8_t> telegram(255, 0x55);
+
+    std::error_code error;
+    for (int i = 0; i < 1000 && !error; ++i) error = tty.write(telegram); // nobody reads: the buffers fill up
+
+    EXPECT_EQ(error, std::errc::timed_out);
+}
+
+TEST(TtyWrite, GoesOnAsSoonAsTheOtherEndTakesAgain)
+{
+    Pty cable;
+    Tty tty = opened(cable.path(), {.baud = 1'500'000});
+    const std::vector<std::uint8_t> telegram(255, 0x55);
+    while (!tty.write(telegram)) {
+    }
+
+    for (int i = 0; i < 100; ++i) static_cast<void>(cable.received());
+
+    EXPECT_FALSE(tty.write(telegram));
+}
+
+} // namespace
+} // namespace dpslave::io
