@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A fault in a file that a person wrote: where it is, and what to do about it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace dpslave::profile {
+
+struct Fault {
+    std::string file;
+    unsigned line = 0;   ///< from 1; 0 = the file as a whole
+    unsigned column = 0; ///< from 1; 0 = the line as a whole
+    std::string what;    ///< a sentence that says what is wrong and what to do
+};
+
+/// All faults found in one run, in the order of the file.
+using Faults = std::vector<Fault>;
+
+/// "FILE:LINE:COLUMN: what", as compilers do.
+std::string to_string(const Fault& fault);
+
+} // namespace dpslave::profile

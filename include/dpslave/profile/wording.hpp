@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Words for faults: what is legal, and what was probably meant.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace dpslave::profile {
+
+/// The one of `legal` that differs least from `wrong`; empty if none is near enough to be what was meant.
+std::string_view nearest(std::string_view wrong, std::span<const std::string> legal);
+
+std::string in_quotes(std::string_view text);
+
+/// `"a", "b" or "c"`: for a sentence that names what is legal.
+std::string listed(std::span<const std::string> legal);
+
+} // namespace dpslave::profile

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Comma separated values as RFC 4180 has them, each cell with its place.
+#pragma once
+
+#include "dpslave/profile/fault.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dpslave::profile {
+
+struct Cell {
+    std::string text; ///< without quotes; blanks around an unquoted cell are gone
+    unsigned line = 0;
+    unsigned column = 0; ///< in characters, where the cell begins
+};
+
+struct Row {
+    unsigned line = 0;
+    bool good = true; ///< false: it has a fault of form, and its cells mean nothing
+    std::vector<Cell> cells;
+};
+
+/// The rows of `content`, empty lines left out. LF and CR LF end a line; a quoted cell may hold either.
+/// A row with a fault (quotes, characters that are no UTF-8 text) is left out, and the fault is added to
+/// `faults`.
+std::vector<Row> read_csv(std::string_view content, const std::string& file, Faults& faults);
+
+} // namespace dpslave::profile

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tag_row.hpp"
+
+#include "dpslave/profile/wording.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+namespace dpslave::profile {
+namespace {
+
+using drive::Access;
+using drive::Label;
+using drive::Tag;
+using drive::TagType;
+
+/// A whole text as an unsigned number; nothing if it is anything else or above `max`.
+std::optional<std::uint32_t> number_of(std::string_view text, int base, std::uint32_t max)
+{
+    std::uint32_t number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, base);
+    if (error != std::errc{} || end != text.data() + text.size() || number > max) return std::nullopt;
+    return number;
+}
+
+/// "1A2B" or "0x1A2B".
+std::optional<std::uint32_t> word_of(std::string_view text)
+{
+    if (text.starts_with("0x") || text.starts_with("0X")) text.remove_prefix(2);
+    return number_of(text, 16, 0xFFFF);
+}
+
+/// "-327.68" with 2 decimals -> -32768. Nothing if it is no such number.
+std::optional<std::int32_t> counts_of(std::string_view text, std::size_t decimals)
+{
+    const bool negative = text.starts_with('-');
+    if (negative || text.starts_with('+')) text.remove_prefix(1);
+    const auto point = text.find('.');
+    const std::string_view whole = text.substr(0, point);
+    std::string_view fraction = point == std::string_view::npos ? std::string_view{} : text.substr(point + 1);
+    while (fraction.size() > decimals && fraction.ends_with('0')) fraction.remove_suffix(1);
+    if (whole.empty() || fraction.size() > decimals || whole.size() + decimals > 9) return std::nullopt;
+
+    std::string digits{whole};
+    digits.append(fraction).append(decimals - fraction.size(), '0');
+    const auto number = number_of(digits, 10, 999'999'999);
+    if (!number) return std::nullopt;
+    return negative ? -static_cast<std::int32_t>(*number) : static_cast<std::int32_t>(*number);
+}
+
+class RowReader {
+public:
+    RowReader(const Row& row, const Columns& columns, const std::string& file, Faults& faults)
+        : row_(row), columns_(columns), file_(file), faults_(faults)
+    {}
+
+    std::optional<Tag> read()
+    {
+        Tag tag;
+        tag.number = static_cast<std::uint16_t>(number(kTag, 0xFFFF).value_or(0));
+        if (!given(kTag)) fault(kTag, "the tag number is missing: every row needs one.");
+        tag.name = text(kName);
+        tag.section = text(kSection);
+        tag.notes = text(kNotes);
+        tag.type = type();
+        tag.decimals = static_cast<std::uint8_t>(number(kDecimals, 4).value_or(0));
+        if (tag.decimals > 0 && tag.type != TagType::number)
+            fault(kDecimals, "only INT and REAL have decimals: leave the cell empty, or change the type.");
+        tag.access = access();
+        tag.mnemonic = mnemonic();
+        if (const auto reg = number(kRegister, 0xFFFF))
+            tag.modbus_register = static_cast<std::uint16_t>(*reg);
+        if (!good_) return std::nullopt; // limits and labels have no meaning without their type
+        limits(tag);
+        labels(tag);
+        return good_ ? std::optional{std::move(tag)} : std::nullopt;
+    }
+
+private:
+    std::string_view text(Column column) const { return columns_.text(row_, column); }
+    bool given(Column column) const { return !text(column).empty(); }
+
+    void fault(Column column, std::string what)
+    {
+        const Place at = columns_.place(row_, column);
+        faults_.push_back({file_, at.line, at.column, std::move(what)});
+        good_ = false;
+    }
+
+    std::optional<std::uint32_t> number(Column column, std::uint32_t max)
+    {
+        if (!given(column)) return std::nullopt;
+        const auto value = number_of(text(column), 10, max);
+        if (!value)
+            fault(column, std::string{kColumnNames[column]} + " " + in_quotes(text(column)) +
+                              ": write a decimal number from 0 to " + std::to_string(max) + ".");
+        return value;
+    }
+
+    TagType type()
+    {
+        const std::string_view word = text(kType);
+        if (word.empty() || word == "INT" || word == "REAL") return TagType::number;
+        if (word == "WORD") return TagType::word;
+        if (word == "BOOL") return TagType::boolean;
+        if (word == "ENUM") return TagType::enumeration;
+        if (word == "STRING") return TagType::string;
+        fault(kType, "type " + in_quotes(word) + ": write INT, WORD, BOOL, ENUM, REAL or STRING.");
+        return TagType::number;
+    }
+
+    Access access()
+    {
+        const std::string_view word = text(kAccess);
+        if (word == "ro") return Access::read_only;
+        if (word == "rw") return Access::read_write;
+        if (word == "wo") return Access::write_only;
+        if (!word.empty())
+            fault(kAccess,
+                  "access " + in_quotes(word) + ": write ro, rw or wo, or leave it empty if not known.");
+        return Access::unknown;
+    }
+
+    std::string mnemonic()
+    {
+        const std::string_view word = text(kMnemonic);
+        const bool printable =
+            std::all_of(word.begin(), word.end(), [](char c) { return c > ' ' && c < '\x7F'; });
+        if (!word.empty() && (word.size() != 2 || !printable))
+            fault(kMnemonic,
+                  "mnemonic " + in_quotes(word) +
+                      ": write two printable characters, or leave it empty for the profile's rule.");
+        return std::string{word};
+    }
+
+    /// A value as the table writes it for this type, in counts.
+    static std::optional<std::int32_t> value_of(const Tag& tag, std::string_view word)
+    {
+        std::optional<std::uint32_t> value;
+        switch (tag.type) {
+            case TagType::number: return counts_of(word, tag.decimals);
+            case TagType::word: value = word_of(word); break;
+            case TagType::boolean: value = number_of(word, 10, 1); break;
+            case TagType::enumeration: value = number_of(word, 10, 255); break;
+            case TagType::string: break;
+        }
+        return value ? std::optional{static_cast<std::int32_t>(*value)} : std::nullopt;
+    }
+
+    static std::string wanted(const Tag& tag)
+    {
+        switch (tag.type) {
+            case TagType::number:
+                return tag.decimals == 0
+                           ? "write a whole number, or say in column decimals how many it has"
+                           : "write a number with at most " + std::to_string(tag.decimals) + " decimals";
+            case TagType::word: return "write a hexadecimal number from 0 to FFFF";
+            case TagType::boolean: return "write 0 or 1";
+            case TagType::enumeration: return "write a number from 0 to 255";
+            case TagType::string: break;
+        }
+        return "a STRING has none, leave the cell empty";
+    }
+
+    std::optional<std::int32_t> limit(const Tag& tag, Column column)
+    {
+        if (!given(column)) return std::nullopt;
+        const auto value = value_of(tag, text(column));
+        if (!value)
+            fault(column, std::string{kColumnNames[column]} + " " + in_quotes(text(column)) + ": " +
+                              wanted(tag) + ".");
+        return value;
+    }
+
+    void limits(Tag& tag)
+    {
+        tag.min = limit(tag, kMin);
+        tag.max = limit(tag, kMax);
+        if (tag.min && tag.max && *tag.min > *tag.max)
+            fault(kMin, "min " + in_quotes(text(kMin)) + " is above max " + in_quotes(text(kMax)) +
+                            ": exchange them.");
+        if (tag.type != TagType::number) return;
+        tag.is_unsigned = tag.min && *tag.min >= 0 && tag.max && *tag.max > 32767;
+        const std::int32_t lowest = tag.is_unsigned ? 0 : -32768;
+        const std::int32_t highest = tag.is_unsigned ? 65535 : 32767;
+        const std::string range = " does not fit in 16 bits: with these decimals " + std::to_string(lowest) +
+                                  " to " + std::to_string(highest) + " counts do" +
+                                  (tag.is_unsigned ? "." : ", and up to 65535 only with a min of 0 or more.");
+        if (tag.min && (*tag.min < lowest || *tag.min > highest))
+            fault(kMin, "min " + in_quotes(text(kMin)) + range);
+        if (tag.max && (*tag.max < lowest || *tag.max > highest))
+            fault(kMax, "max " + in_quotes(text(kMax)) + range);
+    }
+
+    void labels(Tag& tag)
+    {
+        std::string_view rest = text(kValues);
+        while (!rest.empty()) {
+            const auto end = rest.find(';');
+            const std::string_view item = rest.substr(0, end);
+            rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end + 1);
+            if (item.find_first_not_of(' ') == std::string_view::npos) continue;
+            const auto label = label_of(tag, item);
+            if (!label) return;
+            const auto same = [&](const Label& other) {
+                return other.is_bit == label->is_bit && other.number == label->number;
+            };
+            if (std::any_of(tag.labels.begin(), tag.labels.end(), same)) {
+                fault(kValues,
+                      "values: " + in_quotes(item) + " names the same value again: keep one of the two.");
+                return;
+            }
+            tag.labels.push_back(*label);
+        }
+    }
+
+    std::optional<Label> label_of(const Tag& tag, std::string_view item)
+    {
+        const auto strip = [](std::string_view part) {
+            while (part.starts_with(' ')) part.remove_prefix(1);
+            while (part.ends_with(' ')) part.remove_suffix(1);
+            return part;
+        };
+        const auto equals = item.find('=');
+        const std::string_view left = strip(item.substr(0, equals));
+        const std::string_view right =
+            equals == std::string_view::npos ? std::string_view{} : strip(item.substr(equals + 1));
+        if (left.empty() || right.empty()) {
+            fault(kValues,
+                  "values: " + in_quotes(item) + ": write value=label or bitN=label, with ; between two.");
+            return std::nullopt;
+        }
+        Label label{left.starts_with("bit"), 0, std::string{right}};
+        if (label.is_bit) {
+            const auto bit = number_of(left.substr(3), 10, 15);
+            const bool has_bits = tag.type == TagType::word || tag.type == TagType::number;
+            if (!bit || !has_bits) {
+                fault(kValues,
+                      "values: " + in_quotes(item) +
+                          (has_bits ? ": bits go from bit0 to bit15." : ": only WORD and INT have bits."));
+                return std::nullopt;
+            }
+            label.number = static_cast<std::uint16_t>(*bit);
+            return label;
+        }
+        const auto value = value_of(tag, left);
+        if (!value || *value < -32768 || *value > 65535) {
+            fault(kValues, "values: " + in_quotes(item) + ": before the = " + wanted(tag) + ".");
+            return std::nullopt;
+        }
+        label.number = static_cast<std::uint16_t>(*value);
+        return label;
+    }
+
+    const Row& row_;
+    const Columns& columns_;
+    const std::string& file_;
+    Faults& faults_;
+    bool good_ = true;
+};
+
+bool same_labels(const std::vector<Label>& left, const std::vector<Label>& right)
+{
+    return std::equal(left.begin(), left.end(), right.begin(), right.end(),
+                      [](const Label& a, const Label& b) {
+                          return a.is_bit == b.is_bit && a.number == b.number && a.text == b.text;
+                      });
+}
+
+} // namespace
+
+std::string_view Columns::text(const Row& row, Column column) const
+{
+    const std::size_t cell = index[column];
+    return cell < row.cells.size() ? std::string_view{row.cells[cell].text} : std::string_view{};
+}
+
+Place Columns::place(const Row& row, Column column) const
+{
+    const std::size_t cell = index[column];
+    return cell < row.cells.size() ? Place{row.cells[cell].line, row.cells[cell].column} : Place{row.line, 0};
+}
+
+std::optional<Tag> read_tag(const Row& row, const Columns& columns, const std::string& file, Faults& faults)
+{
+    return RowReader{row, columns, file, faults}.read();
+}
+
+std::optional<Column> contradiction(const Tag& known, const Tag& tag, const Row& row, const Columns& columns)
+{
+    const auto given = [&](Column column) { return !columns.text(row, column).empty(); };
+    if (given(kType) && known.type != tag.type) return kType;
+    if (given(kDecimals) && known.decimals != tag.decimals) return kDecimals;
+    if (given(kMin) && known.min != tag.min) return kMin;
+    if (given(kMax) && known.max != tag.max) return kMax;
+    if (given(kAccess) && known.access != tag.access) return kAccess;
+    if (given(kMnemonic) && known.mnemonic != tag.mnemonic) return kMnemonic;
+    if (given(kRegister) && known.modbus_register != tag.modbus_register) return kRegister;
+    if (given(kValues) && !same_labels(known.labels, tag.labels)) return kValues;
+    return std::nullopt;
+}
+
+} // namespace dpslave::profile

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+/// One row of a tag table on its way to a drive::Tag.
+#pragma once
+
+#include "csv.hpp"
+
+#include "dpslave/drive/tag.hpp"
+#include "dpslave/profile/document.hpp"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace dpslave::profile {
+
+enum Column : std::size_t {
+    kTag,
+    kName,
+    kType,
+    kDecimals,
+    kMin,
+    kMax,
+    kAccess,
+    kMnemonic,
+    kRegister,
+    kValues,
+    kSection,
+    kNotes,
+    kColumns,
+};
+constexpr std::array<std::string_view, kColumns> kColumnNames{"tag",      "name",   "type",    "decimals",
+                                                              "min",      "max",    "access",  "mnemonic",
+                                                              "register", "values", "section", "notes"};
+
+/// Which cell of a row is which column.
+struct Columns {
+    static constexpr std::size_t kAbsent = static_cast<std::size_t>(-1);
+    std::array<std::size_t, kColumns> index = absent();
+    std::size_t width = 0; ///< cells of every row
+
+    /// Empty where the table has no such column.
+    std::string_view text(const Row& row, Column column) const;
+    Place place(const Row& row, Column column) const;
+
+private:
+    static constexpr std::array<std::size_t, kColumns> absent()
+    {
+        std::array<std::size_t, kColumns> all{};
+        all.fill(kAbsent);
+        return all;
+    }
+};
+
+/// The row as a tag; nothing, and the reasons in `faults`, if a cell is wrong.
+std::optional<drive::Tag> read_tag(const Row& row, const Columns& columns, const std::string& file,
+                                   Faults& faults);
+
+/// The first column in which `row`, read as `tag`, says something else than `known`; an empty cell
+/// contradicts nothing.
+std::optional<Column> contradiction(const drive::Tag& known, const drive::Tag& tag, const Row& row,
+                                    const Columns& columns);
+
+} // namespace dpslave::profile

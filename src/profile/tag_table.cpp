@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tag tables: CSV rows become drive::TagTable, whole or not at all.
+#include "csv.hpp"
+#include "tag_row.hpp"
+#include "text_file.hpp"
+
+#include "dpslave/profile/profile.hpp"
+#include "dpslave/profile/wording.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace dpslave::profile {
+namespace {
+
+using drive::Tag;
+
+class TableReader {
+public:
+    explicit TableReader(std::string file) : file_(std::move(file)) {}
+
+    Result<drive::TagTable, Faults> read(std::string_view content)
+    {
+        const std::vector<Row> rows = read_csv(content, file_, faults_);
+        if (rows.empty()) {
+            fault(0, 0, "the table is empty: its first line names the columns, tag at least.");
+            return Failure{faults_};
+        }
+        if (rows.front().good && header(rows.front()))
+            for (std::size_t i = 1; i < rows.size(); ++i)
+                if (rows[i].good) add(rows[i]);
+        if (!faults_.empty()) {
+            std::stable_sort(faults_.begin(), faults_.end(), [](const Fault& left, const Fault& right) {
+                return std::pair{left.line, left.column} < std::pair{right.line, right.column};
+            });
+            return Failure{faults_};
+        }
+        return drive::TagTable{std::move(tags_)};
+    }
+
+private:
+    bool header(const Row& row)
+    {
+        columns_.width = row.cells.size();
+        std::vector<std::string> names;
+        for (std::size_t i = 0; i < row.cells.size(); ++i) {
+            const Cell& cell = row.cells[i];
+            names.push_back(cell.text);
+            const auto column = std::find(kColumnNames.begin(), kColumnNames.end(), cell.text);
+            if (column == kColumnNames.end()) continue;
+            std::size_t& index = columns_.index[static_cast<std::size_t>(column - kColumnNames.begin())];
+            if (index == Columns::kAbsent)
+                index = i;
+            else
+                fault(cell.line, cell.column,
+                      "a second column " + in_quotes(cell.text) + ": remove or rename one of them.");
+        }
+        if (columns_.index[kTag] != Columns::kAbsent) return true;
+        std::string what = "no column tag: the first line must name the columns, tag at least";
+        if (row.cells.size() == 1 && row.cells[0].text.find(';') != std::string::npos)
+            what += "; separate them by commas, not by semicolons";
+        else if (const auto meant = nearest("tag", names); !meant.empty())
+            what += "; is " + in_quotes(meant) + " meant?";
+        fault(row.line, 1, what + (what.back() == '?' ? "" : "."));
+        return false;
+    }
+
+    void add(const Row& row)
+    {
+        if (row.cells.size() != columns_.width) {
+            fault(row.line, 0,
+                  "this line has " + std::to_string(row.cells.size()) + " cells, the first line has " +
+                      std::to_string(columns_.width) +
+                      ": check its commas, and put a cell that holds one in quotes.");
+            return;
+        }
+        auto tag = read_tag(row, columns_, file_, faults_);
+        if (!tag) return;
+        const auto [known, is_new] = places_.try_emplace(tag->number, tags_.size(), row.line);
+        if (is_new)
+            tags_.push_back(*std::move(tag));
+        else
+            join(known->second, *tag, row);
+    }
+
+    /// A further row of a tag gives it a further name.
+    void join(std::pair<std::size_t, unsigned> known, const Tag& tag, const Row& row)
+    {
+        const auto [index, first_line] = known;
+        Tag& first = tags_[index];
+        if (const auto column = contradiction(first, tag, row, columns_)) {
+            const Place at = columns_.place(row, *column);
+            fault(at.line, at.column,
+                  "tag " + std::to_string(tag.number) + " has another " + std::string{kColumnNames[*column]} +
+                      " on line " + std::to_string(first_line) +
+                      ": make them equal, or leave the cell empty in a line that gives a further name.");
+        } else if (!tag.name.empty() && tag.name != first.name &&
+                   std::find(first.aliases.begin(), first.aliases.end(), tag.name) == first.aliases.end()) {
+            first.aliases.push_back(tag.name);
+        }
+    }
+
+    void fault(unsigned line, unsigned column, std::string what)
+    {
+        faults_.push_back({file_, line, column, std::move(what)});
+    }
+
+    std::string file_;
+    Faults faults_;
+    Columns columns_;
+    std::vector<Tag> tags_;
+    std::map<std::uint16_t, std::pair<std::size_t, unsigned>>
+        places_; ///< index in tags_, line of its first row
+};
+
+} // namespace
+
+Result<drive::TagTable, Faults> load_tags(const std::filesystem::path& file)
+{
+    auto content = read_text_file(file);
+    if (!content) return Failure{Faults{content.error()}};
+    return TableReader{file.string()}.read(*content);
+}
+
+} // namespace dpslave::profile

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "profile/files.hpp"
+
+#include "dpslave/profile/profile.hpp"
+
+#include <gmock/gmock.h>
+
+namespace dpslave {
+namespace {
+
+using drive::Access;
+using drive::Tag;
+using drive::TagType;
+using profile::Faults;
+using profile::load_tags;
+using test::Folder;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class TagTable : public testing::Test {
+protected:
+    drive::TagTable good(std::string_view content)
+    {
+        auto tags = load_tags(folder_.write("t.csv", content));
+        if (tags) return *std::move(tags);
+        for (const auto& fault : tags.error()) ADD_FAILURE() << to_string(fault);
+        return {};
+    }
+
+    Faults bad(std::string_view content)
+    {
+        const auto tags = load_tags(folder_.write("t.csv", content));
+        EXPECT_FALSE(tags) << "half a table was taken";
+        return tags ? Faults{} : tags.error();
+    }
+
+    Folder folder_;
+};
+
+TEST_F(TagTable, takes_every_column_in_any_order_and_leaves_unknown_ones_alone)
+{
+    const auto tags =
+        good("notes,max,tag,colour,min,type,decimals,name,section,access,register,mnemonic,values\n"
+             "a note,327.67,55,red,-327.68,REAL,2,SPEED DEMAND,SETPOINTS,rw,1055,bj,\n");
+
+    const Tag* tag = tags.find(55);
+    ASSERT_NE(tag, nullptr);
+    EXPECT_EQ(tag->name, "SPEED DEMAND");
+    EXPECT_EQ(tag->type, TagType::number);
+    EXPECT_EQ(tag->decimals, 2);
+    EXPECT_EQ(tag->min, -32768);
+    EXPECT_EQ(tag->max, 32767);
+    EXPECT_FALSE(tag->is_unsigned);
+    EXPECT_EQ(tag->access, Access::read_write);
+    EXPECT_EQ(tag->modbus_register, 1055);
+    EXPECT_EQ(tag->mnemonic, "bj");
+    EXPECT_EQ(tag->section, "SETPOINTS");
+    EXPECT_EQ(tag->notes, "a note");
+}
+
+TEST_F(TagTable, needs_the_tag_alone_and_leaves_the_rest_unsaid)
+{
+    const auto tags = good("tag\n7\n");
+
+    const Tag* tag = tags.find(7);
+    ASSERT_NE(tag, nullptr);
+    EXPECT_EQ(tag->type, TagType::number);
+    EXPECT_EQ(tag->decimals, 0);
+    EXPECT_EQ(tag->access, Access::unknown);
+    EXPECT_FALSE(tag->min.has_value() || tag->max.has_value() || tag->modbus_register.has_value());
+    EXPECT_TRUE(tag->mnemonic.empty());
+}
+
+TEST_F(TagTable, knows_every_type_and_access)
+{
+    const auto tags =
+        good("tag,type,access\n1,INT,ro\n2,REAL,rw\n3,WORD,wo\n4,BOOL,\n5,ENUM,ro\n6,STRING,ro\n");
+
+    EXPECT_EQ(tags.find(1)->type, TagType::number);
+    EXPECT_EQ(tags.find(2)->type, TagType::number);
+    EXPECT_EQ(tags.find(3)->type, TagType::word);
+    EXPECT_EQ(tags.find(4)->type, TagType::boolean);
+    EXPECT_EQ(tags.find(5)->type, TagType::enumeration);
+    EXPECT_EQ(tags.find(6)->type, TagType::string);
+    EXPECT_EQ(tags.find(1)->access, Access::read_only);
+    EXPECT_EQ(tags.find(2)->access, Access::read_write);
+    EXPECT_EQ(tags.find(3)->access, Access::write_only);
+    EXPECT_EQ(tags.find(4)->access, Access::unknown);
+}
+
+TEST_F(TagTable, a_number_is_unsigned_where_min_is_not_negative_and_max_above_32767)
+{
+    const auto tags = good("tag,type,decimals,min,max\n1,INT,0,0,32768\n2,INT,0,0,32767\n3,INT,0,,32767\n"
+                           "4,REAL,2,0.00,655.35\n5,INT,0,-1,32767\n");
+
+    EXPECT_TRUE(tags.find(1)->is_unsigned);
+    EXPECT_FALSE(tags.find(2)->is_unsigned);
+    EXPECT_FALSE(tags.find(3)->is_unsigned);
+    EXPECT_TRUE(tags.find(4)->is_unsigned);
+    EXPECT_EQ(tags.find(4)->max, 65535);
+    EXPECT_FALSE(tags.find(5)->is_unsigned);
+}
+
+TEST_F(TagTable, limits_are_displayed_values_and_may_have_fewer_or_needless_decimals)
+{
+    const auto tags = good("tag,decimals,min,max\n1,2,-5,+1.5\n2,1,0.100,7.\n3,4,-3.2768,3.2767\n");
+
+    EXPECT_EQ(tags.find(1)->min, -500);
+    EXPECT_EQ(tags.find(1)->max, 150);
+    EXPECT_EQ(tags.find(2)->min, 1);
+    EXPECT_EQ(tags.find(2)->max, 70);
+    EXPECT_EQ(tags.find(3)->min, -32768);
+    EXPECT_EQ(tags.find(3)->max, 32767);
+}
+
+TEST_F(TagTable, limits_of_a_word_are_always_hexadecimal)
+{
+    const auto tags = good("tag,type,min,max\n1,WORD,10,0xFF00\n2,WORD,0000,ffff\n");
+
+    EXPECT_EQ(tags.find(1)->min, 0x10);
+    EXPECT_EQ(tags.find(1)->max, 0xFF00);
+    EXPECT_EQ(tags.find(2)->max, 0xFFFF);
+}
+
+TEST_F(TagTable, values_name_values_or_bits)
+{
+    const auto tags = good("tag,type,decimals,values\n1,ENUM,,0=Stopped; 1 = Running "
+                           ";\n2,WORD,,bit0=Ready;bit15=Tripped;1F=All\n"
+                           "3,REAL,1,-0.1=Off\n");
+
+    const auto& states = tags.find(1)->labels;
+    ASSERT_EQ(states.size(), 2U);
+    EXPECT_EQ(states[1].number, 1);
+    EXPECT_EQ(states[1].text, "Running");
+    EXPECT_FALSE(states[1].is_bit);
+    const auto& bits = tags.find(2)->labels;
+    ASSERT_EQ(bits.size(), 3U);
+    EXPECT_TRUE(bits[1].is_bit);
+    EXPECT_EQ(bits[1].number, 15);
+    EXPECT_EQ(bits[2].number, 0x1F);
+    EXPECT_EQ(tags.find(3)->labels.at(0).number, 0xFFFF) << "the 16 bits of -1";
+}
+
+TEST_F(TagTable, quoted_cells_may_hold_commas_quotes_and_line_ends)
+{
+    const auto tags = good("tag,name,notes\r\n55,\"SPEED, \"\"main\"\"\",\"two\r\nlines\"\r\n56, LOAD ,\r\n");
+
+    EXPECT_EQ(tags.find(55)->name, "SPEED, \"main\"");
+    EXPECT_EQ(tags.find(55)->notes, "two\r\nlines");
+    EXPECT_EQ(tags.find(56)->name, "LOAD");
+}
+
+TEST_F(TagTable, tolerates_a_byte_order_mark_empty_lines_and_a_missing_last_line_end)
+{
+    const auto tags = good("\xEF\xBB\xBFtag,name\r\n\r\n1,a\r\n   \r\n\r\n2,b");
+
+    EXPECT_EQ(tags.all().size(), 2U);
+    EXPECT_EQ(tags.find(2)->name, "b");
+}
+
+TEST_F(TagTable, a_tag_that_stands_twice_with_one_meaning_has_two_names)
+{
+    const auto tags = good(
+        "tag,name,type,access,max\n23,Setpoint 1,INT,rw,100\n23,SP1,INT,rw,100\n23,Alias,,,\n23,SP1,,,\n");
+
+    ASSERT_EQ(tags.all().size(), 1U);
+    EXPECT_EQ(tags.find(23)->name, "Setpoint 1");
+    EXPECT_THAT(tags.find(23)->aliases, ElementsAre("SP1", "Alias"));
+}
+
+TEST_F(TagTable, a_table_may_be_a_header_only)
+{
+    EXPECT_TRUE(good("tag,name\n").all().empty());
+}
+
+struct BadTable {
+    const char* content;
+    const char* place;    ///< "line:column: "
+    const char* sentence; ///< a part of it
+};
+
+void PrintTo(const BadTable& table, std::ostream* out)
+{
+    *out << test::case_name(std::string{table.sentence} + " in " + table.content);
+}
+
+class BadTagTable : public TagTable, public testing::WithParamInterface<BadTable> {};
+
+TEST_P(BadTagTable, is_refused_with_place_and_remedy)
+{
+    const Faults faults = bad(GetParam().content);
+
+    ASSERT_EQ(faults.size(), 1U) << (faults.size() > 1 ? to_string(faults[1]) : "");
+    EXPECT_THAT(faults[0].file, EndsWith("/t.csv"));
+    EXPECT_THAT(test::short_form(faults[0]),
+                AllOf(StartsWith(GetParam().place), HasSubstr(GetParam().sentence)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    rows, BadTagTable,
+    testing::Values(BadTable{"", "0:0: ", "first line names the columns"},
+                    BadTable{"\n\n", "0:0: ", "first line names the columns"},
+                    BadTable{"name,type\nx,INT\n", "1:1: ", "no column tag"},
+                    BadTable{"Tag,type\n1,INT\n", "1:1: ", "is \"Tag\" meant?"},
+                    BadTable{"tag;name;type\n1;x;INT\n", "1:1: ", "not by semicolons"},
+                    BadTable{"tag,name,tag\n1,x,2\n", "1:10: ", "second column \"tag\""},
+                    BadTable{"tag,name\n1,x\n2,y,z\n", "3:0: ", "3 cells, the first line has 2"},
+                    BadTable{"tag,name\n1\n", "2:0: ", "1 cells, the first line has 2"},
+                    BadTable{"tag,name\n,x\n", "2:1: ", "tag number is missing"},
+                    BadTable{"name,tag\nx,12a\n", "2:3: ", "decimal number from 0 to 65535"},
+                    BadTable{"tag\n65536\n", "2:1: ", "from 0 to 65535"},
+                    BadTable{"tag\n-1\n", "2:1: ", "from 0 to 65535"},
+                    BadTable{"tag\n0x37\n", "2:1: ", "decimal number"},
+                    BadTable{"tag,type\n1,FLOAT\n", "2:3: ", "write INT, WORD, BOOL, ENUM, REAL or STRING"},
+                    BadTable{"tag,type\n1,int\n", "2:3: ", "type \"int\""},
+                    BadTable{"tag,decimals\n1,5\n", "2:3: ", "from 0 to 4"},
+                    BadTable{"tag,type,decimals\n1,WORD,1\n", "2:8: ", "only INT and REAL have decimals"},
+                    BadTable{"tag,access\n1,read\n", "2:3: ", "ro, rw or wo"},
+                    BadTable{"tag,mnemonic\n1,abc\n", "2:3: ", "two printable characters"},
+                    BadTable{"tag,mnemonic\n1,\"a \"\n", "2:3: ", "two printable characters"},
+                    BadTable{"tag,register\n1,70000\n", "2:3: ", "register \"70000\""},
+                    BadTable{"tag,min\n1,abc\n", "2:3: ", "whole number"},
+                    BadTable{"tag,min\n1,1.5\n", "2:3: ", "column decimals"},
+                    BadTable{"tag,decimals,min\n1,1,1.25\n", "2:5: ", "at most 1 decimals"},
+                    BadTable{"tag,decimals,max\n1,2,327.68\n", "2:5: ", "does not fit in 16 bits"},
+                    BadTable{"tag,min\n1,-32769\n", "2:3: ", "-32768 to 32767"},
+                    BadTable{"tag,min,max\n1,0,65536\n", "2:5: ", "0 to 65535"},
+                    BadTable{"tag,min,max\n1,-1,40000\n", "2:6: ", "min of 0 or more"},
+                    BadTable{"tag,min,max\n1,10,9\n", "2:3: ", "is above max"},
+                    BadTable{"tag,type,max\n1,WORD,10000\n", "2:8: ", "hexadecimal number from 0 to FFFF"},
+                    BadTable{"tag,type,max\n1,BOOL,2\n", "2:8: ", "write 0 or 1"},
+                    BadTable{"tag,type,max\n1,ENUM,256\n", "2:8: ", "0 to 255"},
+                    BadTable{"tag,type,max\n1,STRING,8\n", "2:10: ", "a STRING has none"},
+                    BadTable{"tag,type,values\n1,ENUM,Stopped\n", "2:8: ", "value=label"},
+                    BadTable{"tag,type,values\n1,ENUM,0=\n", "2:8: ", "value=label"},
+                    BadTable{"tag,type,values\n1,ENUM,0=a;0=b\n", "2:8: ", "same value again"},
+                    BadTable{"tag,type,values\n1,ENUM,300=a\n", "2:8: ", "0 to 255"},
+                    BadTable{"tag,type,values\n1,WORD,bit16=a\n", "2:8: ", "bit0 to bit15"},
+                    BadTable{"tag,type,values\n1,BOOL,bit0=a\n", "2:8: ", "only WORD and INT have bits"},
+                    BadTable{"tag,name\n1,\"open\n2,b\n", "2:3: ", "never closed"},
+                    BadTable{"tag,name\n1,\"a\" b\n", "2:7: ", "behind the closing quote"},
+                    BadTable{"tag,name\n1,5\" pipe\n", "2:4: ", "write this quote twice"},
+                    BadTable{"tag,name\n1,Z\xE4hler\n", "2:4: ", "save the table as UTF-8"},
+                    BadTable{"tag,name\n1,a\x07z\n", "2:4: ", "control character"},
+                    BadTable{"tag,\"name\n1,a\n", "1:5: ", "never closed"},
+                    BadTable{"tag,name,min\n1,\xC3\xA4\xC3\xB6,x\n", "2:6: ", "min \"x\""},
+                    BadTable{"tag,type\n1,INT\n\n1,WORD\n", "4:3: ", "tag 1 has another type on line 2"},
+                    BadTable{"tag,access\n1,ro\n1,rw\n", "3:3: ", "another access on line 2"},
+                    BadTable{"tag,max\n1,5\n1,6\n", "3:3: ", "another max"},
+                    BadTable{"tag,type,values\n1,ENUM,0=a\n1,ENUM,0=b\n", "3:8: ", "another values"}));
+
+TEST_F(TagTable, all_faults_of_a_table_are_told_in_one_run_in_the_order_of_the_lines)
+{
+    const Faults faults = bad("tag,type,access,min\nx,INT,ro,\n2,FLOAT,maybe,\n3,\"INT,ro,1\n");
+
+    EXPECT_THAT(test::short_forms(faults), ElementsAre(StartsWith("2:1: "), StartsWith("3:3: type"),
+                                                       StartsWith("3:9: access"), StartsWith("4:3: ")));
+}
+
+TEST_F(TagTable, the_line_after_a_cell_of_two_lines_is_counted_right)
+{
+    EXPECT_THAT(test::short_forms(bad("tag,notes\n1,\"a\nb\"\nx,c\n")), ElementsAre(StartsWith("4:1: ")));
+}
+
+TEST_F(TagTable, a_file_that_is_not_there_or_no_file_is_a_fault_of_the_file)
+{
+    const auto absent = load_tags(folder_.path() / "absent.csv");
+    ASSERT_FALSE(absent);
+    EXPECT_THAT(to_string(absent.error().at(0)),
+                HasSubstr("absent.csv: the file cannot be read: No such file"));
+
+    const auto folder = load_tags(folder_.path());
+    ASSERT_FALSE(folder);
+    EXPECT_THAT(folder.error().at(0).what, HasSubstr("Is a directory"));
+}
+
+TEST(FaultText, is_file_line_column_and_sentence_as_compilers_have_it)
+{
+    EXPECT_EQ(to_string(profile::Fault{"a.toml", 3, 7, "wrong."}), "a.toml:3:7: wrong.");
+    EXPECT_EQ(to_string(profile::Fault{"a.toml", 3, 0, "wrong."}), "a.toml:3: wrong.");
+    EXPECT_EQ(to_string(profile::Fault{"a.toml", 0, 0, "wrong."}), "a.toml: wrong.");
+}
+
+} // namespace
+} // namespace dpslave
