@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dpsim/condition.hpp"
+
+#include "dpsim/values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace dpslave::sim {
+namespace {
+
+constexpr std::size_t kDemandOctets = 8;
+using Words = std::vector<std::string>;
+
+std::size_t process_start(const MasterSettings& settings)
+{
+    return has_demand(settings) ? kDemandOctets : 0;
+}
+
+DemandWords demand_of(Bytes eight)
+{
+    const std::uint16_t first = be16(eight, 0);
+    return {static_cast<std::uint8_t>(first >> 12), static_cast<std::uint16_t>(first & 0x07FF),
+            be16(eight, 6)};
+}
+
+bool is_relation(std::string_view word)
+{
+    constexpr std::array<std::string_view, 7> kRelations{"=", "==", "!=", "<", ">", "<=", ">="};
+    return std::find(kRelations.begin(), kRelations.end(), word) != kRelations.end();
+}
+
+/// Signed order; equality also holds for the unsigned reading of the same 16 bits.
+bool relates(std::uint16_t word, std::string_view relation, std::int64_t value)
+{
+    const std::int64_t is = static_cast<std::int16_t>(word);
+    const bool equal = is == value || std::int64_t{word} == value;
+    if (relation == "=" || relation == "==") return equal;
+    if (relation == "!=") return !equal;
+    const std::int64_t left = value > 32767 ? std::int64_t{word} : is;
+    if (relation == "<") return left < value;
+    if (relation == ">") return left > value;
+    return relation == "<=" ? left <= value : left >= value;
+}
+
+/// "in1=5" as "in", "1", "=", "5": blanks are a matter of taste.
+Words separated(const Words& words)
+{
+    const auto kind = [](char c) {
+        if (c == '=' || c == '<' || c == '>' || c == '!') return 1;
+        return 0;
+    };
+    Words out;
+    for (const std::string& word : words) {
+        std::string part;
+        for (const char c : word) {
+            if (!part.empty() && kind(part.back()) != kind(c)) {
+                out.push_back(part);
+                part.clear();
+            }
+            part += c;
+        }
+        if (!part.empty()) out.push_back(part);
+    }
+    if (!out.empty())
+        for (const std::string_view subject : {"in", "out"})
+            if (out[0].starts_with(subject) && out[0].size() > subject.size() &&
+                std::isdigit(static_cast<unsigned char>(out[0][subject.size()])) != 0) {
+                const std::string index = out[0].substr(subject.size());
+                out[0] = subject;
+                out.insert(out.begin() + 1, index);
+            }
+    return out;
+}
+
+Result<Condition, std::string> word_condition(const Words& w)
+{
+    Condition c{.subject = w[0] == "in" ? Condition::Subject::input : Condition::Subject::output};
+    const auto index = w.size() == 4 ? number_of(w[1]) : std::nullopt;
+    const auto value = w.size() == 4 ? number_of(w[3]) : std::nullopt;
+    if (!index || *index < 1 || !value || !is_relation(w[2]))
+        return Failure{fmt::format("write it as: {} 1 = 1250 (or != < > <= >=)", w[0])};
+    c.index = static_cast<std::size_t>(*index);
+    c.relation = w[2];
+    c.value = *value;
+    return c;
+}
+
+Result<Condition, std::string> demand_condition(const Words& w)
+{
+    Condition c{.subject = Condition::Subject::demand_none};
+    if (w.size() == 2 && w[1] == "none") return c;
+    const auto value = w.size() == 3 ? number_of(w[2]) : std::nullopt;
+    if (value && w[1] == "reject") {
+        c.subject = Condition::Subject::demand_reject;
+    } else if (value && is_relation(w[1])) {
+        c.subject = Condition::Subject::demand_value;
+        c.relation = w[1];
+    } else {
+        return Failure{std::string{"write it as: demand = 1250, demand reject 1 or demand none"}};
+    }
+    c.value = *value;
+    return c;
+}
+
+Result<Condition, std::string> octets_condition(Condition c, Words w)
+{
+    std::string text;
+    for (std::size_t i = 1; i < w.size(); ++i) text += w[i];
+    auto octets = octets_of(text);
+    if (!octets || octets->empty())
+        return Failure{fmt::format("'{}' is neither a known finding nor octets in hexadecimal", text)};
+    c.octets = std::move(*octets);
+    return c;
+}
+
+Verdict judge_word(const Condition& c, std::string_view name, std::optional<std::uint16_t> word, bool any)
+{
+    if (!word)
+        return {false, any ? fmt::format("there is no {} {}", name, c.index)
+                           : std::string{"there are no inputs at present"}};
+    return {relates(*word, c.relation, c.value), fmt::format("{} {} is {}", name, c.index, show_word(*word))};
+}
+
+Verdict judge_demand(const Condition& c, const Master& master)
+{
+    const auto answer = demand_answer(master);
+    if (!answer) return {false, "there is no Demand Data answer"};
+    const std::string seen = "Demand Data answers " + show_demand(*answer);
+    switch (c.subject) {
+        case Condition::Subject::demand_none: return {answer->command == 0, seen};
+        case Condition::Subject::demand_reject:
+            return {answer->command == 7 && answer->value == c.value, seen};
+        default: return {answer->command == 1 && relates(answer->value, c.relation, c.value), seen};
+    }
+}
+
+Verdict judge_diagnosis(const Condition& c, const Master& master)
+{
+    if (!master.diagnosis()) return {false, "no diagnosis was read yet"};
+    const Diagnosis& d = *master.diagnosis();
+    const std::string seen = "the diagnosis is " + hex(d.octets);
+    if (!c.name.empty()) return {finding(d, c.name).value_or(false) != c.negated, seen};
+    return {d.octets.size() >= c.octets.size() &&
+                std::equal(c.octets.begin(), c.octets.end(), d.octets.begin()),
+            seen};
+}
+
+} // namespace
+
+bool has_demand(const MasterSettings& settings)
+{
+    return !settings.cfg.empty() && settings.cfg[0] == 0x73;
+}
+
+std::optional<DemandWords> demand_answer(const Master& master)
+{
+    if (!has_demand(master.settings()) || master.inputs().size() < kDemandOctets) return std::nullopt;
+    return demand_of(master.inputs());
+}
+
+DemandWords demand_request(Master& master)
+{
+    return demand_of(master.outputs());
+}
+
+void set_demand_request(Master& master, DemandWords words)
+{
+    const auto first = static_cast<std::uint16_t>(words.command << 12 | (words.tag & 0x07FF));
+    Octets& out = master.outputs();
+    out[0] = high(first);
+    out[1] = low(first);
+    std::fill(out.begin() + 2, out.begin() + 6, std::uint8_t{0});
+    out[6] = high(words.value);
+    out[7] = low(words.value);
+}
+
+std::string show_demand(const DemandWords& answer)
+{
+    constexpr std::array<std::string_view, 3> kErrors{"invalid tag number", "read-only parameter",
+                                                      "value out of range"};
+    if (answer.command == 0) return "no command";
+    if (answer.command == 7)
+        return fmt::format("tag {} rejected, {}: {}", answer.tag, answer.value,
+                           answer.value < kErrors.size() ? kErrors[answer.value]
+                                                         : "a code that the manual does not know");
+    if (answer.command == 1) return fmt::format("tag {} = {}", answer.tag, show_word(answer.value));
+    return fmt::format("command {} with tag {}, which is no answer", answer.command, answer.tag);
+}
+
+std::size_t input_words(const Master& m)
+{
+    return (m.lengths().inputs - process_start(m.settings())) / 2;
+}
+std::size_t output_words(const Master& m)
+{
+    return (m.lengths().outputs - process_start(m.settings())) / 2;
+}
+
+std::optional<std::uint16_t> input_word(const Master& master, std::size_t number)
+{
+    const std::size_t at = process_start(master.settings()) + 2 * (number - 1);
+    if (number < 1 || number > input_words(master) || at + 2 > master.inputs().size()) return std::nullopt;
+    return be16(master.inputs(), at);
+}
+
+std::optional<std::uint16_t> output_word(Master& master, std::size_t number)
+{
+    if (number < 1 || number > output_words(master)) return std::nullopt;
+    return be16(master.outputs(), process_start(master.settings()) + 2 * (number - 1));
+}
+
+bool set_output_word(Master& master, std::size_t number, std::uint16_t word)
+{
+    if (number < 1 || number > output_words(master)) return false;
+    const std::size_t at = process_start(master.settings()) + 2 * (number - 1);
+    master.outputs()[at] = high(word);
+    master.outputs()[at + 1] = low(word);
+    return true;
+}
+
+Result<Condition, std::string> parse_condition(const std::vector<std::string>& words)
+{
+    Words w = separated(words);
+    if (w.empty()) return Failure{std::string{"a condition is missing, for example: in 1 = 1250"}};
+    if (w[0] == "in" || w[0] == "out") return word_condition(w);
+    if (w[0] == "demand") return demand_condition(w);
+    const bool negated = w.size() > 1 && w[1] == "not";
+    if (negated) w.erase(w.begin() + 1);
+    if (w[0] == "state" && w.size() == 2) {
+        const auto state = master_state(w[1]);
+        if (!state)
+            return Failure{
+                fmt::format("there is no state '{}'; the one that matters is data-exchange", w[1])};
+        return Condition{.subject = Condition::Subject::state, .negated = negated, .state = *state};
+    }
+    if (w[0] == "diag" && w.size() >= 2) {
+        Condition c{.subject = Condition::Subject::diagnosis, .negated = negated};
+        if (!finding(Diagnosis{Octets(6, 0)}, w[1])) return octets_condition(std::move(c), w);
+        c.name = w[1];
+        return c;
+    }
+    if (w[0] == "reply" && w.size() >= 2) {
+        Condition c{.subject = Condition::Subject::reply};
+        if (w[1] == "none") return c;
+        return octets_condition(std::move(c), w);
+    }
+    return Failure{fmt::format("'{}' is no condition: in N, out N, state, demand, diag or reply", w[0])};
+}
+
+Verdict judge(const Condition& c, Master& master, Bytes last_reply)
+{
+    switch (c.subject) {
+        case Condition::Subject::input:
+            return judge_word(c, "in", input_word(master, c.index),
+                              c.index > input_words(master) || !master.inputs().empty());
+        case Condition::Subject::output: return judge_word(c, "out", output_word(master, c.index), true);
+        case Condition::Subject::state:
+            return {(master.state() == c.state) != c.negated,
+                    fmt::format("the state is {}", text(master.state()))};
+        case Condition::Subject::demand_value:
+        case Condition::Subject::demand_reject:
+        case Condition::Subject::demand_none: return judge_demand(c, master);
+        case Condition::Subject::diagnosis: return judge_diagnosis(c, master);
+        case Condition::Subject::reply: break;
+    }
+    return {std::equal(c.octets.begin(), c.octets.end(), last_reply.begin(), last_reply.end()),
+            last_reply.empty() ? std::string{"there was no reply"} : "the reply was " + hex(last_reply)};
+}
+
+} // namespace dpslave::sim

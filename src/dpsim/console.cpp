@@ -1,0 +1,409 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dpsim/console.hpp"
+
+#include "dpsim/values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace dpslave::sim {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kStartTime = 10s; ///< for the whole start-up, at 9600 and with retries
+constexpr auto kDemandTime = 5s; ///< two retries of a silent drive take less
+constexpr auto kAnswerTime = 5s;
+
+double seconds(std::chrono::nanoseconds t)
+{
+    return std::chrono::duration<double>(t).count();
+}
+double microseconds(std::chrono::nanoseconds t)
+{
+    return std::chrono::duration<double, std::micro>(t).count();
+}
+
+std::string rest_of(const std::vector<std::string>& words, std::size_t from)
+{
+    std::string rest;
+    for (std::size_t i = from; i < words.size(); ++i) rest += (rest.empty() ? "" : " ") + words[i];
+    return rest;
+}
+
+} // namespace
+
+struct Console::Command {
+    std::string_view name;
+    std::string_view usage;
+    std::string_view help;
+    void (Console::*run)(const Words&, Instant);
+};
+
+const std::vector<Console::Command>& Console::commands()
+{
+    static const std::vector<Command> table{
+        {"start", "start [TIME]", "start-up until Data_Exch (10s), or the reason why not",
+         &Console::do_start},
+        {"in", "in [N]", "the process input words", &Console::do_in},
+        {"out", "out [N = VALUE]", "sets a process output word, or shows all", &Console::do_out},
+        {"wait", "wait TIME [for CONDITION]", "waits, at most so long, for a condition", &Console::do_wait},
+        {"expect", "expect CONDITION", "fails if the condition does not hold now", &Console::do_expect},
+        {"demand", "demand read TAG | write TAG VALUE | none", "Demand Data; waits for the answer",
+         &Console::do_demand},
+        {"diag", "diag", "reads Slave_Diag and explains it", &Console::do_diag},
+        {"get-cfg", "get-cfg", "reads the configuration that the slave holds", &Console::do_get_cfg},
+        {"sync", "sync | unsync | freeze | unfreeze [GROUPS]", "Global_Control; GROUPS is a mask, 0 = all",
+         &Console::do_global},
+        {"unsync", "", "", &Console::do_global},
+        {"freeze", "", "", &Console::do_global},
+        {"unfreeze", "", "", &Console::do_global},
+        {"clear", "clear | operate", "Clear: zeros go out; Operate: the outputs again", &Console::do_mode},
+        {"operate", "", "", &Console::do_mode},
+        {"set-prm", "set-prm HEX", "Set_Prm with this whole data unit (7 octets and more)",
+         &Console::do_service},
+        {"chk-cfg", "chk-cfg HEX", "Chk_Cfg with these identifier octets", &Console::do_service},
+        {"send", "send HEX", "these octets as they are; shows what comes back", &Console::do_service},
+        {"unlock", "unlock", "releases the slave (Set_Prm with Unlock_Req) and stops", &Console::do_unlock},
+        {"run", "run [TIME]", "goes on exchanging for so long; without TIME until ended", &Console::do_run},
+        {"stop", "stop", "falls silent without a word", &Console::do_stop},
+        {"stats", "stats", "counters", &Console::do_stats},
+        {"help", "help", "this list", &Console::do_help},
+        {"quit", "quit", "ends", &Console::do_quit},
+    };
+    return table;
+}
+
+std::vector<std::string> Console::help()
+{
+    std::vector<std::string> lines;
+    for (const Command& c : commands())
+        if (!c.usage.empty()) lines.push_back(fmt::format("  {:<44} {}", c.usage, c.help));
+    lines.push_back(fmt::format("  {:<44} {}", "try COMMAND", "carries on even if the command fails"));
+    lines.emplace_back("TIME: 2s, 500ms. VALUE: 1250, -300, 0x04E2. '#' begins a comment.");
+    lines.emplace_back("CONDITION: in N = V (also != < > <= >=), out N = V, state [not] data-exchange, "
+                       "demand = V, demand reject E,");
+    lines.emplace_back("  demand none, diag [not] NAME, diag HEX, reply HEX, reply none. NAME: prm-fault "
+                       "cfg-fault not-ready");
+    lines.emplace_back("  prm-required stat-diag ext-diag not-supported watchdog sync freeze overflow");
+    return lines;
+}
+
+void Console::command(const std::string& line, const std::string& place, Instant now)
+{
+    Words words = words_of(line);
+    forgiving_ = !words.empty() && words[0] == "try";
+    if (forgiving_) words.erase(words.begin());
+    if (words.empty()) return;
+    line_ = rest_of(words, 0);
+    place_ = place;
+    const bool joined = words[0].size() > 2 && words[0].starts_with("in") && number_of(words[0].substr(2));
+    if (joined) words = {"in", words[0].substr(2)};
+    const auto& table = commands();
+    const auto found =
+        std::find_if(table.begin(), table.end(), [&](const Command& c) { return c.name == words[0]; });
+    if (found == table.end()) return fail(fmt::format("there is no command '{}'; help lists them", words[0]));
+    (this->*found->run)(words, now);
+}
+
+std::vector<std::string> Console::take_lines()
+{
+    return std::exchange(lines_, {});
+}
+
+void Console::stamp(Instant now, std::string_view words)
+{
+    say(fmt::format("{:9.3f} s  {}", seconds(now - began_), words));
+}
+
+void Console::fail(std::string_view why)
+{
+    done();
+    say(fmt::format("{}{}: {}", place_, line_, why));
+    if (!forgiving_) failed_ = true;
+}
+
+// ---- what the master tells ----
+
+void Console::on_time(Instant now)
+{
+    while (const auto event = master_.take_event()) take(*event, now);
+    if (wait_) check_wait(now);
+}
+
+void Console::take(const MasterEvent& event, Instant now)
+{
+    switch (event.kind) {
+        case MasterEvent::Kind::state:
+            if (event.words == text(MasterState::data_exchange)) stamp(now, "station is in data exchange");
+            return;
+        case MasterEvent::Kind::refused:
+            stamp(now, event.words);
+            if (wait_ && wait_->what == For::start) start_refused(event.words);
+            return;
+        case MasterEvent::Kind::lost: stamp(now, event.words); return;
+        case MasterEvent::Kind::complaint: stamp(now, "not as the standard has it: " + event.words); return;
+        case MasterEvent::Kind::answer:
+            if (!wait_ || wait_->what != For::answer || wait_->service != event.answer->service) return;
+            last_reply_ = event.answer->octets;
+            take_answer(*event.answer);
+            return;
+    }
+}
+
+void Console::take_answer(const Answer& answer)
+{
+    done();
+    if (answer.service == Service::global_control) return;
+    if (answer.service == Service::raw)
+        return say(answer.words + (answer.octets.empty() ? "" : ": " + hex(answer.octets)));
+    if (!answer.frame) return fail(fmt::format("{} from station {}", answer.words, master_.settings().slave));
+    if (answer.service != Service::slave_diag || answer.frame->kind != FrameKind::variable)
+        return say(answer.words);
+    const auto diagnosis = parse_diagnosis(answer.frame->data);
+    if (!diagnosis) return fail(diagnosis.error());
+    for (const std::string& line : explain(*diagnosis)) say(line);
+}
+
+void Console::start_refused(const std::string& why)
+{
+    fail(why);
+    if (master_.diagnosis())
+        for (const std::string& line : explain(*master_.diagnosis())) say("  " + line);
+    master_.stop();
+}
+
+void Console::check_wait(Instant now)
+{
+    const bool late = now >= wait_->until;
+    switch (wait_->what) {
+        case For::start:
+            if (master_.state() == MasterState::data_exchange && master_.counters().cycles > wait_->cycles)
+                return done();
+            if (!late) return;
+            if (master_.state() == MasterState::searching)
+                return fail(fmt::format(
+                    "station {} does not answer: is it running, at this rate and address, on this line?",
+                    master_.settings().slave));
+            return start_refused(
+                fmt::format("not in data exchange yet, the state is {}", text(master_.state())));
+        case For::answer:
+            if (late) fail("no answer in time");
+            return;
+        case For::time:
+            if (late) done();
+            return;
+        case For::condition: {
+            const Verdict verdict = judge(wait_->condition, master_, last_reply_);
+            if (verdict.holds) return done();
+            if (late) fail("not in time, " + verdict.seen);
+            return;
+        }
+        case For::demand_idle: {
+            const auto answer = demand_answer(master_);
+            if (answer && answer->command == 0) {
+                set_demand_request(master_, wait_->demand);
+                wait_->what = For::demand_answer;
+            } else if (late) {
+                fail("the slave does not answer 'no command'");
+            }
+            return;
+        }
+        case For::demand_answer: {
+            const auto answer = demand_answer(master_);
+            const bool ours =
+                answer && (answer->command == 1 || answer->command == 7) && answer->tag == wait_->demand.tag;
+            if (ours) {
+                say(show_demand(*answer));
+                done();
+            } else if (late) {
+                fail("no answer from the drive in time");
+            }
+            return;
+        }
+    }
+}
+
+void Console::ask(Order order, Instant now)
+{
+    await({.what = For::answer, .until = now + kAnswerTime, .service = order.service});
+    master_.order(std::move(order));
+}
+
+// ---- commands ----
+
+void Console::do_start(const Words& words, Instant now)
+{
+    const auto time =
+        words.size() > 1 ? duration_of_text(words[1]) : std::optional<std::chrono::nanoseconds>{kStartTime};
+    if (!time || words.size() > 2) return fail("write it as: start, or start 5s");
+    master_.start();
+    await({.what = For::start, .until = now + *time, .cycles = master_.counters().cycles});
+}
+
+void Console::do_wait(const Words& words, Instant now)
+{
+    const auto time = words.size() > 1 ? duration_of_text(words[1]) : std::nullopt;
+    if (!time || (words.size() > 2 && words[2] != "for")) return fail("write it as: wait 2s for in 1 = 1250");
+    if (words.size() == 2) return await({.what = For::time, .until = now + *time});
+    const auto condition = parse_condition({words.begin() + 3, words.end()});
+    if (!condition) return fail(condition.error());
+    await({.what = For::condition, .until = now + *time, .condition = *condition});
+}
+
+void Console::do_run(const Words& words, Instant now)
+{
+    if (words.size() == 1) return await({.what = For::time, .until = kNever});
+    const auto time = duration_of_text(words[1]);
+    if (!time || words.size() > 2) return fail("write it as: run 2s");
+    await({.what = For::time, .until = now + *time});
+}
+
+void Console::do_expect(const Words& words, Instant /*now*/)
+{
+    const auto condition = parse_condition({words.begin() + 1, words.end()});
+    if (!condition) return fail(condition.error());
+    const Verdict verdict = judge(*condition, master_, last_reply_);
+    if (!verdict.holds) return fail(verdict.seen);
+    say("as expected, " + verdict.seen);
+}
+
+void Console::do_in(const Words& words, Instant /*now*/)
+{
+    const auto only = words.size() > 1 ? number_of(words[1]) : std::optional<std::int64_t>{0};
+    if (!only || *only < 0 || *only > static_cast<std::int64_t>(input_words(master_)))
+        return fail(fmt::format("there are {} input words, counted from 1", input_words(master_)));
+    if (master_.inputs().empty()) return say("no inputs at present: " + std::string{text(master_.state())});
+    for (std::size_t n = 1; n <= input_words(master_); ++n)
+        if (*only == 0 || static_cast<std::size_t>(*only) == n)
+            say(fmt::format("in {} = {}", n, show_word(input_word(master_, n).value_or(0))));
+    if (const auto demand = demand_answer(master_); demand && *only == 0)
+        say("demand: " + show_demand(*demand));
+}
+
+void Console::do_out(const Words& words, Instant /*now*/)
+{
+    if (words.size() == 1) {
+        for (std::size_t n = 1; n <= output_words(master_); ++n)
+            say(fmt::format("out {} = {}", n, show_word(output_word(master_, n).value_or(0))));
+        return;
+    }
+    const auto condition = parse_condition(words);
+    if (!condition) return fail("write it as: out 1 = 500");
+    if (condition->relation != "=" || condition->value < -32768 || condition->value > 65535)
+        return fail("a word is -32768 to 65535, written as: out 1 = 500");
+    if (!set_output_word(master_, condition->index, static_cast<std::uint16_t>(condition->value & 0xFFFF)))
+        return fail(fmt::format("there are {} output words, counted from 1", output_words(master_)));
+}
+
+void Console::do_demand(const Words& words, Instant now)
+{
+    if (!has_demand(master_.settings()))
+        return fail("Cfg_Data does not begin with 73: there is no Demand Data");
+    const auto tag = words.size() > 2 ? number_of(words[2]) : std::optional<std::int64_t>{0};
+    const auto value = words.size() > 3 ? number_of(words[3]) : std::optional<std::int64_t>{0};
+    const bool good = (words.size() == 2 && words[1] == "none") ||
+                      (words.size() == 3 && words[1] == "read") || (words.size() == 4 && words[1] == "write");
+    if (!good || !tag || *tag < 0 || *tag > 2047 || !value || *value < -32768 || *value > 65535)
+        return fail("write it as: demand read 55, demand write 56 1000 or demand none; tags 0 to 2047");
+    if (master_.state() != MasterState::data_exchange) return fail("the station is not in data exchange");
+    // Command 0 first: the answer to it separates the old answer from the new one, even with the same tag.
+    const DemandWords order{static_cast<std::uint8_t>(words[1] == "none"   ? 0
+                                                      : words[1] == "read" ? 1
+                                                                           : 2),
+                            static_cast<std::uint16_t>(*tag), static_cast<std::uint16_t>(*value & 0xFFFF)};
+    set_demand_request(master_, {});
+    const Instant until = now + kDemandTime;
+    if (order.command != 0) return await({.what = For::demand_idle, .until = until, .demand = order});
+    await(
+        {.what = For::condition, .until = until, .condition = {.subject = Condition::Subject::demand_none}});
+}
+
+void Console::do_diag(const Words& /*words*/, Instant now)
+{
+    ask({Service::slave_diag, {}}, now);
+}
+
+void Console::do_get_cfg(const Words& /*words*/, Instant now)
+{
+    ask({Service::get_cfg, {}}, now);
+}
+
+void Console::do_global(const Words& words, Instant now)
+{
+    const auto groups = words.size() > 1 ? number_of(words[1]) : std::optional<std::int64_t>{0};
+    if (!groups || *groups < 0 || *groups > 255) return fail("groups are a mask 0x00 to 0xFF, 0 = all");
+    const std::uint8_t control = words[0] == "sync"     ? 0x20
+                                 : words[0] == "unsync" ? 0x10
+                                 : words[0] == "freeze" ? 0x08
+                                                        : 0x04;
+    ask({Service::global_control, {control, static_cast<std::uint8_t>(*groups)}}, now);
+}
+
+void Console::do_mode(const Words& words, Instant now)
+{
+    master_.clear(words[0] == "clear");
+    await({.what = For::answer, .until = now + kAnswerTime, .service = Service::global_control});
+}
+
+void Console::do_unlock(const Words& /*words*/, Instant now)
+{
+    master_.stop();
+    Octets unit = set_prm_unit(master_.settings());
+    unit.resize(7);
+    unit[0] = 0x40;
+    ask({Service::set_prm, std::move(unit)}, now);
+}
+
+void Console::do_service(const Words& words, Instant now)
+{
+    auto octets = octets_of(rest_of(words, 1));
+    if (!octets) return fail(octets.error());
+    if (octets->empty() || octets->size() > 244) return fail("1 to 244 octets in hexadecimal are needed");
+    const Service service = words[0] == "send"      ? Service::raw
+                            : words[0] == "set-prm" ? Service::set_prm
+                                                    : Service::chk_cfg;
+    ask({service, std::move(*octets)}, now);
+}
+
+void Console::do_stop(const Words& /*words*/, Instant /*now*/)
+{
+    master_.stop();
+}
+
+void Console::do_stats(const Words& /*words*/, Instant /*now*/)
+{
+    for (const std::string& line : summary()) say(line);
+}
+
+void Console::do_help(const Words& /*words*/, Instant /*now*/)
+{
+    for (const std::string& line : help()) say(line);
+}
+
+void Console::do_quit(const Words& /*words*/, Instant /*now*/)
+{
+    quit_ = true;
+}
+
+std::vector<std::string> Console::summary() const
+{
+    const MasterCounters& c = master_.counters();
+    std::vector<std::string> lines{fmt::format("{} cycles, {} retries, {} requests without answer, {} "
+                                               "invalid answers, {} octets nobody asked for",
+                                               c.cycles, c.retries, c.missing, c.invalid, c.unasked_octets),
+                                   fmt::format("{} diagnosis reads, {} answers with diagnosis pending, {} "
+                                               "refusals, {} times out of data exchange",
+                                               c.diagnosis_reads, c.diagnosis_pending, c.refused,
+                                               c.exchanges_lost)};
+    if (c.cycles > 0)
+        lines.push_back(fmt::format(
+            "Data_Exchange, request handed over until answer whole: min {:.0f}, mean {:.0f}, max {:.0f} us",
+            microseconds(c.answer_min), microseconds(c.answer_sum) / static_cast<double>(c.cycles),
+            microseconds(c.answer_max)));
+    return lines;
+}
+
+} // namespace dpslave::sim

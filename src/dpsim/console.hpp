@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The language of `dpsim master`: one command a line, the answer in plain words. Pure: it drives a Master,
+/// is told the time, and gives out lines. The cyclic exchange goes on while a command waits.
+#pragma once
+
+#include "dpsim/condition.hpp"
+
+namespace dpslave::sim {
+
+class Console {
+public:
+    /// `began`: zero of the times that are printed before events.
+    Console(Master& master, Instant began) : master_(master), began_(began) {}
+
+    /// Carries out one line. Precondition: !busy(). `place` begins the sentence of a failure ("line 4: ").
+    void command(const std::string& line, const std::string& place, Instant now);
+    /// After every turn of the master: takes its events, and ends what the running command waits for.
+    void on_time(Instant now);
+
+    bool busy() const { return wait_.has_value(); }
+    Instant next_deadline() const { return wait_ ? wait_->until : kNever; }
+    bool quit() const { return quit_; }
+    bool failed() const { return failed_; }
+    std::vector<std::string> take_lines();
+    /// The summary at the end.
+    std::vector<std::string> summary() const;
+    static std::vector<std::string> help();
+
+private:
+    using Words = std::vector<std::string>;
+    enum class For : std::uint8_t { start, answer, time, condition, demand_idle, demand_answer };
+    struct Wait {
+        For what = For::time;
+        Instant until = kNever;
+        Condition condition{};
+        DemandWords demand{};                  ///< the order that is meant
+        Service service = Service::slave_diag; ///< whose answer
+        std::uint64_t cycles = 0;              ///< how many there had been
+    };
+    struct Command;
+    static const std::vector<Command>& commands();
+
+    void do_start(const Words& words, Instant now);
+    void do_wait(const Words& words, Instant now);
+    void do_run(const Words& words, Instant now);
+    void do_expect(const Words& words, Instant now);
+    void do_in(const Words& words, Instant now);
+    void do_out(const Words& words, Instant now);
+    void do_demand(const Words& words, Instant now);
+    void do_diag(const Words& words, Instant now);
+    void do_get_cfg(const Words& words, Instant now);
+    void do_global(const Words& words, Instant now);
+    void do_mode(const Words& words, Instant now);
+    void do_unlock(const Words& words, Instant now);
+    void do_service(const Words& words, Instant now);
+    void do_stop(const Words& words, Instant now);
+    void do_stats(const Words& words, Instant now);
+    void do_help(const Words& words, Instant now);
+    void do_quit(const Words& words, Instant now);
+
+    void take(const MasterEvent& event, Instant now);
+    void take_answer(const Answer& answer);
+    void check_wait(Instant now);
+    void start_refused(const std::string& why);
+    void ask(Order order, Instant now);
+    void await(Wait wait) { wait_ = std::move(wait); }
+    void done() { wait_.reset(); }
+    void say(std::string line) { lines_.push_back(std::move(line)); }
+    void stamp(Instant now, std::string_view words);
+    void fail(std::string_view why);
+
+    Master& master_;
+    Instant began_;
+    std::optional<Wait> wait_;
+    std::string line_, place_;
+    bool forgiving_ = false; ///< "try": a failure is told, but does not count
+    bool quit_ = false, failed_ = false;
+    Octets last_reply_;
+    std::vector<std::string> lines_;
+};
+
+} // namespace dpslave::sim

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Slave_Diag as the master reads it (wire reference 5.1 and 5.3), with words for people.
+#pragma once
+
+#include "dpsim/telegram.hpp"
+
+#include <string_view>
+
+namespace dpslave::sim {
+
+/// The six standard octets and what follows them.
+struct Diagnosis {
+    Octets octets;              ///< all of them, at least six
+    std::uint8_t master = 0xFF; ///< Master_Add; FF = nobody's
+    std::uint16_t ident = 0;
+
+    bool bit(std::size_t octet, std::uint8_t mask) const { return (octets[octet - 1] & mask) != 0; }
+    bool not_ready() const { return bit(1, 0x02); }
+    bool cfg_fault() const { return bit(1, 0x04); }
+    bool not_supported() const { return bit(1, 0x10); }
+    bool prm_fault() const { return bit(1, 0x40); }
+    bool prm_required() const { return bit(2, 0x01); }
+    bool stat_diag() const { return bit(2, 0x02); }
+};
+
+/// From the data unit of a Slave_Diag reply; says what is implausible about it.
+Result<Diagnosis, std::string> parse_diagnosis(Bytes data);
+
+/// One line a finding, the standard octets first, then each block of the extended part.
+std::vector<std::string> explain(const Diagnosis& diagnosis);
+
+/// Is the finding of this name ("prm-fault", "cfg-fault", "not-ready", "prm-required", "ext-diag",
+/// "stat-diag", "not-supported", "watchdog", "freeze", "sync", "overflow") set? Nothing if there is no such
+/// name.
+std::optional<bool> finding(const Diagnosis& diagnosis, std::string_view name);
+
+} // namespace dpslave::sim

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+/// EI-ASCII as a drive speaks it (ANSI X3.28, subcategory 2.5; EI-ASCII reference, sections 1 to 4): the
+/// judge's own hand for checksums, mnemonics and text forms. Shares nothing with the daemon's drive room.
+#pragma once
+
+#include "dpsim/tag_file.hpp"
+#include "dpsim/telegram.hpp"
+
+#include <string_view>
+
+namespace dpslave::sim {
+
+inline constexpr std::uint8_t kStx = 0x02, kEtx = 0x03, kEot = 0x04, kEnq = 0x05, kAck = 0x06, kNak = 0x15;
+
+/// EE, last error (EI-ASCII reference, section 4).
+enum class Ee : std::uint16_t {
+    none = 0x00C0,
+    invalid_mnemonic = 0x01C7,
+    checksum = 0x02C2,
+    write_only = 0x04C8,
+    read_only = 0x05C8,
+    message_format = 0x07C7,
+    invalid_data = 0x07C8,
+    out_of_range = 0x08C8,
+};
+
+/// What stands behind the option board.
+enum class Model : std::uint8_t {
+    dc590,  ///< "590": ENUM in hexadecimal
+    ac584s, ///< "584s": ENUM decimal with a point, both forms taken
+    dc620,  ///< "620": ENUM in hexadecimal, both forms taken (no table names one)
+};
+std::optional<Model> model_of(std::string_view name);
+
+/// Exclusive OR of what follows STX, ETX included.
+std::uint8_t block_check(Bytes after_stx);
+
+/// STX, mnemonic, data, ETX, BCC.
+Octets reply_frame(std::string_view mnemonic, std::string_view data);
+
+/// The two characters that a drive of the 590+ rule gives tag 0..1611; PNO 0..127 are tags 1000..1127. Empty
+/// = none.
+std::string mnemonic_of(std::uint16_t tag);
+
+/// A value as the drive sends it: "30.", "-0.5", ">1B0B", ">01".
+std::string drive_text(Model model, const SimTag& tag, const SimValue& value);
+
+/// A value as the master writes it; the error that EE shows if the drive does not take it. Limits included.
+Result<SimValue, Ee> drive_value(Model model, const SimTag& tag, std::string_view data);
+
+} // namespace dpslave::sim

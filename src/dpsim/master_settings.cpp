@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dpsim/master.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace dpslave::sim {
+namespace {
+
+constexpr std::array<std::string_view, 7> kStateNames{
+    "stopped", "searching", "asking", "parameterising", "configuring", "awaiting-ready", "data-exchange"};
+
+constexpr std::array<std::string_view, 8> kServiceNames{"FDL status",     "Slave_Diag",  "Set_Prm",
+                                                        "Chk_Cfg",        "Get_Cfg",     "Data_Exchange",
+                                                        "Global_Control", "raw telegram"};
+
+/// The two watchdog factors for at least `wanted`, as near as 10 ms steps allow; the longest there is if it
+/// is too long.
+std::pair<std::uint8_t, std::uint8_t> watchdog_factors(std::chrono::milliseconds wanted)
+{
+    const auto steps = std::clamp<std::int64_t>((wanted.count() + 9) / 10, 1, 255 * 255);
+    std::pair<std::uint8_t, std::uint8_t> best{std::uint8_t{255}, std::uint8_t{255}};
+    std::int64_t best_product = 255 * 255;
+    for (std::int64_t a = 1; a <= 255; ++a) {
+        const std::int64_t b = (steps + a - 1) / a;
+        if (b > 255 || a * b >= best_product) continue;
+        best = {static_cast<std::uint8_t>(b), static_cast<std::uint8_t>(a)};
+        best_product = a * b;
+    }
+    return best;
+}
+
+} // namespace
+
+std::string_view text(Service service)
+{
+    return kServiceNames[static_cast<std::size_t>(service)];
+}
+
+std::uint8_t sap_of(Service service)
+{
+    switch (service) {
+        case Service::slave_diag: return kSapSlaveDiag;
+        case Service::set_prm: return kSapSetPrm;
+        case Service::chk_cfg: return kSapChkCfg;
+        case Service::get_cfg: return kSapGetCfg;
+        default: return kSapGlobalControl;
+    }
+}
+
+std::string_view text(MasterState state)
+{
+    return kStateNames[static_cast<std::size_t>(state)];
+}
+
+std::optional<MasterState> master_state(std::string_view name)
+{
+    for (std::size_t i = 0; i < kStateNames.size(); ++i)
+        if (kStateNames[i] == name) return static_cast<MasterState>(i);
+    return std::nullopt;
+}
+
+Result<CfgLengths, std::string> cfg_lengths(Bytes cfg)
+{
+    CfgLengths total;
+    for (std::size_t i = 0; i < cfg.size();) {
+        const std::uint8_t id = cfg[i++];
+        const unsigned kind = id >> 4 & 3U;
+        if (kind != 0) {
+            const std::size_t octets = ((id & 0x0FU) + 1U) * ((id & 0x40) != 0 ? 2U : 1U);
+            if ((kind & 1U) != 0) total.inputs += octets;
+            if ((kind & 2U) != 0) total.outputs += octets;
+            continue;
+        }
+        for (const unsigned mask : {0x80U, 0x40U}) { // special format: outputs first, then inputs
+            if ((id & mask) == 0) continue;
+            if (i >= cfg.size())
+                return Failure{fmt::format("identifier {:02X}: its length octet is missing", id)};
+            const std::uint8_t length = cfg[i++];
+            const std::size_t octets = ((length & 0x3FU) + 1U) * ((length & 0x40) != 0 ? 2U : 1U);
+            (mask == 0x80U ? total.outputs : total.inputs) += octets;
+        }
+        const std::size_t vendor = (id & 0x0F) == 15 ? 0U : id & 0x0FU;
+        if (vendor > cfg.size() - i)
+            return Failure{fmt::format("identifier {:02X}: {} more octets are announced", id, vendor)};
+        i += vendor;
+    }
+    if (total.inputs > 244 || total.outputs > 244)
+        return Failure{
+            fmt::format("{} input and {} output octets, but 244 are the limit", total.inputs, total.outputs)};
+    return total;
+}
+
+Octets set_prm_unit(const MasterSettings& s)
+{
+    const bool wd = s.watchdog.count() > 0;
+    const auto [f1, f2] = watchdog_factors(s.watchdog);
+    Octets unit{static_cast<std::uint8_t>(0x80 | (s.sync_freeze ? 0x30 : 0) | (wd ? 0x08 : 0)),
+                wd ? f1 : std::uint8_t{1},
+                wd ? f2 : std::uint8_t{1},
+                s.min_tsdr,
+                high(s.ident),
+                low(s.ident),
+                s.group};
+    const std::size_t fixed = unit.size();
+    unit.resize(fixed + s.user_prm.size());
+    std::copy(s.user_prm.begin(), s.user_prm.end(), unit.begin() + static_cast<std::ptrdiff_t>(fixed));
+    return unit;
+}
+
+} // namespace dpslave::sim

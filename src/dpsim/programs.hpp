@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The three programs of dpsim, after their options were read. Each returns its exit status.
+#pragma once
+
+#include "dpsim/master.hpp"
+
+namespace dpslave::sim {
+
+/// Exit status: 0 fine, 1 an expectation failed or the slave cannot be reached, 2 usage, 3 a port cannot be
+/// opened.
+inline constexpr int kFine = 0, kFailed = 1, kUsage = 2, kNoPort = 3;
+
+struct LineOptions {
+    std::uint32_t baud = 187'500;
+    unsigned bits = 11;
+    std::string a, b;
+    double errors = 0;
+    std::uint32_t delay_us = 0;
+    std::uint64_t seed = 1;
+};
+int run_line(const LineOptions& options);
+
+struct DriveOptions {
+    std::string model, port;
+    std::uint32_t baud = 9600;
+    std::vector<std::string> units{"00"};
+    std::string tags; ///< empty: the example table
+    double turnaround_ms = 1;
+    std::vector<std::string> faults;
+    bool log = false;
+};
+int run_drive(const DriveOptions& options);
+
+struct MasterOptions {
+    MasterSettings settings;
+    std::string port;
+    std::string script; ///< empty: people type; "-": a script from standard input
+};
+int run_master(const MasterOptions& options);
+
+} // namespace dpslave::sim

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A tag table from a CSV file, read by the simulator's own hand (columns as dpslaved.toml describes them).
+#pragma once
+
+#include "dpslave/base/result.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dpslave::sim {
+
+enum class TagKind : std::uint8_t {
+    number,
+    word,
+    boolean,
+    enumeration,
+    string
+}; ///< INT/REAL, WORD, BOOL, ENUM, STRING
+enum class TagAccess : std::uint8_t { read_write, read_only, write_only }; ///< an empty column counts as rw
+
+/// What a parameter holds: counts = displayed value x 10^decimals, or the text of a STRING.
+struct SimValue {
+    std::int32_t counts = 0;
+    std::string text{};
+};
+
+struct SimLabel {
+    bool is_bit = false;
+    std::uint16_t number = 0;
+    std::string text{};
+};
+
+struct SimTag {
+    std::uint16_t number = 0;
+    std::string name{};
+    TagKind type = TagKind::number;
+    unsigned decimals = 0; ///< 0..4
+    std::int32_t min = 0;  ///< counts; what the type allows where the table says nothing
+    std::int32_t max = 0;
+    TagAccess access = TagAccess::read_write;
+    std::string mnemonic{}; ///< two characters; empty = by the rule of the family
+    std::vector<SimLabel> labels{};
+    SimValue start{}; ///< column `start` (only dpsim knows it), else the nearest to 0 within the limits
+};
+
+/// Displayed form: "12.50", "-0.05", ">1B0B", "2 (Jog)".
+std::string displayed(const SimTag& tag, const SimValue& value);
+
+/// A displayed form back into a value; a label, ">1B0B" and "0x1B0B" are taken too. Nothing if it is none of
+/// these or beyond the limits.
+std::optional<SimValue> value_of_text(const SimTag& tag, std::string_view text);
+
+/// The whole table, or "FILE:LINE: sentence". `file` only names it.
+Result<std::vector<SimTag>, std::string> parse_tags(std::string_view text, std::string_view file);
+
+/// Reads the file first; says so if that is not possible.
+Result<std::vector<SimTag>, std::string> load_tags(const std::string& path);
+
+} // namespace dpslave::sim

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The judge's own hand for FDL telegrams (EN 50170-2; wire reference, section 2). It shares nothing with the
+/// daemon's rooms on purpose: an error made there must not be made here too.
+#pragma once
+
+#include "dpslave/base/bytes.hpp"
+#include "dpslave/base/result.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dpslave::sim {
+
+using Octets = std::vector<std::uint8_t>;
+
+inline constexpr std::uint8_t kBroadcast = 127; ///< only as DA, never answered
+
+/// Service access points of a DP slave (wire reference 4.1); a master calls them from SAP 62.
+inline constexpr std::uint8_t kSapMaster = 62;
+inline constexpr std::uint8_t kSapGlobalControl = 58;
+inline constexpr std::uint8_t kSapGetCfg = 59;
+inline constexpr std::uint8_t kSapSlaveDiag = 60;
+inline constexpr std::uint8_t kSapSetPrm = 61;
+inline constexpr std::uint8_t kSapChkCfg = 62;
+
+enum class FrameKind : std::uint8_t {
+    short_ack,
+    token,
+    no_data,
+    variable,
+    fixed
+}; ///< SC, SD4, SD1, SD2, SD3
+
+/// One telegram in parts. `data` is the data unit without the SAP octets.
+struct Frame {
+    FrameKind kind = FrameKind::no_data;
+    std::uint8_t da = 0; ///< without the EXT bit
+    std::uint8_t sa = 0;
+    std::uint8_t fc = 0;
+    std::optional<std::uint8_t> dsap{};
+    std::optional<std::uint8_t> ssap{};
+    Octets data{};
+};
+
+enum class Fixed : bool { never, when_eight }; ///< SD3 for a data unit of exactly eight octets?
+
+/// The octets on the wire. `kind` is not looked at: an empty data unit makes SD1, eight octets SD3 if wanted,
+/// others SD2. Precondition: data unit with SAP octets at most 246 octets.
+Octets encode(const Frame& frame, Fixed fixed = Fixed::never);
+
+/// How long the telegram that begins with `head` is; 0 = too few octets to tell; else why it cannot be one.
+Result<std::size_t, std::string> frame_length(Bytes head);
+
+/// Takes a whole telegram apart, or says in words what is wrong with it.
+/// Precondition: octets.size() == *frame_length(octets), not 0.
+Result<Frame, std::string> decode(Bytes octets);
+
+/// "Slave_Diag request 2 to 5" and the like, for people.
+std::string describe(const Frame& frame);
+
+} // namespace dpslave::sim

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Words, numbers, times and octets as people type them into a simulator.
+#pragma once
+
+#include "dpsim/telegram.hpp"
+
+#include <chrono>
+#include <string_view>
+
+namespace dpslave::sim {
+
+/// Parts of a line between blanks; a `#` at the start of a word begins a comment.
+std::vector<std::string> words_of(std::string_view line);
+
+/// "1250", "-30000", "0x04E2"; nothing if it is no number.
+std::optional<std::int64_t> number_of(std::string_view text);
+
+/// "2s", "1.5s", "500ms"; nothing if it is no time.
+std::optional<std::chrono::nanoseconds> duration_of_text(std::string_view text);
+
+/// "68 05", "6805" or "68,05"; an odd number of digits or another character is an error in words.
+Result<Octets, std::string> octets_of(std::string_view text);
+
+/// A word of the process image: "1250 (0x04E2)", "-30000 (0x8AD0)".
+std::string show_word(std::uint16_t word);
+
+} // namespace dpslave::sim

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a script can ask for, and how Demand Data lies in the telegram (HA389815 chapters 6 and 7).
+#include "dpsim/condition.hpp"
+#include "dpsim/values.hpp"
+#include "octets.hpp"
+
+#include <gmock/gmock.h>
+
+namespace dpslave::sim {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+MasterSettings option_board()
+{
+    MasterSettings s;
+    s.cfg = wire("73 50 60 50");
+    return s;
+}
+
+TEST(Conditions, AreReadWithAndWithoutBlanks)
+{
+    for (const char* const text : {"in 1 = 1250", "in1=1250", "in1 = 1250"}) {
+        const auto c = parse_condition(words_of(text));
+        ASSERT_TRUE(c) << c.error();
+        EXPECT_EQ(c->subject, Condition::Subject::input);
+        EXPECT_EQ(c->index, 1U);
+        EXPECT_EQ(c->value, 1250);
+    }
+    EXPECT_EQ(parse_condition(words_of("in 2 >= -5"))->relation, ">=");
+    EXPECT_TRUE(parse_condition(words_of("state not data-exchange"))->negated);
+    EXPECT_EQ(parse_condition(words_of("diag 00 0C"))->octets, wire("00 0C"));
+    EXPECT_EQ(parse_condition(words_of("diag not cfg-fault"))->name, "cfg-fault");
+}
+
+TEST(Conditions, ThatMakeNoSenseAreExplained)
+{
+    EXPECT_THAT(parse_condition({}).error(), HasSubstr("missing"));
+    EXPECT_THAT(parse_condition(words_of("in 0 = 5")).error(), HasSubstr("in 1 = 1250"));
+    EXPECT_THAT(parse_condition(words_of("in 1 ~ 5")).error(), HasSubstr("in 1 = 1250"));
+    EXPECT_THAT(parse_condition(words_of("state happy")).error(), HasSubstr("no state 'happy'"));
+    EXPECT_THAT(parse_condition(words_of("weather fine")).error(), HasSubstr("no condition"));
+    EXPECT_THAT(parse_condition(words_of("diag sunshine")).error(), HasSubstr("neither"));
+}
+
+TEST(DemandData, LiesInTheFirstEightOctets)
+{
+    Master master{option_board()};
+    set_demand_request(master, {2, 56, 1000});
+    set_output_word(master, 1, 0x8AD0);
+    EXPECT_EQ(hex(master.outputs()), "20 38 00 00 00 00 03 E8 8A D0");
+    EXPECT_EQ(input_words(master), 2U);
+    EXPECT_EQ(output_words(master), 1U);
+    EXPECT_FALSE(set_output_word(master, 2, 0));
+}
+
+TEST(DemandData, IsShownInWords)
+{
+    EXPECT_EQ(show_demand({1, 270, 30000}), "tag 270 = 30000 (0x7530)");
+    EXPECT_EQ(show_demand({7, 55, 1}), "tag 55 rejected, 1: read-only parameter");
+    EXPECT_EQ(show_demand({0, 0, 0}), "no command");
+}
+
+TEST(Values, AreReadAsPeopleWriteThem)
+{
+    EXPECT_EQ(number_of("-300"), -300);
+    EXPECT_EQ(number_of("0x04E2"), 1250);
+    EXPECT_EQ(number_of("12a"), std::nullopt);
+    EXPECT_EQ(duration_of_text("2s"), 2s);
+    EXPECT_EQ(duration_of_text("1.5s"), 1500ms);
+    EXPECT_EQ(duration_of_text("500ms"), 500ms);
+    EXPECT_EQ(duration_of_text("5"), std::nullopt);
+    EXPECT_EQ(duration_of_text("-5s"), std::nullopt);
+    EXPECT_EQ(*octets_of("6805 05,68"), wire("68 05 05 68"));
+    EXPECT_FALSE(octets_of("680"));
+    EXPECT_FALSE(octets_of("zz"));
+    EXPECT_EQ(words_of("  out 1 = 5 # five"), (std::vector<std::string>{"out", "1", "=", "5"}));
+    EXPECT_EQ(show_word(0x8AD0), "-30000 (0x8AD0)");
+}
+
+} // namespace
+} // namespace dpslave::sim

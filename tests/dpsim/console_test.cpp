@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: Apache-2.0
+// The script language of `dpsim master` on a simulated clock.
+#include "dpsim/console.hpp"
+#include "master_bench.hpp"
+
+#include <gmock/gmock.h>
+
+namespace dpslave::sim {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+MasterSettings option_board()
+{
+    MasterSettings s;
+    s.cfg = {0x73, 0x50};
+    return s;
+}
+
+/// A slave that says yes to everything and answers Data_Exchange with `inputs`: frames made by hand below.
+class ConsoleTest : public testing::Test {
+protected:
+    static Octets sd2(Octets body)
+    {
+        std::uint8_t fcs = 0;
+        for (const std::uint8_t octet : body) fcs = static_cast<std::uint8_t>(fcs + octet);
+        const auto le = static_cast<std::uint8_t>(body.size());
+        Octets frame{0x68, le, le, 0x68};
+        frame.insert(frame.end(), body.begin(), body.end());
+        frame.push_back(fcs);
+        frame.push_back(0x16);
+        return frame;
+    }
+    Octets answer(const Octets& request)
+    {
+        if (silent) return {};
+        if (request[0] == 0x10) return wire("10 02 05 00 07 16");
+        if (request[4] == 0xFF) return {};
+        if (request[4] == 0x05) {
+            requests.emplace_back(request.begin() + 7, request.end() - 2);
+            Octets body{0x02, 0x05, 0x08};
+            const Octets inputs = drive ? drive(requests.back()) : Octets(10, 0);
+            body.insert(body.end(), inputs.begin(), inputs.end());
+            return sd2(body);
+        }
+        if (request[7] != 0x3C) return wire("E5");
+        Octets body = wire("82 85 08 3E 3C");
+        body.insert(body.end(), diagnosis.begin(), diagnosis.end());
+        return sd2(body);
+    }
+    /// One command, with the bus running for as long as it waits (at most 60 s).
+    void run(const std::string& line)
+    {
+        console.command(line, "script:1: ", now);
+        for (const Instant end = now + 60s; now < end;) {
+            console.on_time(now);
+            master.on_time(now);
+            console.on_time(now);
+            for (const std::string& said : console.take_lines()) text += said + "\n";
+            if (!console.busy()) return;
+            if (const auto telegram = master.take_transmit(now)) {
+                now += 1ms;
+                if (const Octets reply = answer(*telegram); !reply.empty()) master.on_bytes(reply, now);
+                continue;
+            }
+            now = std::max(now + 1us, std::min(master.next_deadline(), console.next_deadline()));
+        }
+        ADD_FAILURE() << line << " never ended";
+    }
+
+    Instant now{1s};
+    Master master{option_board()};
+    Console console{master, now};
+    bool silent = false;
+    Octets diagnosis = wire("00 0C 00 02 05 33");
+    std::vector<Octets> requests;
+    std::function<Octets(const Octets&)> drive;
+    std::string text;
+};
+
+TEST_F(ConsoleTest, StartsAndWaitsForAnInput)
+{
+    drive = [&](const Octets&) {
+        return requests.size() > 20 ? wire("00 00 00 00 00 00 00 00 04 E2") : Octets(10, 0);
+    };
+    run("start");
+    run("wait 2s for in1 = 1250");
+    run("expect in 1 = 1250");
+    EXPECT_FALSE(console.failed()) << text;
+    EXPECT_THAT(text, HasSubstr("station is in data exchange"));
+}
+
+TEST_F(ConsoleTest, FailsWithASentenceWhenAnExpectationIsNotMet)
+{
+    run("start");
+    run("expect in 1 = 7");
+    EXPECT_TRUE(console.failed());
+    EXPECT_THAT(text, HasSubstr("script:1: expect in 1 = 7: in 1 is 0 (0x0000)"));
+}
+
+TEST_F(ConsoleTest, ForgivesWhatWasOnlyTried)
+{
+    run("start");
+    run("try expect in 1 = 7");
+    EXPECT_FALSE(console.failed());
+}
+
+TEST_F(ConsoleTest, FailsWhenAConditionDoesNotComeInTime)
+{
+    run("start");
+    run("wait 500ms for in 1 > 0");
+    EXPECT_TRUE(console.failed());
+    EXPECT_THAT(text, HasSubstr("not in time, in 1 is 0"));
+}
+
+TEST_F(ConsoleTest, SaysThatNobodyAnswers)
+{
+    silent = true;
+    run("start 1s");
+    EXPECT_TRUE(console.failed());
+    EXPECT_THAT(text, HasSubstr("station 5 does not answer"));
+}
+
+TEST_F(ConsoleTest, ExplainsTheDiagnosisWhenTheStartIsRefused)
+{
+    diagnosis = wire("06 05 00 FF 05 33");
+    run("start");
+    EXPECT_TRUE(console.failed());
+    EXPECT_THAT(text, HasSubstr("Chk_Cfg was refused"));
+    EXPECT_THAT(text, HasSubstr("Cfg_Fault"));
+    run("try expect diag cfg-fault");
+    EXPECT_THAT(text, HasSubstr("as expected, the diagnosis is 06 05 00 FF 05 33"));
+}
+
+TEST_F(ConsoleTest, SetsOutputWords)
+{
+    master.stop();
+    run("out 1 = 500");
+    EXPECT_THAT(text, HasSubstr("there are 0 output words"));
+}
+
+/// A gateway with Demand Data: answers an order only after some cycles, the old answer stays until then.
+class DemandConsoleTest : public ConsoleTest {
+protected:
+    DemandConsoleTest()
+    {
+        drive = [this](const Octets& out) {
+            if (out[0] >> 4 == 0) {
+                answered = Octets(10, 0);
+                since = requests.size();
+            } else if (requests.size() > since + 3) {
+                answered = reply_to(out);
+            }
+            return answered;
+        };
+    }
+    virtual Octets reply_to(const Octets& out)
+    {
+        Octets in(10, 0);
+        in[0] = static_cast<std::uint8_t>((rejects ? 0x70 : 0x10) | (out[0] & 0x07));
+        in[1] = out[1];
+        in[7] = rejects ? 1 : 42;
+        return in;
+    }
+    bool rejects = false;
+    Octets answered = Octets(10, 0);
+    std::size_t since = 0;
+};
+
+TEST_F(DemandConsoleTest, ReadsATag)
+{
+    run("start");
+    run("demand read 55");
+    run("expect demand = 42");
+    EXPECT_FALSE(console.failed()) << text;
+    EXPECT_THAT(text, HasSubstr("tag 55 = 42"));
+    EXPECT_EQ(hex(requests.back()), "10 37 00 00 00 00 00 00");
+}
+
+TEST_F(DemandConsoleTest, PutsNoCommandBetweenTwoOrdersOfOneTag)
+{
+    run("start");
+    run("demand read 55");
+    const std::size_t before = requests.size();
+    run("demand write 55 1000");
+    EXPECT_EQ(hex(requests[before]), "00 00 00 00 00 00 00 00");
+    EXPECT_EQ(hex(requests.back()), "20 37 00 00 00 00 03 E8");
+    EXPECT_FALSE(console.failed()) << text;
+}
+
+TEST_F(DemandConsoleTest, ShowsARejectionWithItsReason)
+{
+    rejects = true;
+    run("start");
+    run("demand write 55 1000");
+    run("expect demand reject 1");
+    EXPECT_FALSE(console.failed()) << text;
+    EXPECT_THAT(text, HasSubstr("tag 55 rejected, 1: read-only parameter"));
+    run("demand none");
+    run("expect demand none");
+    EXPECT_FALSE(console.failed()) << text;
+}
+
+TEST_F(ConsoleTest, ReadsAndExplainsTheDiagnosis)
+{
+    run("start");
+    run("diag");
+    EXPECT_THAT(text, HasSubstr("ident 0x0533, owned by master 2"));
+    EXPECT_THAT(text, HasSubstr("WD_On"));
+}
+
+TEST_F(ConsoleTest, SendsRawOctetsAndShowsTheReply)
+{
+    run("send 10 05 02 49 50 16");
+    run("expect reply 10 02 05 00 07 16");
+    EXPECT_FALSE(console.failed()) << text;
+    silent = true;
+    run("send 10 06 02 49 51 16");
+    run("expect reply none");
+    EXPECT_FALSE(console.failed()) << text;
+}
+
+TEST_F(ConsoleTest, StaysInDataExchangeUntilItIsStopped)
+{
+    run("start");
+    run("run 1s");
+    run("expect state data-exchange");
+    run("stop");
+    run("expect state stopped");
+    EXPECT_FALSE(console.failed()) << text;
+    EXPECT_GT(master.counters().cycles, 90U) << "a cycle takes 10 ms";
+}
+
+TEST_F(ConsoleTest, SaysWhatIsWrongWithACommand)
+{
+    run("jump");
+    EXPECT_THAT(text, HasSubstr("no command 'jump'"));
+    run("wait for rain");
+    EXPECT_THAT(text, HasSubstr("wait 2s for in 1 = 1250"));
+    run("demand read 3000");
+    EXPECT_THAT(text, HasSubstr("tags 0 to 2047"));
+    run("send 123");
+    EXPECT_THAT(text, HasSubstr("odd number"));
+}
+
+} // namespace
+} // namespace dpslave::sim
