@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+/// One caller: octets in, octets out, and what he waits for. Bounded in both directions.
+#pragma once
+
+#include "descriptor.hpp"
+
+#include "dpslave/control/server.hpp"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace dpslave::control {
+
+class Connection {
+public:
+    /// What the caller waits for. While he waits, his further calls stay unread.
+    enum class Waits : std::uint8_t { nothing, later, stream };
+
+    /// `id`: the server's number of this connection.
+    Connection(std::uint64_t number_of_connection, Descriptor fd, Caller who, bool operator_rights)
+        : id(number_of_connection), caller(std::move(who)), operates(operator_rights), fd_(std::move(fd))
+    {}
+
+    int fd() const noexcept { return fd_.get(); }
+    bool dead() const noexcept { return dead_; }
+    void kill() noexcept { dead_ = true; }
+    bool ended() const noexcept { return ended_; }
+    /// Ready for his next call: replies are fetched, nothing is awaited.
+    bool idle() const noexcept { return !dead_ && waits == Waits::nothing && out_.empty(); }
+
+    /// Reads what has come, as far as there is room for it.
+    void receive();
+    /// Sends as much of what waits as the socket takes.
+    void flush();
+    /// Adds to what waits and sends. False: more than `limit` octets would wait.
+    bool send(std::string_view message, std::size_t limit);
+    /// The caller will never read: forgets what waits.
+    void drop_output() noexcept { out_.clear(); }
+
+    /// What epoll shall report of him now.
+    std::uint32_t wanted_events() const noexcept;
+
+    const std::uint64_t id;
+    const Caller caller;
+    const bool operates;
+    Framer in{kMaxCall};
+    Waits waits = Waits::nothing;
+    std::uint64_t number = 0;       ///< the token or stream he waits for
+    std::uint32_t known_events = 0; ///< what epoll was told last
+
+private:
+    Descriptor fd_;
+    std::string out_;
+    bool ended_ = false; ///< he sends no more
+    bool dead_ = false;
+};
+
+} // namespace dpslave::control

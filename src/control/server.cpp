@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dpslave/control/server.hpp"
+
+#include "server_impl.hpp"
+
+#include <fmt/format.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+
+namespace dpslave::control {
+namespace {
+
+constexpr std::uint64_t kListener = 0; ///< epoll's name for the listening socket; connections count from 1
+constexpr int kAcceptedAtOnce = 16;    ///< a flood of callers does not hold the main thread
+
+} // namespace
+
+bool may_operate(const Caller& caller, std::optional<gid_t> operator_group) noexcept
+{
+    if (caller.uid == 0) return true;
+    if (!operator_group) return false;
+    return caller.gid == *operator_group ||
+           std::find(caller.groups.begin(), caller.groups.end(), *operator_group) != caller.groups.end();
+}
+
+bool Server::Impl::listen()
+{
+    epoll_event event{};
+    event.events = EPOLLIN;
+    event.data.u64 = kListener;
+    return epoll && ::epoll_ctl(epoll.get(), EPOLL_CTL_ADD, listener.fd(), &event) == 0;
+}
+
+void Server::Impl::accept_callers()
+{
+    for (int n = 0; n < kAcceptedAtOnce; ++n)
+        if (!accept_one()) return;
+}
+
+/// False: nobody waits any more, or nobody can be taken in.
+bool Server::Impl::accept_one()
+{
+    Descriptor fd{::accept4(listener.fd(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC)};
+    if (fd) {
+        take_in(std::move(fd));
+        return true;
+    }
+    if (errno == EINTR || errno == ECONNABORTED) return true;
+    if (errno == EMFILE || errno == ENFILE) { // else epoll would report this caller for ever
+        spare.reset();
+        const Descriptor turned_away{::accept4(listener.fd(), nullptr, nullptr, SOCK_CLOEXEC)};
+        if (turned_away) ++counters.turned_away;
+    }
+    if (!spare) spare = open_spare();
+    return false;
+}
+
+void Server::Impl::take_in(Descriptor fd)
+{
+    Caller caller = peer_of(fd.get());
+    const bool operates = may_operate(caller, settings.operator_group);
+    const std::size_t kept = operates ? 0 : std::min(settings.kept_for_operators, settings.max_clients);
+    auto connection = std::make_unique<Connection>(++last_id, std::move(fd), std::move(caller), operates);
+    epoll_event event{};
+    event.events = connection->known_events = connection->wanted_events();
+    event.data.u64 = connection->id;
+    if (connections.size() >= settings.max_clients - kept ||
+        ::epoll_ctl(epoll.get(), EPOLL_CTL_ADD, connection->fd(), &event) < 0) {
+        ++counters.turned_away;
+        connection->send(encode_error({"Busy"}), kMaxReply);
+        return;
+    }
+    ++counters.connections;
+    connections.emplace(connection->id, std::move(connection));
+}
+
+void Server::Impl::serve(Connection& connection, std::uint32_t events)
+{
+    const bool gone =
+        (events & (EPOLLHUP | EPOLLERR)) != 0; // both directions: nobody reads our replies any more
+    if (gone && connection.waits != Connection::Waits::nothing) return connection.kill();
+    if (gone) connection.drop_output();
+    connection.flush();
+    if (connection.idle()) connection.receive(); // calls sent before he went are still done
+    process(connection);
+    if (gone) connection.kill();
+}
+
+/// Answers the calls that have come whole, until one keeps the caller waiting or he has to fetch his replies
+/// first.
+void Server::Impl::process(Connection& connection)
+{
+    while (connection.idle()) {
+        const auto message = connection.in.next();
+        if (message && !*message) {
+            if (connection.ended()) connection.kill(); // all calls done, all replies fetched
+            return;
+        }
+        auto call = message ? parse_call(**message) : Result<Call, Flaw>{Failure{message.error()}};
+        if (!call) {
+            ++counters.malformed;
+            return connection.kill();
+        }
+        dispatch(connection, *call);
+    }
+}
+
+void Server::Impl::settle(Connection& connection)
+{
+    if (connection.dead()) {
+        if (connection.waits == Connection::Waits::later) laters.erase(connection.number);
+        if (connection.waits == Connection::Waits::stream) streams.erase(connection.number);
+        connections.erase(connection.id); // closes the descriptor, which takes it out of the epoll
+        return;
+    }
+    const std::uint32_t wanted = connection.wanted_events();
+    if (wanted == connection.known_events) return;
+    epoll_event event{};
+    event.events = connection.known_events = wanted;
+    event.data.u64 = connection.id;
+    ::epoll_ctl(epoll.get(), EPOLL_CTL_MOD, connection.fd(), &event);
+}
+
+// ---------------------------------------------------------------- the door
+
+Result<Server, std::string> Server::open(ServerSettings settings, Handlers handlers)
+{
+    auto own = parse_interface(interface_text());
+    if (!own) return Failure{fmt::format("{}: {}", kInterface, own.error())};
+    auto service = parse_interface(service_interface_text());
+    if (!service) return Failure{fmt::format("{}: {}", kServiceInterface, service.error())};
+    for (const MethodEntry& method : kMethods)
+        if (handlers.find(method.name) == handlers.end())
+            return Failure{fmt::format("the method {} has no handler", method.name)};
+    if (handlers.size() != kMethods.size()) return Failure{std::string{"a handler has no method"}};
+
+    auto listener = ListeningSocket::open(settings.socket);
+    if (!listener) return Failure{listener.error()};
+    auto impl = std::make_unique<Impl>(std::move(settings), std::move(handlers), *std::move(listener),
+                                       *std::move(own), *std::move(service));
+    if (!impl->listen()) return Failure{fmt::format("control socket: {}", error_text(errno))};
+    return Server{std::move(impl)};
+}
+
+Server::Server(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Server::Server(Server&&) noexcept = default;
+Server& Server::operator=(Server&&) noexcept = default;
+Server::~Server() = default;
+
+int Server::fd() const noexcept
+{
+    return impl_->epoll.get();
+}
+
+void Server::on_ready()
+{
+    std::array<epoll_event, 2 * 32> events{};
+    const int n = ::epoll_wait(impl_->epoll.get(), events.data(), static_cast<int>(events.size()), 0);
+    for (int i = 0; i < n; ++i) {
+        const epoll_event& event = events[static_cast<std::size_t>(i)];
+        if (event.data.u64 == kListener) {
+            impl_->accept_callers();
+        } else if (const auto found = impl_->connections.find(event.data.u64);
+                   found != impl_->connections.end()) {
+            impl_->serve(*found->second, event.events);
+            impl_->settle(*found->second);
+        }
+    }
+}
+
+bool Server::complete(std::uint64_t token, const Reply& reply)
+{
+    const auto found = impl_->laters.find(token);
+    const bool final = std::holds_alternative<Done>(reply) || std::holds_alternative<Error>(reply);
+    if (found == impl_->laters.end() || !final) return false;
+    Connection& connection = *found->second;
+    impl_->laters.erase(found);
+    connection.waits = Connection::Waits::nothing;
+    impl_->send_final(connection, reply);
+    const bool taken = !connection.dead();
+    impl_->process(connection); // calls that came behind this one
+    impl_->settle(connection);
+    return taken;
+}
+
+bool Server::push(std::uint64_t stream, const Json& parameters)
+{
+    const auto found = impl_->streams.find(stream);
+    if (found == impl_->streams.end()) return false;
+    Connection& connection = *found->second;
+    impl_->send(connection, encode_reply({parameters}, true));
+    const bool taken = !connection.dead();
+    impl_->settle(connection);
+    return taken;
+}
+
+std::vector<std::uint64_t> Server::streams() const
+{
+    std::vector<std::uint64_t> numbers;
+    for (const auto& [number, connection] : impl_->streams) numbers.push_back(number);
+    return numbers;
+}
+
+std::size_t Server::clients() const noexcept
+{
+    return impl_->connections.size();
+}
+const ServerCounters& Server::counters() const noexcept
+{
+    return impl_->counters;
+}
+
+} // namespace dpslave::control

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What a Server holds. server.cpp: connections; dispatch.cpp: calls.
+#pragma once
+
+#include "connection.hpp"
+#include "unix_socket.hpp"
+
+#include "dpslave/control/server.hpp"
+
+#include <fcntl.h>
+#include <sys/epoll.h>
+
+#include <map>
+#include <memory>
+#include <string>
+
+namespace dpslave::control {
+
+struct Server::Impl {
+    Impl(ServerSettings s, Handlers h, ListeningSocket l, Interface own, Interface service)
+        : settings(std::move(s)),
+          handlers(std::move(h)),
+          listener(std::move(l)),
+          own_interface(std::move(own)),
+          service_interface(std::move(service))
+    {}
+
+    // server.cpp
+    bool listen();
+    void accept_callers();
+    bool accept_one();
+    void take_in(Descriptor fd);
+    void serve(Connection& connection, std::uint32_t events);
+    void process(Connection& connection);
+    /// After anything was done with a connection: tells epoll what to watch, or forgets the connection.
+    void settle(Connection& connection);
+
+    // dispatch.cpp
+    void dispatch(Connection& connection, Call& call);
+    Reply answer(const Connection& connection, Call& call);
+    Reply answer_service(const Call& call) const;
+    Reply answer_own(const Connection& connection, Call& call);
+    void deliver(Connection& connection, const Call& call, const Reply& reply);
+    void send(Connection& connection, const std::string& message);
+    void send_final(Connection& connection, const Reply& reply);
+
+    static Descriptor open_spare() { return Descriptor{::open("/dev/null", O_RDONLY | O_CLOEXEC)}; }
+
+    ServerSettings settings;
+    Handlers handlers;
+    ListeningSocket listener;
+    Interface own_interface, service_interface;
+    Descriptor epoll{::epoll_create1(EPOLL_CLOEXEC)};
+    Descriptor spare =
+        open_spare(); ///< given up for a moment when descriptors run out, to turn a caller away
+    std::map<std::uint64_t, std::unique_ptr<Connection>> connections;
+    std::map<std::uint64_t, Connection*> laters, streams; ///< by the application's number
+    std::uint64_t last_id = 0;
+    ServerCounters counters;
+};
+
+} // namespace dpslave::control

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ask.hpp"
+
+#include "explain.hpp"
+#include "words.hpp"
+
+#include <fmt/format.h>
+
+namespace dpslave::dpctl {
+
+int tell(const control::ClientError& error, Terminal& terminal)
+{
+    using Kind = control::ClientError::Kind;
+    terminal.err << "dpctl: " << error.text << '\n';
+    if (error.kind == Kind::no_daemon)
+        terminal.err << "Is dpslaved running? Ask: systemctl status dpslaved\n";
+    if (error.kind == Kind::no_access) terminal.err << "The folder or the socket is closed to this user.\n";
+    if (error.kind == Kind::timeout)
+        terminal.err << "The daemon runs but is silent; see: journalctl -u dpslaved\n";
+    return error.kind == Kind::no_daemon || error.kind == Kind::no_access ? kNoDaemon : kNo;
+}
+
+int tell(const control::ReplyMessage& error, const Options& options, Terminal& terminal)
+{
+    if (options.json)
+        terminal.out << json_text(Json::object({{"error", error.error}, {"parameters", error.parameters}}))
+                     << '\n';
+    terminal.err << "dpctl: " << explain(error) << '\n';
+    return kNo;
+}
+
+Result<Json, int> ask(const Options& options, Terminal& terminal, std::string_view method,
+                      const Json& parameters)
+{
+    auto client = control::Client::connect(options.socket, options.timeout());
+    if (!client) return Failure{tell(client.error(), terminal)};
+    auto reply = client->call(method, parameters);
+    if (!reply) return Failure{tell(reply.error(), terminal)};
+    if (!reply->error.empty()) return Failure{tell(*reply, options, terminal)};
+    return std::move(reply->parameters);
+}
+
+int show(const Options& options, Terminal& terminal, std::string_view method, const Json& parameters,
+         const std::function<std::string(const Json&)>& render)
+{
+    const auto reply = ask(options, terminal, method, parameters);
+    if (!reply) return reply.error();
+    terminal.out << (options.json ? json_text(*reply) + '\n' : render(*reply)) << std::flush;
+    return kFine;
+}
+
+Json station_parameter(const Options& options)
+{
+    Json parameters = Json::object();
+    if (!options.station.empty()) parameters["station"] = options.station;
+    return parameters;
+}
+
+} // namespace dpslave::dpctl

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Asking the daemon, and saying in words why there is no answer.
+#pragma once
+
+#include "subcommands.hpp"
+
+#include "dpslave/control/client.hpp"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace dpslave::dpctl {
+
+using control::Json;
+
+/// The parameters of the reply, or the exit code of a failure that has been told already.
+Result<Json, int> ask(const Options& options, Terminal& terminal, std::string_view method,
+                      const Json& parameters);
+
+/// Asks, and prints the reply as JSON or as `render` makes it.
+int show(const Options& options, Terminal& terminal, std::string_view method, const Json& parameters,
+         const std::function<std::string(const Json&)>& render);
+
+/// Tells a failure to reach the daemon, with what to do. Returns the exit code.
+int tell(const control::ClientError& error, Terminal& terminal);
+/// Tells an error reply; as JSON too when wanted. Returns the exit code.
+int tell(const control::ReplyMessage& error, const Options& options, Terminal& terminal);
+
+/// {} or {"station": ...}.
+Json station_parameter(const Options& options);
+
+} // namespace dpslave::dpctl

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ask.hpp"
+#include "render.hpp"
+#include "subcommands.hpp"
+
+namespace dpslave::dpctl {
+
+int do_read(const Options& options, Terminal& terminal)
+{
+    Json parameters = station_parameter(options);
+    parameters["tag"] = options.tag;
+    return show(options, terminal, "ReadTag", parameters,
+                [](const Json& reply) { return render_tag(reply, "is"); });
+}
+
+int do_write(const Options& options, Terminal& terminal)
+{
+    Json parameters = station_parameter(options);
+    parameters["tag"] = options.tag;
+    parameters["value"] = options.value;
+    return show(options, terminal, "WriteTag", parameters,
+                [](const Json& reply) { return render_tag(reply, "is now"); });
+}
+
+} // namespace dpslave::dpctl

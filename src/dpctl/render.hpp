@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Replies of the daemon as text for people. Pure: the parameters of a reply in, lines out.
+#pragma once
+
+#include "fields.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dpslave::dpctl {
+
+std::string render_status(const Json& reply, bool colour);
+std::string render_stations(const Json& reply, bool colour);
+/// `version`: of the daemon, which is what OPTION VERSION of the board was.
+std::string render_info(const Json& reply, std::string_view version);
+std::string render_io(const Json& reply, bool colour);
+std::string render_diagnosis(const Json& reply, bool colour);
+std::string render_counters(const Json& reply, bool colour);
+std::string render_leds(const Json& reply, bool colour);
+/// A tag read or written.
+std::string render_tag(const Json& reply, std::string_view verb);
+/// The whole picture of `watch`.
+std::string render_watch(const Json& reply, bool colour);
+
+/// What is different in `now`, a line each; everything when there was nothing before.
+std::vector<std::string> changes(const Json& before, const Json& now);
+
+} // namespace dpslave::dpctl

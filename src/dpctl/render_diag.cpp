@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render.hpp"
+#include "table.hpp"
+
+#include <fmt/format.h>
+
+namespace dpslave::dpctl {
+namespace {
+
+Table octet_table(const Json& octets)
+{
+    Table table({">OCTET", ">OFFSET", "VALUE", "MEANING"});
+    for (const Json& o : octets)
+        table.add({number(o, "octet"), number(o, "offset"),
+                   fmt::format("0x{:02X}", integer(o, "value").value_or(0)), text(o, "meaning")});
+    return table;
+}
+
+std::string refusal_lines(const Json& refusal, bool colour)
+{
+    const auto octet = integer(refusal, "octet");
+    const std::string where = octet ? fmt::format(", octet {} (offset {})", *octet, *octet - 1) : "";
+    std::string out =
+        "  " +
+        painted(fmt::format("{} refused{}: {}", text(refusal, "telegram"), where, text(refusal, "what")),
+                Tone::bad, colour) +
+        '\n';
+    Block block;
+    if (const std::string expected = text(refusal, "expected", ""); !expected.empty())
+        block.add("expected", expected);
+    if (const std::string got = text(refusal, "got", ""); !got.empty()) block.add("came", got);
+    block.add("what to do", text(refusal, "advice"));
+    return out + block.str(4);
+}
+
+} // namespace
+
+std::string render_diagnosis(const Json& reply, bool colour)
+{
+    std::string out;
+    for (const Json& d : list(reply, "stations")) {
+        const std::string bits = joined(list(d, "bits"), ", ");
+        out +=
+            fmt::format("{}{}: {}\n", out.empty() ? "" : "\n", painted(text(d, "name"), Tone::strong, colour),
+                        bits.empty() ? "no bit set" : bits);
+        out += octet_table(list(d, "octets")).str(colour, 2);
+        if (const Json& refusal = part(d, "refusal"); !refusal.empty()) out += refusal_lines(refusal, colour);
+        for (const Json& trouble : list(d, "trouble"))
+            if (trouble.is_string())
+                out += "  " + painted(trouble.get<std::string>(), Tone::bad, colour) + '\n';
+        Block block;
+        block.add("Slave_Diag", text(d, "hex"));
+        block.add("last Set_Prm", text(d, "last_prm"));
+        block.add("last Chk_Cfg", text(d, "last_cfg"));
+        out += block.str();
+    }
+    if (!out.empty())
+        out += "\noctet: counted from 1, as the PROFIBUS standard does; offset: counted from 0, as PLC "
+               "programs do\n";
+    return out;
+}
+
+} // namespace dpslave::dpctl

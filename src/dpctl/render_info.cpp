@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render.hpp"
+#include "table.hpp"
+#include "words.hpp"
+
+#include <fmt/format.h>
+
+namespace dpslave::dpctl {
+namespace {
+
+std::string address(const Json& info)
+{
+    const auto active = integer(info, "address_active"), pending = integer(info, "address_pending");
+    std::string result = number(info, "address_active") + " active";
+    if (pending && pending != active)
+        result += fmt::format(
+            ", {} pending: the configuration file has it, the next start of dpslaved takes it", *pending);
+    return result;
+}
+
+std::string limits(const Json& info)
+{
+    return fmt::format("{} parameters, {} octets in, {} octets out, {} octets of diagnosis",
+                       number(info, "max_parameters"), number(info, "max_input_octets"),
+                       number(info, "max_output_octets"), number(info, "max_diag_octets"));
+}
+
+/// "9.6 kbit/s: 60 T_bit" a line.
+std::string rates(const Json& info)
+{
+    const Json& bauds = list(info, "bauds");
+    const Json& tsdr = list(info, "max_tsdr");
+    std::string result;
+    for (std::size_t i = 0; i < bauds.size(); ++i) {
+        if (!bauds[i].is_number_integer()) continue;
+        result += (result.empty() ? "" : "\n") + rate(bauds[i].get<std::int64_t>());
+        if (i < tsdr.size() && tsdr[i].is_number_integer())
+            result += fmt::format(", answers within {} T_bit", tsdr[i].get<std::int64_t>());
+    }
+    return result;
+}
+
+} // namespace
+
+std::string render_info(const Json& reply, std::string_view version)
+{
+    std::string out;
+    for (const Json& info : list(reply, "stations")) {
+        Block block;
+        block.add("emulates", text(info, "device"));
+        block.add("order code", text(info, "order_code"));
+        block.add("OPTION VERSION", std::string{version});
+        block.add("host firmware", text(info, "firmware"));
+        block.add("manual", text(info, "manual"));
+        block.add("profile", text(info, "profile"));
+        block.add("Ident_Number", fmt::format("0x{:04X}", integer(info, "ident").value_or(0)));
+        block.add("address", address(info));
+        block.add("legal addresses",
+                  fmt::format("{} to {}", number(info, "address_min"), number(info, "address_max")));
+        block.add("at most", limits(info));
+        block.add("Demand Data", yes_no(flag(info, "demand_data")));
+        block.add("Sync, Freeze", yes_no(flag(info, "sync")) + ", " + yes_no(flag(info, "freeze")));
+        block.add("rates", rates(info));
+        block.add("tag table", fmt::format("{}, {}", text(info, "tag_table"),
+                                           plural(integer(info, "tags_in_table").value_or(0), "tag")));
+        out += (out.empty() ? "" : "\n") + text(info, "name") + '\n' + block.str();
+    }
+    return out;
+}
+
+} // namespace dpslave::dpctl

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render.hpp"
+#include "tables.hpp"
+#include "words.hpp"
+
+#include <fmt/format.h>
+
+namespace dpslave::dpctl {
+namespace {
+
+Tone tone_of_state(const std::string& state)
+{
+    return state == "Data_Exch" ? Tone::good : Tone::bad;
+}
+Tone tone_of_link(const std::string& link)
+{
+    return link == "answers" ? Tone::good : link == "silent" ? Tone::bad : Tone::plain;
+}
+
+/// Groups 1 to 8 of Global_Control from the octet Group_Ident.
+std::string groups(std::int64_t octet)
+{
+    std::string result;
+    for (int i = 0; i < 8; ++i)
+        if (((octet >> i) & 1) != 0) result += fmt::format("{}{}", result.empty() ? "" : ", ", i + 1);
+    return result.empty() ? "none" : result;
+}
+
+std::string diagnosis(const Json& station)
+{
+    std::string result;
+    if (flag(station, "stat_diag")) result = "static diagnosis: not ready for data yet";
+    if (flag(station, "diag_pending"))
+        result += std::string{result.empty() ? "" : "; "} + "new, the master has yet to read it";
+    return result.empty() ? "nothing new" : result;
+}
+
+std::string drive(const Json& d)
+{
+    std::string result = fmt::format("unit {} on {} ({}, {}): {}\n", text(d, "unit"), text(d, "line"),
+                                     text(d, "port"), text(d, "protocol"), text(d, "link"));
+    if (const auto cycle = real(d, "cycle_ms")) result += fmt::format("a round takes {}; ", age(cycle));
+    result += fmt::format("{}, {}, {} unanswered, {} refused, lost {}",
+                          plural(integer(d, "reads").value_or(0), "read"),
+                          plural(integer(d, "writes").value_or(0), "write"), number(d, "silences"),
+                          number(d, "refusals"), plural(integer(d, "losses").value_or(0), "time"));
+    if (const std::string trouble = text(d, "last_trouble", ""); !trouble.empty())
+        result += "\nlast trouble: " + trouble;
+    return result;
+}
+
+std::string station_block(const Json& s, bool colour)
+{
+    const auto master = integer(s, "master");
+    const auto watchdog = integer(s, "watchdog_ms");
+    const std::string state = text(s, "state");
+    Block block;
+    block.add("device", fmt::format("{} (profile {})", text(s, "device"), text(s, "profile")));
+    block.add("state", painted(state, tone_of_state(state), colour) +
+                           (master ? fmt::format(", master {}", *master) : ", no master"));
+    block.add("watchdog", watchdog ? age(static_cast<double>(*watchdog)) : "off");
+    block.add("min T_SDR", number(s, "min_tsdr") + " T_bit");
+    block.add("groups", groups(integer(s, "groups").value_or(0)));
+    block.add("Sync, Freeze",
+              fmt::format("{}, {}", flag(s, "sync") ? "on" : "off", flag(s, "freeze") ? "on" : "off"));
+    block.add("diagnosis", diagnosis(s));
+    block.add("parameters", number(s, "parameters") + (flag(s, "demand_data") ? " and Demand Data" : ""));
+    const std::int64_t left = integer(s, "left_count").value_or(0);
+    const std::string because = text(s, "left_because", "");
+    block.add("left Data_Exch",
+              left == 0 ? "never"
+                        : plural(left, "time") + (because.empty() ? "" : ", the last time: " + because));
+    block.add("drive", drive(part(s, "drive")));
+    return fmt::format("{}, address {}\n{}", painted(text(s, "name"), Tone::strong, colour),
+                       number(s, "address"), block.str());
+}
+
+} // namespace
+
+std::string bus_line(const Json& bus)
+{
+    const std::string state = text(bus, "baud_state");
+    const std::int64_t baud = integer(bus, "baud").value_or(0);
+    std::string speed = rate(baud);
+    if (state == "Baud_Search")
+        speed = "searching the rate" + (baud > 0 ? ", now at " + speed : std::string{});
+    const auto heard = real(bus, "last_telegram_age_ms");
+    return fmt::format("{}, {}{}, {}", text(bus, "port"), speed,
+                       state == "Baud_Search" ? "" : " (" + state + ")",
+                       heard ? "last telegram " + age(heard) + " ago" : "no telegram heard yet");
+}
+
+Table station_table(const Json& stations)
+{
+    Table table({"STATION", ">ADDRESS", "PROFILE", "STATE", ">MASTER", "DRIVE", "LINE"});
+    for (const Json& s : stations) {
+        const std::string state = text(s, "state"), link = text(part(s, "drive"), "link");
+        table.add({text(s, "name"), number(s, "address"), text(s, "profile"),
+                   Cell{state, tone_of_state(state)}, number(s, "master"), Cell{link, tone_of_link(link)},
+                   text(part(s, "drive"), "line")});
+    }
+    return table;
+}
+
+std::string render_status(const Json& reply, bool colour)
+{
+    const Json& bus = part(reply, "bus");
+    Block block;
+    block.add("bus", bus_line(bus));
+    block.add("stations",
+              fmt::format("{}, {} in Data_Exch", number(bus, "stations"), number(bus, "exchanging")));
+    block.add("daemon",
+              fmt::format("process {}, running for {}", number(reply, "pid"), age(real(reply, "uptime_ms"))));
+    return block.str(0) + '\n' + station_table(list(reply, "stations")).str(colour);
+}
+
+std::string render_stations(const Json& reply, bool colour)
+{
+    std::string out;
+    for (const Json& station : list(reply, "stations"))
+        out += (out.empty() ? "" : "\n") + station_block(station, colour);
+    return out;
+}
+
+} // namespace dpslave::dpctl

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Where dpctl's words go, and what its exit says.
+#pragma once
+
+#include <ostream>
+
+namespace dpslave::dpctl {
+
+struct Terminal {
+    std::ostream& out;
+    std::ostream& err;
+    bool tty = false;    ///< out is a terminal: watch redraws
+    bool colour = false; ///< out understands colours and nobody forbade them
+};
+
+/// Exit codes; --help tells them.
+enum Exit : int {
+    kFine = 0,
+    kNo = 1, ///< refused, faulty, or not so
+    kUsage = 2,
+    kNoDaemon = 3,
+};
+
+} // namespace dpslave::dpctl

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ask.hpp"
+#include "render.hpp"
+#include "subcommands.hpp"
+
+#include <sys/ioctl.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <string>
+
+namespace dpslave::dpctl {
+namespace {
+
+/// SIGINT and SIGTERM as a descriptor: the end of watch is something to read, and no moment is lost before
+/// the wait.
+class EndSignals {
+public:
+    EndSignals()
+    {
+        sigset_t signals;
+        sigemptyset(&signals);
+        sigaddset(&signals, SIGINT);
+        sigaddset(&signals, SIGTERM);
+        ::sigprocmask(SIG_BLOCK, &signals, &before_);
+        fd_ = ::signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK);
+    }
+    EndSignals(const EndSignals&) = delete;
+    EndSignals& operator=(const EndSignals&) = delete;
+    ~EndSignals()
+    {
+        signalfd_siginfo fetched;
+        while (fd_ >= 0 && ::read(fd_, &fetched, sizeof fetched) > 0) {
+        } // else it strikes when it is unblocked
+        if (fd_ >= 0) ::close(fd_);
+        ::sigprocmask(SIG_SETMASK, &before_, nullptr);
+    }
+    int fd() const { return fd_; }
+
+private:
+    sigset_t before_{};
+    int fd_ = -1;
+};
+
+/// Draws over the last picture: from the top, line by line, without wrapping, no more than there are rows.
+void redraw(const std::string& picture, std::ostream& out)
+{
+    winsize size{};
+    const bool known = ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_row > 1;
+    int rows = known ? size.ws_row - 1 : 10'000;
+    out << "\033[H\033[?7l";
+    for (std::size_t at = 0; at < picture.size() && rows-- > 0;) {
+        const std::size_t end = std::min(picture.find('\n', at), picture.size());
+        out << picture.substr(at, end - at) << "\033[K\r\n";
+        at = end + 1;
+    }
+    out << "\033[J\033[?7h" << std::flush;
+}
+
+void show_one(const Json& before, const Json& now, const Options& options, Terminal& terminal)
+{
+    if (options.json)
+        terminal.out << now.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
+    else if (terminal.tty)
+        redraw(render_watch(now, terminal.colour), terminal.out);
+    else
+        for (const std::string& line : changes(before, now)) terminal.out << line << '\n';
+    terminal.out << std::flush;
+}
+
+/// The daemon was there and has gone.
+int tell_gone(const control::ClientError& error, Terminal& terminal)
+{
+    const int code = tell(error, terminal);
+    return error.kind == control::ClientError::Kind::ended ? kNoDaemon : code;
+}
+
+} // namespace
+
+int do_watch(const Options& options, Terminal& terminal)
+{
+    const EndSignals end;
+    auto client = control::Client::connect(options.socket, options.timeout());
+    if (!client) return tell(client.error(), terminal);
+    if (const auto failed = client->start("Watch", station_parameter(options)))
+        return tell(*failed, terminal);
+    if (terminal.tty && !options.json) terminal.out << "\033[2J";
+    Json before = Json::object();
+    while (terminal.out) {
+        auto reply = client->next(end.fd());
+        if (!reply) return tell_gone(reply.error(), terminal);
+        if (!*reply) return kFine; // Ctrl-C
+        if (!(*reply)->error.empty()) return tell(**reply, options, terminal);
+        show_one(before, (*reply)->parameters, options, terminal);
+        if (!(*reply)->continues) return kFine;
+        before = std::move((*reply)->parameters);
+    }
+    return kNo; // nobody takes what we print
+}
+
+} // namespace dpslave::dpctl

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "words.hpp"
+
+#include <fmt/format.h>
+
+namespace dpslave::dpctl {
+
+std::string rate(std::int64_t baud)
+{
+    if (baud >= 1'000'000) return fmt::format("{} Mbit/s", static_cast<double>(baud) / 1e6);
+    return fmt::format("{} kbit/s", static_cast<double>(baud) / 1e3);
+}
+
+std::string age(std::optional<double> milliseconds)
+{
+    if (!milliseconds) return "-";
+    const double ms = *milliseconds;
+    if (ms < 1000) return fmt::format("{:.0f} ms", ms);
+    if (ms < 60'000) return fmt::format("{:.1f} s", ms / 1000);
+    const auto minutes = static_cast<std::int64_t>(ms / 60'000);
+    if (minutes < 60) return fmt::format("{} min", minutes);
+    if (minutes < 60 * 24) return fmt::format("{} h {} min", minutes / 60, minutes % 60);
+    return fmt::format("{} d {} h", minutes / (60 * 24), minutes / 60 % 24);
+}
+
+std::string word(std::optional<std::int64_t> raw)
+{
+    if (!raw) return "-";
+    return fmt::format("{} (0x{:04X})", *raw, *raw);
+}
+
+std::string yes_no(bool yes)
+{
+    return yes ? "yes" : "no";
+}
+
+std::string plural(std::int64_t count, const char* one)
+{
+    return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
+}
+
+std::string json_text(const Json& value)
+{
+    return value.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+} // namespace dpslave::dpctl

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Numbers in words, the same everywhere in dpctl.
+#pragma once
+
+#include "fields.hpp"
+
+#include <optional>
+#include <string>
+
+namespace dpslave::dpctl {
+
+std::string rate(std::int64_t baud); ///< "187.5 kbit/s", "1.5 Mbit/s"
+std::string
+age(std::optional<double> milliseconds); ///< "12 ms", "3.4 s", "5 min", "2 h 5 min"; "-" without one
+std::string word(std::optional<std::int64_t> raw); ///< "1250 (0x04E2)"
+std::string yes_no(bool yes);
+std::string plural(std::int64_t count, const char* one); ///< "1 read", "2 reads"
+std::string json_text(const Json& value);                ///< indented; never fails
+
+} // namespace dpslave::dpctl

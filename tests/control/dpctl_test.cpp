@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program dpctl against a server: each subcommand, each exit code, each --json.
+#include "dpctl_bench.hpp"
+#include "fixtures.hpp"
+#include "render.hpp"
+#include "varlink_reader.hpp"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+namespace dpslave::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class DpctlProgram : public testing::Test {
+protected:
+    Ran run(std::vector<std::string> arguments, Dpctl::As user = Dpctl::As::this_user)
+    {
+        arguments.insert(arguments.begin(), {"--socket", daemon.socket()});
+        return dpctl(std::move(arguments), user);
+    }
+    FixtureDaemon daemon;
+};
+
+// ---------------------------------------------------------------- for people
+
+TEST_F(DpctlProgram, PrintsWhatTheRenderersMakeWithoutColourIntoAPipe)
+{
+    EXPECT_EQ(run({"status"}).out, dpctl::render_status(fixture("GetStatus"), false));
+    EXPECT_EQ(run({"stations"}).out, dpctl::render_stations(fixture("ListStations"), false));
+    EXPECT_EQ(run({"info"}).out, dpctl::render_info(fixture("GetInfo"), "9.8.7"));
+    EXPECT_EQ(run({"io", "unwinder"}).out, dpctl::render_io(fixture("GetIo"), false));
+    EXPECT_EQ(run({"diag", "16"}).out, dpctl::render_diagnosis(fixture("GetDiagnosis"), false));
+    EXPECT_EQ(run({"counters"}).out, dpctl::render_counters(fixture("GetCounters"), false));
+    EXPECT_EQ(run({"leds"}).out, dpctl::render_leds(fixture("GetLeds"), false));
+    EXPECT_EQ(run({"read", "7", "--station", "unwinder"}).out,
+              "unwinder: tag 7 SPEED FEEDBACK is 50.00, raw 5000 (0x1388)\n");
+    EXPECT_EQ(run({"version"}).out, "dpctl " DPSLAVE_VERSION "\ndpslaved 9.8.7 (org.dpslaved.Control)\n");
+}
+
+TEST_F(DpctlProgram, EndsWith0WhenAllIsFine)
+{
+    for (const char* subcommand :
+         {"status", "stations", "info", "io", "diag", "counters", "leds", "version"}) {
+        const Ran ran = run({subcommand});
+        EXPECT_EQ(ran.exit, 0) << subcommand;
+        EXPECT_EQ(ran.err, "") << subcommand;
+    }
+}
+
+// ---------------------------------------------------------------- for scripts
+
+struct JsonRow {
+    const char* method;
+    std::vector<std::string> arguments;
+};
+class DpctlJson : public testing::TestWithParam<JsonRow> {};
+
+TEST_P(DpctlJson, IsTheReplyOfTheMethodAsTheSchemaDescribesIt)
+{
+    const FixtureDaemon daemon;
+    std::vector<std::string> arguments = GetParam().arguments;
+    arguments.insert(arguments.end(), {"--json", "--socket", daemon.socket()});
+
+    const Ran ran = dpctl(arguments);
+
+    const Json json = Json::parse(ran.out, nullptr, false);
+    EXPECT_EQ(json, fixture(GetParam().method));
+    EXPECT_EQ(schema_fault(control_varlink(), control_varlink().outputs.at(GetParam().method), json), "");
+    EXPECT_EQ(ran.err, "");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    EachSubcommand, DpctlJson,
+    testing::Values(JsonRow{"GetStatus", {"status"}}, JsonRow{"ListStations", {"stations"}},
+                    JsonRow{"GetInfo", {"info"}}, JsonRow{"GetIo", {"io"}}, JsonRow{"GetDiagnosis", {"diag"}},
+                    JsonRow{"GetCounters", {"counters"}}, JsonRow{"ReadTag", {"read", "7", "--station", "5"}},
+                    JsonRow{"WriteTag", {"write", "7", "50", "--station", "5"}}, JsonRow{"GetLeds", {"leds"}},
+                    JsonRow{"GetVersion", {"version"}}, JsonRow{"ListStations", {"is-exchanging"}}),
+    [](const auto& row) {
+        std::string name = row.param.arguments[0];
+        return name.replace(std::min(name.find('-'), name.size()), name.find('-') != std::string::npos, "");
+    });
+
+TEST_F(DpctlProgram, TakesItsOptionsBeforeAndBehindTheSubcommand)
+{
+    EXPECT_EQ(run({"--json", "status"}).out, run({"status", "--json"}).out);
+}
+
+TEST_F(DpctlProgram, PrintsARefusalAsJsonToo)
+{
+    const Ran ran = run({"read", "1", "--station", "5", "--json"});
+
+    EXPECT_EQ(ran.exit, 1);
+    EXPECT_EQ(
+        Json::parse(ran.out),
+        Json::parse(
+            R"({"error":"org.dpslaved.Control.DriveRefused","parameters":{"tag":1,"reason":"read only","code":1}})"));
+    EXPECT_EQ(ran.err, "dpctl: tag 1: read only (Demand Data: error code 1)\n");
+}
+
+TEST_F(DpctlProgram, AnswersWhetherStationsExchangeData)
+{
+    const Ran all = run({"is-exchanging"});
+    EXPECT_EQ(all.exit, 1);
+    EXPECT_EQ(all.out, "unwinder (address 5): Data_Exch\nrewinder (address 16): Wait_Prm\n");
+    EXPECT_EQ(run({"is-exchanging", "unwinder"}).exit, 0);
+    EXPECT_EQ(run({"is-exchanging", "5"}).exit, 0);
+    EXPECT_EQ(run({"is-exchanging", "16"}).exit, 1);
+    const Ran unknown = run({"is-exchanging", "winder"});
+    EXPECT_EQ(unknown.exit, 1);
+    EXPECT_EQ(unknown.err, "dpctl: there is no station 'winder'\n");
+}
+
+// ---------------------------------------------------------------- read and write
+
+TEST_F(DpctlProgram, WritesNegativeValuesWithoutAnyMark)
+{
+    for (const char* value : {"-12.5", "-7", "-.5", "12.5", "0x00FF", "TRUE"}) {
+        const Ran ran = run({"write", "56", value, "--station", "unwinder"});
+        EXPECT_EQ(ran.exit, 0) << value << ran.err;
+        EXPECT_EQ(daemon.written(), Json::object({{"tag", 56},
+                                                  {"station", "unwinder"},
+                                                  {"value", value == std::string{"-.5"} ? "-0.5" : value}}));
+    }
+    EXPECT_EQ(run({"write", "--station", "5", "56", "-1"}).exit, 0);
+    EXPECT_EQ(run({"write", "--station", "5", "--", "56", "-1"}).exit, 0);
+}
+
+TEST_F(DpctlProgram, SaysWhatWasWritten)
+{
+    EXPECT_EQ(run({"write", "7", "50", "--station", "5"}).out,
+              "unwinder: tag 7 SPEED FEEDBACK is now 50.00, raw 5000 (0x1388)\n");
+}
+
+TEST_F(DpctlProgram, EndsWith1AndAReasonWhenItIsRefused)
+{
+    const Ran station = run({"info", "winder"});
+    EXPECT_EQ(station.exit, 1);
+    EXPECT_EQ(station.err, "dpctl: there is no station 'winder'; there are: unwinder, rewinder\n");
+
+    const Ran which = run({"read", "7"});
+    EXPECT_EQ(which.exit, 1);
+    EXPECT_EQ(which.err,
+              "dpctl: there are several stations, say which one with --station: unwinder, rewinder\n");
+
+    const Ran drive = run({"write", "1", "5", "--station", "5"});
+    EXPECT_EQ(drive.exit, 1);
+    EXPECT_EQ(drive.out, "");
+    EXPECT_EQ(drive.err, "dpctl: tag 1: read only (Demand Data: error code 1)\n");
+}
+
+TEST_F(DpctlProgram, LetsAnOrdinaryUserReadButNotWrite)
+{
+    if (::geteuid() != 0) GTEST_SKIP() << "only root can become somebody else";
+
+    EXPECT_EQ(run({"read", "7", "--station", "5"}, Dpctl::As::nobody).exit, 0);
+    const Ran ran = run({"write", "7", "5", "--station", "5"}, Dpctl::As::nobody);
+    EXPECT_EQ(ran.exit, 1);
+    EXPECT_THAT(ran.err, StartsWith("dpctl: only root and members of the group 'dpslaved' may do this"));
+}
+
+TEST_F(DpctlProgram, EndsWith1WhenTheDaemonIsSilent)
+{
+    const Ran ran = run({"read", "2", "--station", "5", "--timeout", "0.1"});
+
+    EXPECT_EQ(ran.exit, 1);
+    EXPECT_THAT(ran.err, HasSubstr("no answer within 100 ms"));
+}
+
+// ---------------------------------------------------------------- usage
+
+class DpctlUsage : public testing::TestWithParam<std::vector<std::string>> {};
+
+TEST_P(DpctlUsage, EndsWith2AndAHint)
+{
+    const Ran ran = dpctl(GetParam());
+
+    EXPECT_EQ(ran.exit, 2);
+    EXPECT_EQ(ran.out, "");
+    EXPECT_THAT(ran.err, HasSubstr("--help"));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, DpctlUsage,
+    testing::Values(std::vector<std::string>{}, std::vector<std::string>{"explode"},
+                    std::vector<std::string>{"status", "--loud"}, std::vector<std::string>{"status", "extra"},
+                    std::vector<std::string>{"read"}, std::vector<std::string>{"read", "speed"},
+                    std::vector<std::string>{"read", "-1"}, std::vector<std::string>{"read", "65536"},
+                    std::vector<std::string>{"read", "7", "8"}, std::vector<std::string>{"write", "56"},
+                    std::vector<std::string>{"write", "56", "1", "2"},
+                    std::vector<std::string>{"status", "--timeout", "0"},
+                    std::vector<std::string>{"status", "--socket"}));
+
+TEST(DpctlHelp, TellsExitCodesAndWhereTheSchemaIs)
+{
+    const Ran ran = dpctl({"--help"});
+
+    EXPECT_EQ(ran.exit, 0);
+    EXPECT_THAT(ran.out, HasSubstr("  0  fine\n"));
+    EXPECT_THAT(
+        ran.out,
+        HasSubstr("  1  refused by the daemon or the drive, a faulty answer, or not so (is-exchanging)\n"));
+    EXPECT_THAT(ran.out, HasSubstr("  2  usage\n"));
+    EXPECT_THAT(ran.out, HasSubstr("  3  no daemon"));
+    EXPECT_THAT(ran.out, HasSubstr("org.dpslaved.Control.varlink"));
+    for (const char* subcommand : {"status", "stations", "info", "io", "diag", "counters", "read", "write",
+                                   "leds", "watch", "version", "is-exchanging"}) {
+        EXPECT_THAT(ran.out, HasSubstr(std::string{"\n  "} + subcommand + " "));
+        EXPECT_THAT(dpctl({subcommand, "--help"}).out,
+                    HasSubstr("Exit codes: 0 fine, 1 refused, faulty or not so, 2 usage, 3 no daemon."));
+    }
+}
+
+// ---------------------------------------------------------------- no daemon
+
+TEST(DpctlWithoutDaemon, EndsWith3AndSaysWhatToDo)
+{
+    for (const std::vector<std::string>& arguments :
+         std::vector<std::vector<std::string>>{{"status"},
+                                               {"stations"},
+                                               {"io"},
+                                               {"diag"},
+                                               {"counters"},
+                                               {"leds"},
+                                               {"watch"},
+                                               {"is-exchanging"},
+                                               {"read", "7"},
+                                               {"write", "7", "1"}}) {
+        std::vector<std::string> all = arguments;
+        all.insert(all.end(), {"--socket", "/nonexistent/control.sock"});
+        const Ran ran = dpctl(all);
+        EXPECT_EQ(ran.exit, 3) << arguments[0];
+        EXPECT_EQ(ran.out, "") << arguments[0];
+        EXPECT_EQ(ran.err, "dpctl: nothing answers on /nonexistent/control.sock (No such file or directory)\n"
+                           "Is dpslaved running? Ask: systemctl status dpslaved\n")
+            << arguments[0];
+    }
+}
+
+TEST(DpctlWithoutDaemon, InfoReadsOptionVersionZero)
+{
+    const Ran ran = dpctl({"info", "--socket", "/nonexistent/control.sock"});
+
+    EXPECT_EQ(ran.exit, 3);
+    EXPECT_THAT(ran.err, HasSubstr("systemctl status dpslaved"));
+    EXPECT_THAT(ran.err, HasSubstr("OPTION VERSION 0.00"));
+}
+
+TEST(DpctlWithoutDaemon, VersionWorks)
+{
+    const Ran ran = dpctl({"version", "--socket", "/nonexistent/control.sock"});
+    EXPECT_EQ(ran.exit, 0);
+    EXPECT_EQ(ran.out,
+              "dpctl " DPSLAVE_VERSION
+              "\nno daemon: nothing answers on /nonexistent/control.sock (No such file or directory)\n");
+
+    const Json json = Json::parse(dpctl({"version", "--json", "--socket", "/nonexistent/control.sock"}).out);
+    EXPECT_EQ(schema_fault(control_varlink(), control_varlink().outputs.at("GetVersion"), json), "");
+    EXPECT_EQ(json.at("program"), "dpctl");
+}
+
+TEST(DpctlWithoutDaemon, ASocketThatTheUserMayNotReachIsNoDaemonForHim)
+{
+    if (::geteuid() != 0) GTEST_SKIP() << "only root can become somebody else";
+    const TempFolder folder;
+    std::filesystem::create_directory(folder.path() / "closed");
+    std::filesystem::permissions(folder.path() / "closed", std::filesystem::perms::owner_all);
+
+    const Ran ran = dpctl({"status", "--socket", folder.path() / "closed" / "s"}, Dpctl::As::nobody);
+
+    EXPECT_EQ(ran.exit, 3);
+    EXPECT_THAT(ran.err, HasSubstr("Permission denied"));
+}
+
+} // namespace
+} // namespace dpslave::test

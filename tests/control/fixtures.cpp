@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fixtures.hpp"
+
+#include <map>
+
+namespace dpslave::test {
+namespace {
+
+using nlohmann::json;
+
+const char* const kBus =
+    R"({"port":"/dev/ttyS1","baud":187500,"baud_state":"DP_Control","stations":2,"exchanging":1,
+                             "last_telegram_age_ms":2.4})";
+
+const char* const kStations = R"([
+  {"name":"unwinder","address":5,"profile":"590","device":"590 with PROFIBUS-DP option board","state":"Data_Exch","master":2,
+   "watchdog_ms":100,"min_tsdr":11,"groups":129,"sync":false,"freeze":true,"stat_diag":false,"diag_pending":false,"parameters":2,
+   "demand_data":true,"left_count":1,"left_because":"watchdog expired",
+   "drive":{"line":"p3","port":"/dev/ttyS2","protocol":"ei-ascii","unit":"00","link":"answers","cycle_ms":123.4,"reads":4000,
+            "writes":1,"silences":3,"refusals":0,"losses":1,"last_trouble":null}},
+  {"name":"rewinder","address":16,"profile":"590","device":"590 with PROFIBUS-DP option board","state":"Wait_Prm","master":null,
+   "watchdog_ms":null,"min_tsdr":11,"groups":0,"sync":false,"freeze":false,"stat_diag":true,"diag_pending":true,"parameters":0,
+   "demand_data":false,"left_count":0,"left_because":null,
+   "drive":{"line":"p3","port":"/dev/ttyS2","protocol":"ei-ascii","unit":"01","link":"silent","cycle_ms":null,"reads":0,
+            "writes":0,"silences":12,"refusals":0,"losses":0,"last_trouble":"no answer"}}])";
+
+const char* const kWords = R"([
+  {"tag":7,"name":"SPEED FEEDBACK","direction":"in","octet":8,"raw":5000,"value":"50.00","state":"good","age_ms":12.0},
+  {"tag":56,"name":null,"direction":"out","octet":8,"raw":64286,"value":"-12.50","state":"read only","age_ms":null}])";
+
+const char* const kInfo = R"({"stations":[
+  {"name":"unwinder","profile":"590","device":"590 with PROFIBUS-DP option board","order_code":"590 option digit 2",
+   "firmware":"4.2 or later","manual":"HA389815","ident":1331,"address_active":5,"address_pending":7,"address_min":0,
+   "address_max":125,"max_parameters":12,"max_input_octets":32,"max_output_octets":32,"max_diag_octets":6,"demand_data":true,
+   "sync":true,"freeze":true,"bauds":[9600,187500,1500000],"max_tsdr":[60,60,150],"tag_table":"590.csv","tags_in_table":312}]})";
+
+const char* const kDiagnosis = R"({"stations":[
+  {"name":"rewinder",
+   "octets":[{"octet":1,"offset":0,"value":6,"meaning":"Station_Not_Ready, Cfg_Fault"},
+             {"octet":2,"offset":1,"value":5,"meaning":"Prm_Req"},
+             {"octet":3,"offset":2,"value":0,"meaning":"-"},
+             {"octet":4,"offset":3,"value":255,"meaning":"no master"},
+             {"octet":5,"offset":4,"value":5,"meaning":"Ident_Number high"},
+             {"octet":6,"offset":5,"value":51,"meaning":"Ident_Number low"}],
+   "hex":"06 05 00 FF 05 33","bits":["Station_Not_Ready","Cfg_Fault","Prm_Req"],
+   "refusal":{"telegram":"Chk_Cfg","what":"no legal identifier","octet":3,"expected":"0x50 or 0x60","got":"0x51",
+              "advice":"compare the modules chosen in the master with the GSD"},
+   "last_prm":"88 01 0A 0B 05 33 00","last_cfg":"73 50 51","trouble":["tag 999 is in no table"]}]})";
+
+const char* const kLeds = R"({"stations":[{"name":"unwinder","meaning":"data exchange with the master",
+  "leds":[{"name":"red","sink":"gpio:23","lit":false,"pattern":"off"},
+          {"name":"green","sink":"led:dpslaved-green","lit":true,"pattern":"flashes at 2 Hz"}]}]})";
+
+const char* const kCounters = R"({"groups":[{"name":"bus","counters":[
+  {"name":"telegrams","value":123456,"meaning":"valid telegrams heard"},
+  {"name":"flaw.checksum","value":3,"meaning":"FCS wrong"}]},
+  {"name":"unwinder","counters":[{"name":"data_exchange","value":7,"meaning":"Data_Exchange requests answered"}]}]})";
+
+std::map<std::string, json> all()
+{
+    const json bus = json::parse(kBus), stations = json::parse(kStations), words = json::parse(kWords);
+    json watched_words = json::array();
+    watched_words.push_back({{"name", "unwinder"}, {"words", words}});
+    json io = json::parse(R"({"stations":[{"name":"unwinder","address":5,"state":"Data_Exch","may_write":true,
+        "demand":{"request":[0,0,4096,7],"reply":[0,5000,4096,7],"words":"reads tag 7: answered"}},
+       {"name":"rewinder","address":16,"state":"Wait_Prm","may_write":false,"words":[],"demand":null}]})");
+    io["stations"][0]["words"] = words;
+    const json tag =
+        json::parse(R"({"station":"unwinder","tag":7,"name":"SPEED FEEDBACK","raw":5000,"value":"50.00"})");
+    return {
+        {"GetVersion",
+         json::parse(R"({"program":"dpslaved","version":"9.8.7","interface":"org.dpslaved.Control"})")},
+        {"GetStatus", {{"bus", bus}, {"stations", stations}, {"uptime_ms", 3'720'000}, {"pid", 812}}},
+        {"ListStations", {{"stations", stations}}},
+        {"GetInfo", json::parse(kInfo)},
+        {"GetIo", io},
+        {"GetDiagnosis", json::parse(kDiagnosis)},
+        {"GetCounters", json::parse(kCounters)},
+        {"GetLeds", json::parse(kLeds)},
+        {"Watch", {{"bus", bus}, {"stations", stations}, {"words", watched_words}}},
+        {"ReadTag", tag},
+        {"WriteTag", tag},
+    };
+}
+
+} // namespace
+
+nlohmann::json fixture(const std::string& method)
+{
+    static const std::map<std::string, json> fixtures = all();
+    return fixtures.at(method);
+}
+
+} // namespace dpslave::test

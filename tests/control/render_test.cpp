@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fixtures.hpp"
+#include "render.hpp"
+#include "varlink_reader.hpp"
+
+#include <gtest/gtest.h>
+
+namespace dpslave::dpctl {
+namespace {
+
+using test::fixture;
+
+TEST(DpctlFixtures, AreAsTheInterfaceDescribes)
+{
+    const auto& interface = test::control_varlink();
+    for (const auto& [method, fields] : interface.outputs)
+        EXPECT_EQ(test::schema_fault(interface, fields, fixture(method)), "") << method;
+}
+
+TEST(DpctlStatus, IsOneLineForTheBusAndOneForEachStation)
+{
+    EXPECT_EQ(render_status(fixture("GetStatus"), false), 1 + R"(
+bus       /dev/ttyS1, 187.5 kbit/s (DP_Control), last telegram 2 ms ago
+stations  2, 1 in Data_Exch
+daemon    process 812, running for 1 h 2 min
+
+STATION   ADDRESS  PROFILE  STATE      MASTER  DRIVE    LINE
+unwinder        5  590      Data_Exch       2  answers  p3
+rewinder       16  590      Wait_Prm        -  silent   p3
+)");
+}
+
+TEST(DpctlStatus, SaysThatTheRateIsSearched)
+{
+    Json reply = fixture("GetStatus");
+    reply["bus"]["baud_state"] = "Baud_Search";
+    reply["bus"]["last_telegram_age_ms"] = nullptr;
+
+    const std::string picture = render_status(reply, false);
+    EXPECT_EQ(picture.substr(0, picture.find('\n')),
+              "bus       /dev/ttyS1, searching the rate, now at 187.5 kbit/s, no telegram heard yet");
+}
+
+TEST(DpctlStatus, ShowsStatesAndLinksInColour)
+{
+    const std::string picture = render_status(fixture("GetStatus"), true);
+
+    EXPECT_NE(picture.find("\033[32mData_Exch\033[0m"), std::string::npos);
+    EXPECT_NE(picture.find("\033[31msilent\033[0m"), std::string::npos);
+}
+
+TEST(DpctlStations, TellsEverythingAboutEach)
+{
+    EXPECT_EQ(render_stations(fixture("ListStations"), false), 1 + R"(
+unwinder, address 5
+  device          590 with PROFIBUS-DP option board (profile 590)
+  state           Data_Exch, master 2
+  watchdog        100 ms
+  min T_SDR       11 T_bit
+  groups          1, 8
+  Sync, Freeze    off, on
+  diagnosis       nothing new
+  parameters      2 and Demand Data
+  left Data_Exch  1 time, the last time: watchdog expired
+  drive           unit 00 on p3 (/dev/ttyS2, ei-ascii): answers
+                  a round takes 123 ms; 4000 reads, 1 write, 3 unanswered, 0 refused, lost 1 time
+
+rewinder, address 16
+  device          590 with PROFIBUS-DP option board (profile 590)
+  state           Wait_Prm, no master
+  watchdog        off
+  min T_SDR       11 T_bit
+  groups          none
+  Sync, Freeze    off, off
+  diagnosis       static diagnosis: not ready for data yet; new, the master has yet to read it
+  parameters      0
+  left Data_Exch  never
+  drive           unit 01 on p3 (/dev/ttyS2, ei-ascii): silent
+                  0 reads, 0 writes, 12 unanswered, 0 refused, lost 0 times
+                  last trouble: no answer
+)");
+}
+
+TEST(DpctlInfo, TellsWhatIsEmulatedAndThePendingAddress)
+{
+    EXPECT_EQ(render_info(fixture("GetInfo"), "9.8.7"), 1 + R"(
+unwinder
+  emulates         590 with PROFIBUS-DP option board
+  order code       590 option digit 2
+  OPTION VERSION   9.8.7
+  host firmware    4.2 or later
+  manual           HA389815
+  profile          590
+  Ident_Number     0x0533
+  address          5 active, 7 pending: the configuration file has it, the next start of dpslaved takes it
+  legal addresses  0 to 125
+  at most          12 parameters, 32 octets in, 32 octets out, 6 octets of diagnosis
+  Demand Data      yes
+  Sync, Freeze     yes, yes
+  rates            9.6 kbit/s, answers within 60 T_bit
+                   187.5 kbit/s, answers within 60 T_bit
+                   1.5 Mbit/s, answers within 150 T_bit
+  tag table        590.csv, 312 tags
+)");
+}
+
+TEST(DpctlInfo, SaysNothingOfAPendingAddressWhenThereIsNone)
+{
+    Json reply = fixture("GetInfo");
+    reply["stations"][0]["address_pending"] = nullptr;
+
+    EXPECT_NE(render_info(reply, "9.8.7").find("  address          5 active\n"), std::string::npos);
+}
+
+TEST(DpctlIo, ShowsEachWordRawAndScaledWithItsAge)
+{
+    EXPECT_EQ(render_io(fixture("GetIo"), false), 1 + R"(
+unwinder, address 5: Data_Exch; outputs go to the drive
+  DIR  OCTET  TAG  NAME             VALUE             RAW  STATE        AGE
+  in       8    7  SPEED FEEDBACK   50.00   5000 (0x1388)  good       12 ms
+  out      8   56                  -12.50  64286 (0xFB1E)  read only      -
+  Demand Data  reads tag 7: answered
+  request      0000 0000 1000 0007
+  reply        0000 1388 1000 0007
+
+rewinder, address 16: Wait_Prm; nothing is written to the drive
+  no parameters: no master has chosen any
+
+in: drive to master, out: master to drive; octet: place in the Data_Exchange telegram, counted from 0
+)");
+}
+
+TEST(DpctlDiag, CountsOctetsBothWaysAndExplainsTheRefusal)
+{
+    EXPECT_EQ(render_diagnosis(fixture("GetDiagnosis"), false), 1 + R"(
+rewinder: Station_Not_Ready, Cfg_Fault, Prm_Req
+  OCTET  OFFSET  VALUE  MEANING
+      1       0  0x06   Station_Not_Ready, Cfg_Fault
+      2       1  0x05   Prm_Req
+      3       2  0x00   -
+      4       3  0xFF   no master
+      5       4  0x05   Ident_Number high
+      6       5  0x33   Ident_Number low
+  Chk_Cfg refused, octet 3 (offset 2): no legal identifier
+    expected    0x50 or 0x60
+    came        0x51
+    what to do  compare the modules chosen in the master with the GSD
+  tag 999 is in no table
+  Slave_Diag    06 05 00 FF 05 33
+  last Set_Prm  88 01 0A 0B 05 33 00
+  last Chk_Cfg  73 50 51
+
+octet: counted from 1, as the PROFIBUS standard does; offset: counted from 0, as PLC programs do
+)");
+}
+
+TEST(DpctlDiag, SaysWithoutAnOctetWhenTheTelegramAsAWholeIsWrong)
+{
+    Json reply = fixture("GetDiagnosis");
+    Json& refusal = reply["stations"][0]["refusal"];
+    refusal["octet"] = refusal["expected"] = refusal["got"] = nullptr;
+
+    const std::string picture = render_diagnosis(reply, false);
+    EXPECT_NE(picture.find("  Chk_Cfg refused: no legal identifier\n    what to do  compare"),
+              std::string::npos)
+        << picture;
+}
+
+TEST(DpctlDiag, IsQuietWhenNothingIsWrong)
+{
+    Json reply = fixture("GetDiagnosis");
+    Json& station = reply["stations"][0];
+    station["refusal"] = nullptr;
+    station["bits"] = station["trouble"] = Json::array();
+
+    const std::string picture = render_diagnosis(reply, false);
+    EXPECT_EQ(picture.substr(0, picture.find('\n')), "rewinder: no bit set");
+    EXPECT_EQ(picture.find("refused"), std::string::npos);
+}
+
+TEST(DpctlCounters, AreGroups)
+{
+    EXPECT_EQ(render_counters(fixture("GetCounters"), false), 1 + R"(
+bus
+   COUNT  OF             MEANING
+  123456  telegrams      valid telegrams heard
+       3  flaw.checksum  FCS wrong
+
+unwinder
+  COUNT  OF             MEANING
+      7  data_exchange  Data_Exchange requests answered
+)");
+}
+
+TEST(DpctlLeds, SayWhatTheyMean)
+{
+    EXPECT_EQ(render_leds(fixture("GetLeds"), false), 1 + R"(
+unwinder: data exchange with the master
+  LED    NOW   PATTERN          SINK
+  red    dark  off              gpio:23
+  green  lit   flashes at 2 Hz  led:dpslaved-green
+)");
+}
+
+TEST(DpctlTag, IsOneLine)
+{
+    Json reply = fixture("ReadTag");
+    EXPECT_EQ(render_tag(reply, "is"), "unwinder: tag 7 SPEED FEEDBACK is 50.00, raw 5000 (0x1388)\n");
+
+    reply["name"] = nullptr;
+    EXPECT_EQ(render_tag(reply, "is now"), "unwinder: tag 7 is now 50.00, raw 5000 (0x1388)\n");
+}
+
+TEST(DpctlWatch, IsBusStationsAndWords)
+{
+    EXPECT_EQ(render_watch(fixture("Watch"), false), 1 + R"(
+/dev/ttyS1, 187.5 kbit/s (DP_Control), last telegram 2 ms ago
+
+STATION   ADDRESS  PROFILE  STATE      MASTER  DRIVE    LINE
+unwinder        5  590      Data_Exch       2  answers  p3
+rewinder       16  590      Wait_Prm        -  silent   p3
+
+unwinder
+  DIR  OCTET  TAG  NAME             VALUE             RAW  STATE        AGE
+  in       8    7  SPEED FEEDBACK   50.00   5000 (0x1388)  good       12 ms
+  out      8   56                  -12.50  64286 (0xFB1E)  read only      -
+)");
+}
+
+/// A daemon of another version may leave fields out or change their types: that is shown, it is no crash.
+Json damaged(const Json& value, int depth)
+{
+    if (value.is_object() && depth > 0) {
+        Json result = Json::object();
+        for (const auto& item : value.items()) result[item.key()] = damaged(item.value(), depth - 1);
+        return result;
+    }
+    if (value.is_array() && depth > 0) {
+        Json result = Json::array({nullptr, 7, "x"});
+        for (const auto& item : value) result.push_back(damaged(item, depth - 1));
+        return result;
+    }
+    return value.is_string() ? Json(17) : Json("odd");
+}
+
+TEST(DpctlRenderers, SurviveRepliesOfAnotherVersion)
+{
+    for (int depth = 0; depth < 6; ++depth)
+        for (const char* method : {"GetStatus", "ListStations", "GetInfo", "GetIo", "GetDiagnosis",
+                                   "GetCounters", "GetLeds", "Watch"}) {
+            const Json odd = damaged(fixture(method), depth);
+            EXPECT_NO_THROW({
+                render_status(odd, false);
+                render_stations(odd, false);
+                render_info(odd, "");
+                render_io(odd, false);
+                render_diagnosis(odd, false);
+                render_counters(odd, false);
+                render_leds(odd, false);
+                render_tag(odd, "is");
+                render_watch(odd, false);
+                changes(odd, fixture("Watch"));
+                changes(fixture("Watch"), odd);
+            }) << method
+               << depth;
+        }
+}
+
+} // namespace
+} // namespace dpslave::dpctl
