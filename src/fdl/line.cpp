@@ -43,7 +43,7 @@ bool is_answered(Function function)
 
 } // namespace
 
-void Station::on_bytes(Bytes bytes, Instant read_at)
+void Station::on_bytes(Bytes bytes, Instant read_at, bool more_follows)
 {
     if (bytes.empty()) return;
     cancel_reply();
@@ -56,7 +56,7 @@ void Station::on_bytes(Bytes bytes, Instant read_at)
         std::memcpy(rx_.data() + used_, bytes.data(), taken);
         used_ += taken;
         bytes = bytes.subspan(taken);
-        consume(read_at, bytes.empty());
+        consume(read_at, bytes.empty() && !more_follows);
     }
     gap_ends_ = used_ == 0 ? kNever : read_at + gap_limit(baud_);
 }

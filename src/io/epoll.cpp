@@ -11,6 +11,9 @@ namespace dpslave::io {
 Epoll::Epoll() : fd_(::epoll_create1(EPOLL_CLOEXEC))
 {
     if (!fd_) throw std::system_error{errno, std::system_category(), "epoll_create1"};
+    epoll_event room{};
+    wait({&room, 1},
+         {}); // a kernel or a sandbox without epoll_pwait2 says so now and not in the middle of service
 }
 
 void Epoll::add(int fd, std::uint32_t events, std::uint64_t key)

@@ -153,6 +153,15 @@ std::error_code Tty::write(Bytes octets)
     return {};
 }
 
+std::error_code Tty::send(Bytes telegram)
+{
+    const ssize_t taken = ::write(fd(), telegram.data(), telegram.size());
+    if (taken == static_cast<ssize_t>(telegram.size())) return {};
+    if (taken < 0 && errno != EAGAIN && errno != EINTR) return last_error();
+    flush_output(fd());
+    return std::make_error_code(std::errc::no_buffer_space);
+}
+
 std::error_code Tty::discard_input()
 {
     if (marked_) {

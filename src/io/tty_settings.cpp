@@ -81,6 +81,11 @@ bool flush_input(int fd)
     return ::ioctl(fd, TCFLSH, TCIFLUSH) == 0;
 }
 
+void flush_output(int fd)
+{
+    ::ioctl(fd, TCFLSH, TCOFLUSH);
+}
+
 std::string apply(int fd, const TtySettings& settings, bool pty)
 {
     // Old output first: setting would wait until the driver had sent it, for ever if the other end holds it

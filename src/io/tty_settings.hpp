@@ -23,5 +23,6 @@ std::string apply(int fd, const TtySettings& settings, bool pty);
 std::string judge_rate(std::uint32_t asked, std::uint32_t took);
 
 bool flush_input(int fd); ///< false: errno says why
+void flush_output(int fd);
 
 } // namespace dpslave::io

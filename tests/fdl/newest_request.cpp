@@ -52,6 +52,16 @@ TEST_F(NewestRequest, EverySdnInOneReadIsCarriedOut)
     EXPECT_EQ(user.srds.size(), 1u);
 }
 
+TEST_F(NewestRequest, AtTheEndOfAPieceOfOneReadIsDroppedWhole)
+{
+    const Octets request = sd2(kUs, kMaster, kSrdFcb1, {0xAA});
+    station.on_bytes(request, bus.now(), true); // the edge has more of the same read: a bad character, the rest
+    station.on_character_error(bus.now());
+
+    EXPECT_TRUE(user.srds.empty());
+    EXPECT_EQ(station.counters().overtaken, 1u);
+}
+
 TEST_F(NewestRequest, OvertakenFdlStatusIsNotAnswered)
 {
     bus.arrives_in_one_read({sd1(kUs, kMaster, kFdlStatus), sd1(kOther, kMaster, kFdlStatus)});

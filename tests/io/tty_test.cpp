@@ -320,5 +320,17 @@ TEST(TtyWrite, GoesOnAsSoonAsTheOtherEndTakesAgain)
     EXPECT_FALSE(tty.write(telegram));
 }
 
+TEST(TtySend, ATelegramThatDoesNotFitIsThrownAwayWholeAndWithoutWaiting)
+{
+    Pty cable;
+    Tty tty = opened(cable.path(), {.baud = 9600});
+    const std::vector<std::uint8_t> telegram(255, 0x55);
+
+    std::error_code error;
+    for (int i = 0; i < 1000 && !error; ++i) error = tty.send(telegram); // nobody reads: the buffers fill up
+
+    EXPECT_EQ(error, std::errc::no_buffer_space);
+}
+
 } // namespace
 } // namespace dpslave::io

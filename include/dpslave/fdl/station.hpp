@@ -52,8 +52,9 @@ public:
     /// and nothing is attached, if the address is no station address (0..126).
     bool attach(std::uint8_t address, SapUser& user, const std::array<Tbit, kBauds.size()>& max_tsdr);
 
-    /// Octets read from the line in one go; `read_at` is taken right after the read.
-    void on_bytes(Bytes bytes, Instant read_at);
+    /// Octets read from the line in one go; `read_at` is taken right after the read. `more_follows`: what was
+    /// read goes on in the next call, so a request at the end of these octets is not the newest thing heard.
+    void on_bytes(Bytes bytes, Instant read_at, bool more_follows = false);
     /// The UART reported a bad character (parity, framing, break): the telegram it belongs to is invalid. To
     /// be called in the place of that octet, between the on_bytes() of the good ones before and behind it.
     void on_character_error(Instant read_at);

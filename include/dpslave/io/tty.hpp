@@ -53,6 +53,10 @@ public:
     /// that the octets need on the line and 20 ms; then std::errc::timed_out, and the rest is not sent.
     std::error_code write(Bytes octets);
 
+    /// A reply: everything in one write(2), never waiting and never in two pieces, for a gap in a telegram is
+    /// not allowed. What the driver does not take whole is thrown away: std::errc::no_buffer_space.
+    std::error_code send(Bytes telegram);
+
     /// Throws away what has come and was not read yet.
     std::error_code discard_input();
 
