@@ -38,6 +38,7 @@ constexpr std::uint16_t code_of(AccessError error)
         case AccessError::value_not_encoded: return kOutOfRange;
         case AccessError::none:
         case AccessError::no_answer:
+        case AccessError::not_understood:
         case AccessError::invalid_tag:
         case AccessError::unsupported_type: break;
     }
@@ -129,7 +130,8 @@ void DemandData::answer(const DemandAnswer& answer)
 {
     if (standing_.kind == DemandOrder::Kind::cancel || answer.number != standing_.number) return;
     switch (answer.error) {
-        case AccessError::no_answer: return; // no code stands for it: the previous answer stays
+        case AccessError::no_answer:
+        case AccessError::not_understood: return; // no code stands for it: the previous answer stays
         case AccessError::none: reply_with(kRead, answer.value); return;
         default: reject(code_of(answer.error)); return;
     }

@@ -18,12 +18,17 @@ constexpr std::size_t kMaxAnswers = 64;
 void DemandQueue::set(const DemandOrder& order, const Tag* row, AccessError verdict)
 {
     if (!entries_.empty() && entries_.back().order.kind == DemandOrder::Kind::read) entries_.pop_back();
+    standing_.reset();
     if (order.kind == DemandOrder::Kind::cancel) return;
+    standing_ = order.number;
     if (verdict != AccessError::none) {
         answer({order.number, verdict, 0});
         return;
     }
-    if (entries_.size() == kMaxWaiting) entries_.pop_back();
+    if (entries_.size() == kMaxWaiting) {
+        entries_.pop_back();
+        ++dropped_;
+    }
     entries_.push_back({order, row});
 }
 
@@ -33,6 +38,23 @@ void DemandQueue::end(Generation generation)
         std::remove_if(entries_.begin(), entries_.end(),
                        [generation](const Entry& e) { return !is_newer(e.order.generation, generation); }),
         entries_.end());
+}
+
+void DemandQueue::drop_superseded()
+{
+    const auto rest = std::remove_if(entries_.begin(), entries_.end(),
+                                     [this](const Entry& entry) { return !stands(entry); });
+    dropped_ += static_cast<std::uint64_t>(entries_.end() - rest);
+    entries_.erase(rest, entries_.end());
+}
+
+void DemandQueue::not_understood(std::uint32_t number, int retries)
+{
+    if (entries_.empty() || entries_.front().order.number != number) return; // it no longer stands
+    Entry& entry = entries_.front();
+    if (++entry.not_understood <= retries || stands(entry)) return;
+    entries_.pop_front();
+    ++dropped_;
 }
 
 void DemandQueue::done(std::uint32_t number, AccessError error, std::uint16_t value)

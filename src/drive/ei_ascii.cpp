@@ -145,12 +145,12 @@ AccessError error_of_ee(std::uint16_t ee, bool is_write)
     switch (high(ee)) {
         case 0x01: return AccessError::invalid_tag;
         case 0x02:
-        case 0x03: return AccessError::no_answer;
+        case 0x03: return AccessError::not_understood;
         case 0x04: return AccessError::unsupported_type;
         case 0x05: return AccessError::read_only;
-        case 0x07: return low(ee) == 0xC8 ? AccessError::value_not_encoded : AccessError::no_answer;
+        case 0x07: return low(ee) == 0xC8 ? AccessError::value_not_encoded : AccessError::not_understood;
         case 0x08: return AccessError::out_of_range;
-        default: return is_write ? AccessError::read_only : AccessError::no_answer;
+        default: return is_write ? AccessError::read_only : AccessError::not_understood;
     }
 }
 

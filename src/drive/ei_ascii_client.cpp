@@ -15,8 +15,7 @@ using ei::AnswerParser;
 constexpr std::chrono::milliseconds kMinGap{
     20};                                   ///< between characters at 9600 (EI-ASCII reference, section 1)
 constexpr std::size_t kGapCharacters = 20; ///< the same at lower rates
-constexpr int kMaxNoise = 8;               ///< reads that bring only noise before an answer
-constexpr std::size_t kMaxDrained = 256;   ///< octets; a line that babbles longer is left to the next request
+constexpr std::size_t kLongestAnswer = ei::kMaxAnswerText + 5; ///< STX C1 C2 text ETX BCC
 
 std::string quoted(ei::Mnemonic mnemonic)
 {
@@ -26,6 +25,14 @@ std::string quoted(ei::Mnemonic mnemonic)
 AccessError error_of(ei::ValueFlaw flaw)
 {
     return flaw == ei::ValueFlaw::out_of_span ? AccessError::out_of_range : AccessError::unsupported_type;
+}
+
+std::optional<std::uint16_t> word_of(const Answer& answer)
+{
+    if (answer.kind != Answer::Kind::value) return std::nullopt;
+    const auto word = ei::decode_word(answer.text);
+    if (!word) return std::nullopt;
+    return *word;
 }
 
 std::pair<std::uint16_t, std::uint16_t> key(UnitAddress unit, std::uint16_t tag)
@@ -54,18 +61,25 @@ MnemonicRule EiAsciiClient::rule_of(UnitAddress unit) const
     return at == units_.end() ? MnemonicRule::none : at->mnemonics;
 }
 
-void EiAsciiClient::drain()
+/// After this silence a drive has no more to say.
+std::chrono::nanoseconds EiAsciiClient::gap() const
 {
-    const auto gap = std::max<std::chrono::nanoseconds>(kMinGap, duration_of(kGapCharacters));
-    std::array<std::uint8_t, 64> waste{};
-    for (std::size_t drained = 0; drained < kMaxDrained;) {
-        const std::size_t got = line_.read(waste, gap);
-        if (got == 0) return;
-        drained += got;
-    }
+    return std::max<std::chrono::nanoseconds>(kMinGap, duration_of(kGapCharacters));
 }
 
-/// One request and its answer; nothing when none came that can be believed (trouble_ says why).
+/// Lets pass what still comes, for the time of two answers at most: a line that babbles on is left to the
+/// next request.
+void EiAsciiClient::drain()
+{
+    const Instant end = line_.now() + duration_of(2 * kLongestAnswer) + gap();
+    std::array<std::uint8_t, 64> waste{};
+    for (Instant now = line_.now(); now < end; now = line_.now())
+        if (line_.read(waste, std::min(gap(), end - now)) == 0) return;
+}
+
+/// One request and its answer; nothing when none came that can be believed (trouble_ says why). The answer
+/// has to begin within the time-out and to end within the time of the longest one, whatever comes on the
+/// line.
 std::optional<Answer> EiAsciiClient::exchange(const ei::Frame& request, AnswerParser::To kind)
 {
     line_.discard();
@@ -73,25 +87,28 @@ std::optional<Answer> EiAsciiClient::exchange(const ei::Frame& request, AnswerPa
         trouble_ = "the line does not take the request";
         return std::nullopt;
     }
-    const auto gap = std::max<std::chrono::nanoseconds>(kMinGap, duration_of(kGapCharacters));
-    const auto first =
-        timing_.timeout + duration_of(request.size()); // write() need not have waited for the wire
+    // write() need not have waited for the wire
+    const Instant begins = line_.now() + duration_of(request.size()) + timing_.timeout;
+    const Instant ends = begins + duration_of(kLongestAnswer) + gap();
     AnswerParser parser{kind};
     auto status = AnswerParser::Status::more;
     std::array<std::uint8_t, 64> buffer{};
-    for (int noise = 0; status == AnswerParser::Status::more && noise < kMaxNoise;) {
-        const std::size_t got = line_.read(buffer, parser.started() ? gap : std::chrono::nanoseconds{first});
+    for (bool noise = false; status == AnswerParser::Status::more; noise = !parser.started()) {
+        const Instant now = line_.now();
+        const Instant until = parser.started() ? std::min(now + gap(), ends) : begins;
+        const std::size_t got = now < until ? line_.read(buffer, until - now) : 0;
         if (got == 0) {
-            trouble_ = parser.started() ? "the answer broke off" : "no answer";
+            trouble_ = noise               ? "noise and no answer"
+                       : !parser.started() ? "no answer"
+                       : until < ends      ? "the answer broke off"
+                                           : std::string{ei::text(ei::Flaw::too_long)};
             return std::nullopt;
         }
         for (std::size_t i = 0; i < got && status != AnswerParser::Status::broken; ++i)
             status = parser.feed(buffer[i]);
-        if (!parser.started()) ++noise;
     }
     if (status == AnswerParser::Status::complete) return parser.answer();
-    trouble_ =
-        status == AnswerParser::Status::broken ? std::string{ei::text(parser.flaw())} : "noise and no answer";
+    trouble_ = ei::text(parser.flaw());
     drain();
     return std::nullopt;
 }
@@ -108,23 +125,18 @@ std::optional<Answer> EiAsciiClient::poll(UnitAddress unit, ei::Mnemonic mnemoni
     return answer;
 }
 
-/// Reads EE before anything else changes it.
-std::optional<std::uint16_t> EiAsciiClient::last_error_of(UnitAddress unit)
-{
-    const auto answer = poll(unit, ei::kLastError);
-    if (!answer || answer->kind != Answer::Kind::value) return std::nullopt;
-    const auto word = ei::decode_word(answer->text);
-    if (!word) return std::nullopt;
-    return *word;
-}
-
-/// After a NAK.
+/// After a NAK. EE is read before anything else changes it.
 AccessError EiAsciiClient::refused(UnitAddress unit, bool is_write)
 {
-    const auto ee = last_error_of(unit);
-    if (!ee) {
+    const auto answer = poll(unit, ei::kLastError);
+    if (!answer) {
         trouble_ = "NAK, and EE could not be read";
         return AccessError::no_answer;
+    }
+    const auto ee = word_of(*answer);
+    if (!ee) {
+        trouble_ = "NAK, and the drive has no EE that says why";
+        return AccessError::not_understood;
     }
     trouble_ = "NAK, EE " + hex_text(*ee, 4) + " (" + std::string{ei::meaning_of_ee(*ee)} + ")";
     return ei::error_of_ee(*ee, is_write);
@@ -133,7 +145,8 @@ AccessError EiAsciiClient::refused(UnitAddress unit, bool is_write)
 /// After an EOT on a poll: the drive has no such parameter, unless EE says that it can only be written.
 AccessError EiAsciiClient::unknown_parameter(UnitAddress unit, const Tag& tag)
 {
-    const auto ee = last_error_of(unit);
+    const auto answer = poll(unit, ei::kLastError);
+    const auto ee = answer ? word_of(*answer) : std::nullopt;
     const bool write_only = ee && high(*ee) == 0x04;
     trouble_ = "the drive knows no tag " + std::to_string(tag.number) + " (EOT)";
     if (write_only)

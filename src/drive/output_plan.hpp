@@ -28,8 +28,9 @@ public:
         std::uint16_t written = 0; ///< last word that was taken, for the eye
         Instant attempted_at{};
         Instant updated_at{};
-        std::uint32_t round = 0; ///< in which it was written last
-        bool waits = false;      ///< the drive was lost on it: after the return the others go first
+        std::uint32_t round = 0;     ///< in which it was written last
+        bool waits = false;          ///< the drive was lost on it: after the return the others go first
+        bool not_understood = false; ///< the drive has not taken the word, and may yet
     };
 
     explicit OutputPlan(std::chrono::nanoseconds refresh) : refresh_(refresh) {}
@@ -42,28 +43,35 @@ public:
 
     void begin_round() { ++round_; }
     std::optional<std::size_t> next(Instant now) const; ///< changed ones first, then those to refresh
-    Instant next_due() const;                           ///< rounds left out of account
+    Instant next_due() const;                           ///< of outputs and zeros; rounds left out of account
     void started(std::size_t index, Instant now);
     void done(std::size_t index, std::uint16_t word, AccessError error, Instant now); ///< not for no_answer
     void lost_on(std::size_t index) { items_[index].waits = true; }
     void drive_lost();
     void drive_returned(); ///< before begin_round()
 
-    // The safe state: tags to be written 0, each until the drive has answered.
+    // The safe state: tags to be written 0, each until the drive has taken or refused it.
     void zero(const Tag* row);
     /// The tag to be zeroed next. A tag that the present layout writes is dropped: the zero would come after
     /// the master's newer word.
-    const Tag* next_zero();
+    const Tag* next_zero(Instant now);
+    void postpone_zero(const Tag* row, Instant now); ///< not understood: another one goes first
     void zeroed(const Tag* row);
     bool zeros_wait() const { return !zeros_.empty(); }
 
 private:
+    /// One tag to be written 0.
+    struct Zero {
+        const Tag* row = nullptr;
+        Instant due = kAtOnce;
+    };
+
     bool writes_now() const { return may_write_ && !stopped_; }
     Instant due_at(const Item& item) const;
 
     std::chrono::nanoseconds refresh_;
     std::vector<Item> items_;
-    std::vector<const Tag*> zeros_;
+    std::vector<Zero> zeros_;
     std::uint32_t round_ = 1;
     bool may_write_ = false;
     bool stopped_ = false;

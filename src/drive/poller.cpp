@@ -16,12 +16,12 @@ Poller::Poller(const std::vector<UnitSettings>& units, BlockRule rule)
 
 Poller::~Poller() = default;
 
-void Poller::set_outputs(std::size_t unit, const OutputImage& image, Instant)
+void Poller::set_outputs(std::size_t unit, const OutputImage& image)
 {
     units_[unit]->set_outputs(image);
 }
 
-void Poller::left_data_exchange(std::size_t unit, const LeftDataExchange& left, Instant)
+void Poller::left_data_exchange(std::size_t unit, const LeftDataExchange& left)
 {
     units_[unit]->left_data_exchange(left.generation);
 }

@@ -13,40 +13,23 @@ namespace {
 /// new order.
 constexpr int kOrdersPerRound = 2;
 constexpr std::size_t kMaxOperates = 16;
-constexpr std::size_t kMaxPastLayouts = 4;
-
-std::span<const Parameter> parameters_of(const Layout& layout)
-{
-    return std::span{layout.parameters}.first(std::min<std::size_t>(layout.count, kMaxParameters));
-}
+/// Several dead drives on one line must not eat it: their probes come more and more seldom.
+constexpr int kMaxProbeFactor = 8;
 
 } // namespace
 
 Poller::Unit::Unit(const UnitSettings& settings, BlockRule rule, std::size_t index)
-    : settings_(settings), index_(index), reads_(rule), outputs_(settings.output_refresh)
+    : settings_(settings),
+      index_(index),
+      tags_(settings.tags, settings.tags_only_from_table),
+      reads_(rule),
+      outputs_(settings.output_refresh),
+      probe_wait_(settings.probe_interval)
 {}
-
-/// The row of the table, or one made for a tag that is in none; valid as long as the unit.
-const Tag* Poller::Unit::row_of(std::uint16_t number)
-{
-    if (const Tag* row = settings_.tags != nullptr ? settings_.tags->find(number) : nullptr) return row;
-    return &unlisted_.try_emplace(number, unlisted_tag(number)).first->second;
-}
-
-/// What is known without asking the drive. The limits of the table are not among it: for cyclic and Demand
-/// Data writes the drive decides, because its own limits may have been set otherwise.
-AccessError Poller::Unit::verdict(const Tag& row, bool is_write) const
-{
-    if (!row.listed && settings_.tags_only_from_table) return AccessError::invalid_tag;
-    if (row.type == TagType::string) return AccessError::unsupported_type;
-    if (is_write && row.access == Access::read_only) return AccessError::read_only;
-    if (!is_write && row.access == Access::write_only) return AccessError::unsupported_type;
-    return AccessError::none;
-}
 
 bool Poller::Unit::has_ended(Generation generation) const
 {
-    return left_ && generation != 0 && !is_newer(generation, *left_);
+    return ended_ != 0 && generation != 0 && !is_newer(generation, ended_);
 }
 
 // ---- what is wanted
@@ -57,32 +40,23 @@ void Poller::Unit::set_outputs(const OutputImage& image)
     if (is_new) new_layout(image);
     image_ = image;
     outputs_.set(image_.words, image_.may_write);
+    master_wrote_ = master_wrote_ || image_.may_write;
+    if (has_ended(image_.layout.generation)) end_layout();
     if (is_new) show();
 }
 
 void Poller::Unit::new_layout(const OutputImage& image)
 {
-    const Generation old = image_.layout.generation;
-    if (old != 0 && !has_ended(old)) {
-        past_.push_back({old, output_rows()});
-        if (past_.size() > kMaxPastLayouts) past_.erase(past_.begin());
-    }
+    left_data_exchange(image_.layout.generation);
     ++serial_;
-    reads_.reset(inputs_of(image.layout));
-    outputs_.reset(outputs_of(image.layout));
+    reads_.reset(tags_.inputs_of(image.layout));
+    outputs_.reset(tags_.outputs_of(image.layout));
     if (lost_) {
         reads_.drive_lost();
         outputs_.drive_lost();
     }
-    const Generation present = image.layout.generation;
-    if (present == 0) {
-        demand_.end(old);
-    } else if (has_ended(present)) {
-        outputs_.stop(); // its end was told before the layout itself
-        if (settings_.output_loss == OutputLoss::zero) zero_all(output_rows());
-    } else {
-        demand_.end(present - 1);
-    }
+    master_wrote_ = zeroed_ = false;
+    inputs_not_understood_ = outputs_not_understood_ = 0;
     in_round_ = false;
     round_began_.reset();
     orders_in_round_ = 0;
@@ -93,88 +67,39 @@ void Poller::Unit::new_layout(const OutputImage& image)
     inputs_changed_ = true;
 }
 
-/// Each tag once, however often the layout names it.
-std::vector<ReadPlan::Item> Poller::Unit::inputs_of(const Layout& layout)
+/// Of the present layout nothing is written any more. Its outputs are zeroed once, and only if the master was
+/// in Data_Exchange with it: a drive that runs locally is left alone by start-ups that fail.
+void Poller::Unit::end_layout()
 {
-    std::vector<ReadPlan::Item> items;
-    for (const Parameter& parameter : parameters_of(layout)) {
-        if (!parameter.reads) continue;
-        ReadPlan::Item item;
-        item.row = row_of(parameter.tag);
-        const AccessError error = verdict(*item.row, false);
-        item.asked = error == AccessError::none;
-        item.tried = !item.asked;
-        if (!item.asked) item.state = state_of(error);
-        items.push_back(item);
-    }
-    std::sort(items.begin(), items.end(),
-              [](const auto& a, const auto& b) { return a.row->number < b.row->number; });
-    const auto same = [](const auto& a, const auto& b) { return a.row == b.row; };
-    items.erase(std::unique(items.begin(), items.end(), same), items.end());
-    return items;
-}
-
-std::vector<OutputPlan::Item> Poller::Unit::outputs_of(const Layout& layout)
-{
-    std::vector<OutputPlan::Item> items;
-    std::size_t place = 0;
-    for (const Parameter& parameter : parameters_of(layout)) {
-        OutputPlan::Item item;
-        item.parameter = place++;
-        if (!parameter.writes) continue;
-        item.row = row_of(parameter.tag);
-        const AccessError error = verdict(*item.row, true);
-        item.asked = error == AccessError::none;
-        if (!item.asked) item.state = state_of(error);
-        items.push_back(item);
-    }
-    return items;
-}
-
-std::vector<const Tag*> Poller::Unit::output_rows() const
-{
-    std::vector<const Tag*> rows;
+    outputs_.stop();
+    if (!master_wrote_ || zeroed_ || settings_.output_loss != OutputLoss::zero) return;
+    zeroed_ = true;
     for (const OutputPlan::Item& item : outputs_.items())
-        if (item.asked) rows.push_back(item.row);
-    return rows;
-}
-
-void Poller::Unit::zero_all(const std::vector<const Tag*>& rows)
-{
-    for (const Tag* row : rows) outputs_.zero(row);
+        if (item.asked) outputs_.zero(item.row);
 }
 
 void Poller::Unit::left_data_exchange(Generation generation)
 {
     if (generation == 0 || has_ended(generation)) return;
-    const bool zeroes = settings_.output_loss == OutputLoss::zero;
-    for (const PastLayout& past : past_)
-        if (zeroes && !is_newer(past.generation, generation)) zero_all(past.outputs);
-    past_.erase(
-        std::remove_if(past_.begin(), past_.end(),
-                       [generation](const PastLayout& p) { return !is_newer(p.generation, generation); }),
-        past_.end());
-    const Generation present = image_.layout.generation;
-    if (present != 0 && !has_ended(present) && !is_newer(present, generation)) {
-        outputs_.stop();
-        if (zeroes) zero_all(output_rows());
-    }
+    ended_ = generation;
     demand_.end(generation);
-    left_ = generation;
+    if (has_ended(image_.layout.generation)) end_layout();
 }
 
 void Poller::Unit::set_demand(const DemandOrder& order)
 {
     if (has_ended(order.generation)) return;
-    const Tag* row = row_of(order.tag);
-    demand_.set(order, row, verdict(*row, order.kind == DemandOrder::Kind::write));
+    const Tag* row = tags_.row(order.tag);
+    demand_.set(order, row, tags_.verdict(*row, order.kind == DemandOrder::Kind::write));
+    if (lost_) demand_.drop_superseded();
+    snapshot_.orders_dropped = demand_.dropped();
 }
 
 bool Poller::Unit::operate(const OperateOrder& order)
 {
     if (operates_.size() + operate_answers_.size() >= kMaxOperates) return false;
-    const Tag* row = row_of(order.tag);
-    AccessError error = verdict(*row, order.is_write);
+    const Tag* row = tags_.row(order.tag);
+    AccessError error = tags_.verdict(*row, order.is_write);
     if (error == AccessError::none && lost_) error = AccessError::no_answer;
     if (error == AccessError::none)
         operates_.push_back({order, row, 0});
@@ -199,19 +124,20 @@ std::optional<Transaction> Poller::Unit::next(Instant now)
 /// What this round still has.
 std::optional<Transaction> Poller::Unit::asked(Instant now)
 {
-    if (const Tag* row = zero_waits_ ? nullptr : outputs_.next_zero())
+    if (const Tag* row = zero_waits_ ? nullptr : outputs_.next_zero(now))
         return make(Purpose::safe_state, Transaction::Kind::write, row);
     if (auto transaction = ordered()) return transaction;
     return cyclic(now);
 }
 
-/// Demand Data first, then dpctl; but after each of them one cyclic transaction, and a standing read once a
-/// round.
+/// Demand Data first, then dpctl; but after each of them one cyclic transaction, and what is asked again once
+/// a round.
 std::optional<Transaction> Poller::Unit::ordered()
 {
     if (order_was_last_) return std::nullopt;
     const DemandQueue::Entry* entry = demand_.front();
-    if (entry != nullptr && orders_in_round_ < (entry->answered ? 1 : kOrdersPerRound)) {
+    const bool is_again = entry != nullptr && (entry->answered || entry->not_understood > 0);
+    if (entry != nullptr && orders_in_round_ < (is_again ? 1 : kOrdersPerRound)) {
         order_was_last_ = true;
         ++orders_in_round_;
         job_.order = entry->order.number;
@@ -258,7 +184,7 @@ std::optional<Transaction> Poller::Unit::cyclic(Instant now)
 /// followed up at once.
 std::optional<Transaction> Poller::Unit::probe(Instant now)
 {
-    const bool due = !ever_asked_ || (silences_ > 0 && !lost_) || now >= asked_at_ + settings_.probe_interval;
+    const bool due = !ever_asked_ || (silences_ > 0 && !lost_) || now >= asked_at_ + probe_wait_;
     if (!due) return std::nullopt;
     return make(Purpose::probe, Transaction::Kind::probe, nullptr);
 }
@@ -287,10 +213,10 @@ void Poller::Unit::begin_round(Instant now)
 
 Instant Poller::Unit::next_deadline() const
 {
-    const Instant next_probe = asked_at_ + settings_.probe_interval;
+    const Instant next_probe = asked_at_ + probe_wait_;
     if (lost_) return next_probe;
-    const bool something = !ever_asked_ || silences_ > 0 || outputs_.zeros_wait() ||
-                           demand_.front() != nullptr || !operates_.empty() || !reads_.empty();
+    const bool something =
+        !ever_asked_ || silences_ > 0 || demand_.front() != nullptr || !operates_.empty() || !reads_.empty();
     if (something) return kAtOnce;
     return std::min({next_probe, outputs_.next_due(), reads_.next_retry()});
 }
@@ -309,17 +235,8 @@ void Poller::Unit::done(const Transaction& transaction, const Outcome& outcome, 
     switch (transaction.purpose) {
         case Purpose::input: done_input(what, now); break;
         case Purpose::output: done_output(transaction, what.error, now); break;
-        case Purpose::safe_state:
-            zero_waits_ = what.error == AccessError::no_answer;
-            if (!zero_waits_) outputs_.zeroed(transaction.tag);
-            break;
-        case Purpose::demand: {
-            if (what.error == AccessError::no_answer) break;
-            const bool is_read = transaction.kind == Transaction::Kind::read;
-            const auto value = is_read && what.error == AccessError::none ? what.words[0] : transaction.word;
-            demand_.done(job_.order, what.error, value);
-            break;
-        }
+        case Purpose::safe_state: done_zero(transaction.tag, what.error, now); break;
+        case Purpose::demand: done_demand(transaction, what); break;
         case Purpose::operate: done_operate(transaction, what); break;
         case Purpose::probe: break;
     }
@@ -339,6 +256,16 @@ void Poller::Unit::count(const Transaction& transaction, AccessError error)
         ++snapshot_.writes;
 }
 
+/// What the drive did not understand is repeated like silence. When that does not help it is left to later:
+/// the drive is there, and the others go on.
+bool Poller::Unit::is_repeated(AccessError error, int& not_understood) const
+{
+    not_understood = error == AccessError::not_understood ? not_understood + 1 : 0;
+    if (not_understood <= settings_.retries) return not_understood > 0;
+    not_understood = 0;
+    return false;
+}
+
 void Poller::Unit::done_input(const Outcome& outcome, Instant now)
 {
     if (job_.layout != serial_) return; // read for a layout that is gone
@@ -347,6 +274,7 @@ void Poller::Unit::done_input(const Outcome& outcome, Instant now)
             reads_.skip(job_.block); // lost on it: after the return another one goes first
         return;
     }
+    if (is_repeated(outcome.error, inputs_not_understood_)) return;
     if (reads_.done(job_.block, outcome.error, outcome.words, now)) inputs_changed_ = true;
 }
 
@@ -357,13 +285,37 @@ void Poller::Unit::done_output(const Transaction& transaction, AccessError error
         if (silences_ >= settings_.retries) outputs_.lost_on(job_.output);
         return;
     }
+    if (is_repeated(error, outputs_not_understood_)) return;
     outputs_.done(job_.output, transaction.word, error, now);
+}
+
+void Poller::Unit::done_zero(const Tag* row, AccessError error, Instant now)
+{
+    zero_waits_ = error == AccessError::no_answer || error == AccessError::not_understood;
+    if (error == AccessError::no_answer || is_repeated(error, zeros_not_understood_)) return;
+    if (error == AccessError::not_understood)
+        outputs_.postpone_zero(row, now);
+    else
+        outputs_.zeroed(row);
+}
+
+void Poller::Unit::done_demand(const Transaction& transaction, const Outcome& outcome)
+{
+    if (outcome.error == AccessError::no_answer) return;
+    if (outcome.error == AccessError::not_understood) {
+        demand_.not_understood(job_.order, settings_.retries);
+        return;
+    }
+    const bool has_word = outcome.error == AccessError::none && transaction.kind == Transaction::Kind::read;
+    demand_.done(job_.order, outcome.error, has_word ? outcome.words[0] : transaction.word);
 }
 
 void Poller::Unit::done_operate(const Transaction& transaction, const Outcome& outcome)
 {
     WaitingOperate& waiting = operates_.front();
-    if (outcome.error == AccessError::no_answer && ++waiting.attempts <= settings_.retries) return;
+    const bool may_pass =
+        outcome.error == AccessError::no_answer || outcome.error == AccessError::not_understood;
+    if (may_pass && ++waiting.attempts <= settings_.retries) return;
     const bool has_word = outcome.error == AccessError::none && transaction.kind == Transaction::Kind::read;
     operate_answers_.push_back(
         {waiting.order.number, outcome.error, has_word ? outcome.words[0] : transaction.word});
@@ -373,12 +325,16 @@ void Poller::Unit::done_operate(const Transaction& transaction, const Outcome& o
 void Poller::Unit::link(bool answered, Instant now)
 {
     if (!answered) {
-        if (!lost_ && ++silences_ > settings_.retries) lose();
+        if (lost_)
+            probe_wait_ = std::min(2 * probe_wait_, kMaxProbeFactor * settings_.probe_interval);
+        else if (++silences_ > settings_.retries)
+            lose();
         return;
     }
     silences_ = 0;
     if (lost_) {
         lost_ = false;
+        probe_wait_ = settings_.probe_interval;
         reads_.drive_returned(now);
         outputs_.drive_returned();
         outputs_.begin_round(); // they go before the rest of the reads
@@ -401,6 +357,7 @@ void Poller::Unit::lose()
     inputs_changed_ = true;
     reads_.drive_lost();
     outputs_.drive_lost();
+    demand_.drop_superseded();
     for (const WaitingOperate& waiting : operates_)
         operate_answers_.push_back({waiting.order.number, AccessError::no_answer, 0});
     operates_.clear();
@@ -437,6 +394,7 @@ std::optional<OperateAnswer> Poller::Unit::take_operate_answer()
 void Poller::Unit::show()
 {
     snapshot_.generation = image_.layout.generation;
+    snapshot_.orders_dropped = demand_.dropped();
     for (const OutputPlan::Item& item : outputs_.items()) {
         snapshot_.words[item.parameter] = item.written;
         snapshot_.states[item.parameter] = item.state;

@@ -5,11 +5,11 @@
 #include "demand_queue.hpp"
 #include "output_plan.hpp"
 #include "read_plan.hpp"
+#include "unit_tags.hpp"
 
 #include "dpslave/drive/poller.hpp"
 
 #include <deque>
-#include <map>
 
 namespace dpslave::drive {
 
@@ -38,11 +38,6 @@ private:
         const Tag* row = nullptr;
         int attempts = 0;
     };
-    /// Outputs of a layout that is no longer the present one and whose end has not been told yet.
-    struct PastLayout {
-        Generation generation = 0;
-        std::vector<const Tag*> outputs;
-    };
     /// What the transaction under way is for.
     struct Job {
         std::uint32_t layout = 0; ///< serial_ when it was given
@@ -51,15 +46,10 @@ private:
         std::uint32_t order = 0;
     };
 
-    const Tag* row_of(std::uint16_t number);
-    AccessError verdict(const Tag& row, bool is_write) const;
     bool has_ended(Generation generation) const;
 
     void new_layout(const OutputImage& image);
-    std::vector<ReadPlan::Item> inputs_of(const Layout& layout);
-    std::vector<OutputPlan::Item> outputs_of(const Layout& layout);
-    std::vector<const Tag*> output_rows() const;
-    void zero_all(const std::vector<const Tag*>& rows);
+    void end_layout();
 
     std::optional<Transaction> asked(Instant now);
     std::optional<Transaction> ordered();
@@ -68,22 +58,26 @@ private:
     Transaction make(Purpose purpose, Transaction::Kind kind, const Tag* row, std::uint16_t word = 0) const;
     void begin_round(Instant now);
 
+    bool is_repeated(AccessError error, int& not_understood) const;
     void link(bool answered, Instant now);
     void lose();
     void done_output(const Transaction& transaction, AccessError error, Instant now);
     void done_input(const Outcome& outcome, Instant now);
+    void done_zero(const Tag* row, AccessError error, Instant now);
+    void done_demand(const Transaction& transaction, const Outcome& outcome);
     void done_operate(const Transaction& transaction, const Outcome& outcome);
     void count(const Transaction& transaction, AccessError error);
     void show();
 
     UnitSettings settings_;
     std::size_t index_;
-    std::map<std::uint16_t, Tag> unlisted_; ///< rows of tags that are in no table; they stay where they are
+    UnitTags tags_;
 
-    OutputImage image_;              ///< as told last
-    std::uint32_t serial_ = 0;       ///< counts layouts: a result for an older one is dropped
-    std::optional<Generation> left_; ///< the newest generation known to have ended
-    std::vector<PastLayout> past_;
+    OutputImage image_;         ///< as told last
+    std::uint32_t serial_ = 0;  ///< counts layouts: a result for an older one is dropped
+    Generation ended_ = 0;      ///< the newest that has ended
+    bool master_wrote_ = false; ///< the present layout had may_write
+    bool zeroed_ = false;       ///< the outputs of the present layout were sent to their safe state
     ReadPlan reads_;
     OutputPlan outputs_;
     DemandQueue demand_;
@@ -97,10 +91,14 @@ private:
     bool in_round_ = false;       ///< a cyclic read was given since the round began
     std::optional<Instant> round_began_;
 
+    int inputs_not_understood_ = 0; ///< in a row; the same for the others
+    int outputs_not_understood_ = 0;
+    int zeros_not_understood_ = 0;
     int silences_ = 0; ///< in a row
     bool lost_ = false;
     bool ever_asked_ = false;
-    Instant asked_at_{}; ///< end of the last transaction
+    Instant asked_at_{};                  ///< end of the last transaction
+    std::chrono::nanoseconds probe_wait_; ///< from there to the next probe
     bool inputs_changed_ = false;
     UnitSnapshot snapshot_;
 };

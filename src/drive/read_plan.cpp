@@ -14,6 +14,7 @@ WordState state_of(AccessError error)
         case AccessError::read_only: return WordState::read_only;
         case AccessError::out_of_range:
         case AccessError::value_not_encoded: return WordState::out_of_range;
+        case AccessError::not_understood:
         case AccessError::not_stopped:
         case AccessError::not_config_mode:
         case AccessError::unsupported_type: return WordState::refused;
@@ -137,9 +138,10 @@ bool ReadPlan::bad(std::size_t index, AccessError error, Instant now)
     Item& item = items_[index];
     const bool was_excluded = excluded(item);
     const WordState state = state_of(error);
-    // A value that does not fit is held as it was; of a tag that gives no value nothing is known, so it reads
-    // 0.
-    const std::uint16_t word = state == WordState::out_of_range ? item.word : std::uint16_t{0};
+    // A value that does not fit, or that noise kept away, is held as it was; of a tag that gives no value
+    // nothing is known, so it reads 0.
+    const bool held = state == WordState::out_of_range || error == AccessError::not_understood;
+    const std::uint16_t word = held ? item.word : std::uint16_t{0};
     const bool changed = !item.tried || item.state != state || item.word != word;
     item.state = state;
     item.word = word;

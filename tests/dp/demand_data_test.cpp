@@ -147,6 +147,27 @@ TEST_F(DemandData, ReservedRegistersAndBit11DoNotMatterAndAreAnswered0)
     EXPECT_EQ(exchange({0x1837, 0x1111, 0x2222, 0}), "10 37 00 00 00 00 00 07");
 }
 
+TEST_F(DemandData, TagsGoFrom0To2047)
+{
+    demand(0x17FF);
+    const DemandOrder highest = order();
+    EXPECT_EQ(highest.tag, 2047);
+    answer(highest, 1);
+    EXPECT_EQ(demand(0x17FF), "17 FF 00 00 00 00 00 01");
+    demand(0x1000);
+    EXPECT_EQ(order().tag, 0);
+}
+
+TEST_F(DemandData, ARejectedReadIsAnswered7AndItsCodeUntilItSucceeds)
+{
+    demand(0x1037);
+    const DemandOrder read = order();
+    refuse(read, AccessError::read_only);
+    EXPECT_EQ(demand(0x1037), "70 37 00 00 00 00 00 01");
+    answer(read, 0xFFFE);
+    EXPECT_EQ(demand(0x1037), "10 37 00 00 00 00 FF FE");
+}
+
 TEST_F(DemandData, NoCommandIsAnsweredAtOnceAndLateAnswersAreDropped)
 {
     demand(0x1037);
@@ -172,12 +193,13 @@ TEST_F(DemandData, ThePreviousAnswerStaysUntilTheNewOneIsReady)
     EXPECT_EQ(demand(0x1038), "10 38 00 00 00 00 00 02");
 }
 
-TEST_F(DemandData, ASilentDriveHasNoCodeSoThePreviousAnswerStays)
+TEST_F(DemandData, ADriveThatIsSilentOrDoesNotUnderstandHasNoCodeSoThePreviousAnswerStays)
 {
     demand(0x1037);
     const DemandOrder read = order();
     answer(read, 1);
     refuse(read, AccessError::no_answer);
+    refuse(read, AccessError::not_understood);
 
     EXPECT_EQ(demand(0x1037), "10 37 00 00 00 00 00 01");
 }

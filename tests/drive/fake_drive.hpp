@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <deque>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -205,20 +206,30 @@ public:
     {}
 
     std::vector<FakeDrive*> drives;
-    Instant now{};
+    Instant time{};
     bool unplugged = false;
     std::string sent; ///< octets of all requests
 
     std::chrono::nanoseconds character() const { return character_; }
     void comes_by_itself(const std::string& octets, std::chrono::nanoseconds after = 0ns)
     {
-        arrives(octets, now + after);
+        arrives(octets, time + after);
     }
+
+    /// For ever: one octet, again and again.
+    void babbles(char octet, std::chrono::nanoseconds every, std::chrono::nanoseconds after = 0ns)
+    {
+        babble_ = octet;
+        babble_every_ = every;
+        next_babble_ = time + after;
+    }
+
+    Instant now() const override { return time; }
 
     bool write(Bytes octets) override
     {
         if (unplugged) return false;
-        Instant at = now;
+        Instant at = time;
         for (const std::uint8_t octet : octets) {
             at += character_;
             sent += static_cast<char>(octet);
@@ -232,13 +243,14 @@ public:
 
     std::size_t read(std::span<std::uint8_t> into, std::chrono::nanoseconds timeout) override
     {
-        if (pending_.empty() || pending_.front().second > now + timeout) {
-            now += timeout;
+        babble_until(time + timeout);
+        if (pending_.empty() || pending_.front().second > time + timeout) {
+            time += timeout;
             return 0;
         }
-        now = std::max(now, pending_.front().second);
+        time = std::max(time, pending_.front().second);
         std::size_t got = 0;
-        while (got < into.size() && !pending_.empty() && pending_.front().second <= now) {
+        while (got < into.size() && !pending_.empty() && pending_.front().second <= time) {
             into[got++] = static_cast<std::uint8_t>(pending_.front().first);
             pending_.pop_front();
         }
@@ -247,7 +259,8 @@ public:
 
     void discard() override
     {
-        while (!pending_.empty() && pending_.front().second <= now) pending_.pop_front();
+        babble_until(time);
+        while (!pending_.empty() && pending_.front().second <= time) pending_.pop_front();
     }
 
 private:
@@ -257,12 +270,28 @@ private:
             begin += character_;
             pending_.emplace_back(c, begin);
         }
+        in_order();
+    }
+
+    void babble_until(Instant end)
+    {
+        if (!babble_) return;
+        for (; next_babble_ <= end; next_babble_ += babble_every_)
+            pending_.emplace_back(*babble_, next_babble_);
+        in_order();
+    }
+
+    void in_order()
+    {
         std::stable_sort(pending_.begin(), pending_.end(),
                          [](auto& a, auto& b) { return a.second < b.second; });
     }
 
     std::chrono::nanoseconds character_;
     std::deque<std::pair<char, Instant>> pending_;
+    std::optional<char> babble_;
+    std::chrono::nanoseconds babble_every_{};
+    Instant next_babble_{};
 };
 
 } // namespace dpslave::drive::test

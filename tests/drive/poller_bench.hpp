@@ -20,10 +20,12 @@ inline constexpr std::chrono::nanoseconds kSilenceTime = 220ms; ///< of one with
 
 struct MemoryDrive {
     std::map<int, std::uint16_t> words;      ///< the tags that it has
+    std::map<int, AccessError> read_errors;  ///< tags that refuse reads
     std::map<int, AccessError> write_errors; ///< tags that refuse writes
     std::set<int> silent_tags;
     bool alive = true;
-    int lost_answers = 0; ///< so many transactions are done and not answered
+    int lost_answers = 0;   ///< so many transactions are done and not answered
+    int not_understood = 0; ///< so many transactions are answered with a NAK and not done
 };
 
 struct Done {
@@ -61,7 +63,7 @@ public:
         for (const int tag : writes) add(image, tag, false, true);
         tell(unit);
     }
-    void tell(std::size_t unit) { poller.set_outputs(unit, images[unit], now); }
+    void tell(std::size_t unit) { poller.set_outputs(unit, images[unit]); }
     void master_writes(std::size_t unit, int tag, int word)
     {
         OutputImage& image = images[unit];
@@ -74,7 +76,7 @@ public:
     {
         images[unit].may_write = false;
         tell(unit);
-        poller.left_data_exchange(unit, {images[unit].layout.generation}, now);
+        poller.left_data_exchange(unit, {images[unit].layout.generation});
     }
 
     /// One transaction; false when there is nothing to do now.
@@ -142,6 +144,10 @@ private:
         if (transaction.kind == Transaction::Kind::probe) return AccessError::none;
         const int tag = transaction.tag->number;
         if (drive.silent_tags.count(tag) != 0) return AccessError::no_answer;
+        if (drive.not_understood > 0) {
+            --drive.not_understood;
+            return AccessError::not_understood;
+        }
         const AccessError error = transaction.kind == Transaction::Kind::read
                                       ? read(drive, transaction, words)
                                       : write(drive, transaction);
@@ -155,6 +161,8 @@ private:
                             std::array<std::uint16_t, 64>& words)
     {
         for (std::uint16_t i = 0; i < transaction.count; ++i) {
+            const auto refused = drive.read_errors.find(transaction.tag->number + i);
+            if (refused != drive.read_errors.end()) return refused->second;
             const auto at = drive.words.find(transaction.tag->number + i);
             if (at == drive.words.end()) return AccessError::invalid_tag;
             words[i] = at->second;

@@ -75,7 +75,7 @@ public:
         }
         for (FakeDrive& drive : drives_) drive.alive = true;
         for (FakeDrive& drive : drives_) drive.faults.clear();
-        run(5s);
+        run(20s); // a lost drive is probed every 8 s at last
     }
 
     void expect_nothing_lost()
@@ -120,19 +120,22 @@ private:
             Parameter& parameter = master.image.layout.parameters[master.image.layout.count++];
             parameter = {static_cast<std::uint16_t>(tag), (use & 1) != 0, use >= 2};
         }
-        poller_->set_outputs(unit, master.image, line_.now);
+        poller_->set_outputs(unit, master.image);
     }
 
     void leave(std::size_t unit)
     {
         Master& master = masters_[unit];
         if (master.image.layout.generation == 0) return;
-        const bool order_first = pick(2) == 0; // mailbox and ring may be looked at in either order
-        if (order_first) poller_->left_data_exchange(unit, {master.generation}, line_.now);
-        for_outputs(master, [&master](std::size_t, std::size_t tag) { master.last[tag] = std::uint16_t{0}; });
+        poller_->left_data_exchange(unit, {master.generation});
+        if (master.image.may_write)
+            for_outputs(master,
+                        [&master](std::size_t, std::size_t tag) { master.last[tag] = std::uint16_t{0}; });
+        if (pick(2) == 0) poller_->set_outputs(unit, master.image); // the mailbox still held it
         master.image = {};
-        poller_->set_outputs(unit, master.image, line_.now);
-        if (!order_first) poller_->left_data_exchange(unit, {master.generation}, line_.now);
+        poller_->set_outputs(unit, master.image);
+        if (pick(2) == 0)
+            poller_->left_data_exchange(unit, {master.generation}); // it is told again and again
     }
 
     void change(std::size_t unit)
@@ -146,7 +149,7 @@ private:
                     static_cast<std::uint16_t>(pick(4) == 0 ? pick(3) : pick(0x10000));
             master.last[tag] = master.image.words[place];
         });
-        poller_->set_outputs(unit, master.image, line_.now);
+        poller_->set_outputs(unit, master.image);
     }
 
     /// The drive comes back with its old settings, long enough away to be noticed.
@@ -177,11 +180,11 @@ private:
 
     void run(std::chrono::nanoseconds duration)
     {
-        const Instant end = line_.now + duration;
-        while (line_.now < end) {
-            const auto next = poller_->next(line_.now);
+        const Instant end = line_.time + duration;
+        while (line_.time < end) {
+            const auto next = poller_->next(line_.time);
             if (!next) {
-                line_.now = std::min(end, std::max(line_.now + 1us, poller_->next_deadline()));
+                line_.time = std::min(end, std::max(line_.time + 1us, poller_->next_deadline()));
                 continue;
             }
             const UnitAddress address{0, static_cast<std::uint8_t>(next->unit)};
@@ -194,7 +197,7 @@ private:
                     error = client_.probe(address) ? AccessError::none : AccessError::no_answer;
                     break;
             }
-            poller_->done({error, {&word, 1}}, line_.now);
+            poller_->done({error, {&word, 1}}, line_.time);
         }
     }
 

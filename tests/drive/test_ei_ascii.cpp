@@ -355,16 +355,17 @@ TEST(EiLastError, IsComparedByItsHighOctet)
         std::uint16_t ee;
         AccessError on_write;
     } list[] = {
-        {0x01C7, AccessError::invalid_tag},  {0x02C2, AccessError::no_answer},
-        {0x03C2, AccessError::no_answer},    {0x04C8, AccessError::unsupported_type},
-        {0x05C8, AccessError::read_only},    {0x05CA, AccessError::read_only},
-        {0x07C7, AccessError::no_answer},    {0x07C8, AccessError::value_not_encoded},
-        {0x08C8, AccessError::out_of_range}, {0x08C0, AccessError::out_of_range},
-        {0x00C0, AccessError::read_only},    {0x42C8, AccessError::read_only},
+        {0x01C7, AccessError::invalid_tag},    {0x02C2, AccessError::not_understood},
+        {0x03C2, AccessError::not_understood}, {0x04C8, AccessError::unsupported_type},
+        {0x05C8, AccessError::read_only},      {0x05CA, AccessError::read_only},
+        {0x07C7, AccessError::not_understood}, {0x07C8, AccessError::value_not_encoded},
+        {0x08C8, AccessError::out_of_range},   {0x08C0, AccessError::out_of_range},
+        {0x00C0, AccessError::read_only},      {0x42C8, AccessError::read_only},
     };
     for (const auto& entry : list)
         EXPECT_EQ(error_of_ee(entry.ee, true), entry.on_write) << std::hex << entry.ee;
-    EXPECT_EQ(error_of_ee(0x00C0, false), AccessError::no_answer);
+    EXPECT_EQ(error_of_ee(0x00C0, false), AccessError::not_understood);
+    EXPECT_EQ(error_of_ee(0x42C8, false), AccessError::not_understood);
     EXPECT_EQ(error_of_ee(0x04C8, false), AccessError::unsupported_type);
     EXPECT_EQ(meaning_of_ee(0x08C8), "data out of range");
     EXPECT_EQ(meaning_of_ee(0x07C7), "invalid message format");

@@ -50,9 +50,9 @@ protected:
 
     std::chrono::nanoseconds time_of(const std::function<void()>& what)
     {
-        const Instant before = line.now;
+        const Instant before = line.time;
         what();
-        return line.now - before;
+        return line.time - before;
     }
 
     FakeDrive dc{'0', '0'}, ac{'0', '1'};
@@ -166,9 +166,9 @@ TEST_F(EiClient, TakesAValueAtTheVeryLimitOfTheDrive)
 TEST_F(EiClient, MapsEveryEeOfARefusedWrite)
 {
     const std::pair<const char*, AccessError> list[] = {
-        {">01C7", AccessError::invalid_tag},       {">02C2", AccessError::no_answer},
-        {">03C2", AccessError::no_answer},         {">04C8", AccessError::unsupported_type},
-        {">05C8", AccessError::read_only},         {">07C7", AccessError::no_answer},
+        {">01C7", AccessError::invalid_tag},       {">02C2", AccessError::not_understood},
+        {">03C2", AccessError::not_understood},    {">04C8", AccessError::unsupported_type},
+        {">05C8", AccessError::read_only},         {">07C7", AccessError::not_understood},
         {">07C8", AccessError::value_not_encoded}, {">08C8", AccessError::out_of_range},
         {">00C0", AccessError::read_only},
     };
@@ -185,6 +185,13 @@ TEST_F(EiClient, TakesARefusalWithoutReadableEeForNoAnswer)
     dc.faults = {Fault::none, Fault::silent};
     EXPECT_EQ(client.write(kDc, sequence, 1), AccessError::no_answer);
     EXPECT_THAT(client.last_trouble(), HasSubstr("EE could not be read"));
+}
+
+TEST_F(EiClient, TakesARefusalByADriveWithoutEeForNotUnderstood)
+{
+    dc.refuse_next = {"nonsense"};
+    EXPECT_EQ(client.write(kDc, sequence, 1), AccessError::not_understood);
+    EXPECT_EQ(client.last_trouble(), "NAK, and the drive has no EE that says why");
 }
 
 TEST_F(EiClient, WaitsOneTimeOutForASilentDriveAndNoLonger)
@@ -246,7 +253,7 @@ TEST_F(EiClient, SkipsTheNoiseOfATransceiver)
 TEST_F(EiClient, ForgetsWhatCameBeforeItsRequest)
 {
     line.comes_by_itself("\x02ox>0001\x03\x2C");
-    line.now += 1s;
+    line.time += 1s;
     EXPECT_EQ(read(kDc, status), AccessError::none);
     EXPECT_EQ(word, 0x1B0B);
 }
@@ -254,9 +261,42 @@ TEST_F(EiClient, ForgetsWhatCameBeforeItsRequest)
 TEST_F(EiClient, ReturnsFromALineThatBabbles)
 {
     line.comes_by_itself(std::string(5000, 'U'));
-    line.now += 1ms;
+    line.time += 1ms;
     const auto took = time_of([this] { EXPECT_EQ(read(kNobody, status), AccessError::no_answer); });
     EXPECT_LT(took, 500ms);
+}
+
+TEST_F(EiClient, ReturnsWithinItsDeadlineFromALineThatBabblesForEver)
+{
+    // The time-out and the request, the longest answer with a gap, then twice that for what is drained.
+    const auto longest = 200ms + 8 * line.character() + (1 + 2) * 85 * line.character() + 2 * 21ms;
+    for (const char octet : {'U', '\xFF', '\x15', '\x02', '\x04'})
+        for (const auto every : {std::chrono::nanoseconds{1ms}, std::chrono::nanoseconds{19ms}}) {
+            line.babbles(octet, every);
+            const auto read_took = time_of([this] { (void)read(kNobody, status); });
+            EXPECT_LE(read_took, longest) << int{octet};
+            const auto probe_took = time_of([this] { (void)client.probe(kNobody); });
+            EXPECT_LE(probe_took, longest) << int{octet};
+            const auto write_took = time_of([this] { (void)client.write(kNobody, status, 1); });
+            EXPECT_LE(write_took, 2 * longest) << int{octet} << ": a NAK, then EE";
+        }
+}
+
+TEST_F(EiClient, GivesUpADriveThatTricklesAtItsDeadline)
+{
+    line.comes_by_itself("\x02ox>", 15ms);
+    line.babbles('0', 19ms, 30ms);
+    const auto took = time_of([this] { EXPECT_EQ(read(kNobody, status), AccessError::no_answer); });
+    EXPECT_LE(took, 200ms + 8 * line.character() + 85 * line.character() + 21ms);
+    EXPECT_EQ(client.last_trouble(), "an answer that does not end");
+}
+
+TEST_F(EiClient, WaitsForAnAnswerBehindNoise)
+{
+    for (int i = 0; i < 15; ++i) line.comes_by_itself("\xFF", i * 10ms);
+    dc.turnaround = 180ms;
+    EXPECT_EQ(read(kDc, status), AccessError::none);
+    EXPECT_EQ(word, 0x1B0B);
 }
 
 TEST_F(EiClient, SaysSoWhenTheLineIsUnplugged)
@@ -345,12 +385,12 @@ TEST_F(EiClient, TakesTheWireTimeOfTheReference)
                                          : row(536, TagType::number, 2);
         dc.parameters["ow"].text = text;
         std::uint16_t value = 0;
-        Instant before = wire.now;
+        Instant before = wire.time;
         ASSERT_EQ(on_wire.read(kDc, tag, {&value, 1}), AccessError::none);
-        EXPECT_NEAR(std::chrono::duration<double>(wire.now - before).count() * 1000, entry.read_ms, 0.006);
-        before = wire.now;
+        EXPECT_NEAR(std::chrono::duration<double>(wire.time - before).count() * 1000, entry.read_ms, 0.006);
+        before = wire.time;
         ASSERT_EQ(on_wire.write(kDc, tag, value), AccessError::none);
-        EXPECT_NEAR(std::chrono::duration<double>(wire.now - before).count() * 1000, entry.write_ms, 0.006);
+        EXPECT_NEAR(std::chrono::duration<double>(wire.time - before).count() * 1000, entry.write_ms, 0.006);
         EXPECT_EQ(dc.parameters["ow"].text, text);
     }
 }

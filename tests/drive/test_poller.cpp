@@ -277,6 +277,79 @@ TEST_F(PollerOfOne, KeepsARefusedWriteAsStateAndTriesItOnChangeAndRefresh)
     }
 }
 
+TEST_F(PollerOfOne, RepeatsAReadThatIsNotUnderstoodLikeSilence)
+{
+    bench.layout(0, 1, {5, 6});
+    drive().not_understood = 2;
+    bench.steps(3);
+    EXPECT_EQ(bench.reads_of(5), 3u);
+    EXPECT_EQ(seen().states[0], WordState::good);
+    EXPECT_EQ(seen().losses, 0u);
+}
+
+TEST_F(PollerOfOne, HoldsAnInputThatIsNotUnderstoodAndTheOthersGoOn)
+{
+    bench.layout(0, 1, {5, 6});
+    bench.steps(4);
+    drive().read_errors[5] = AccessError::not_understood;
+    drive().words[6] = 66;
+    bench.log.clear();
+    bench.run(9s);
+    EXPECT_EQ(bench.reads_of(5), 3u) << "the retries, and then only now and then";
+    EXPECT_GE(bench.reads_of(6), 400u);
+    const auto inputs = bench.poller.take_inputs(0);
+    EXPECT_TRUE(inputs->drive_answers);
+    EXPECT_EQ(inputs->words[0], 1005);
+    EXPECT_EQ(inputs->words[1], 66);
+    EXPECT_EQ(seen().states[0], WordState::refused);
+    EXPECT_EQ(seen().losses, 0u);
+    bench.run(5s);
+    EXPECT_EQ(bench.reads_of(5), 6u);
+    drive().read_errors.clear();
+    drive().words[5] = 55;
+    bench.run(10s);
+    EXPECT_EQ(bench.poller.take_inputs(0)->words[0], 55);
+    EXPECT_EQ(seen().states[0], WordState::good);
+}
+
+TEST_F(PollerOfOne, TriesEveryInputEvenIfNoneIsUnderstood)
+{
+    bench.layout(0, 1, {5, 6});
+    drive().read_errors = {{5, AccessError::not_understood}, {6, AccessError::not_understood}};
+    bench.run(1s);
+    const auto inputs = bench.poller.take_inputs(0);
+    EXPECT_TRUE(inputs->every_input_tried);
+    EXPECT_TRUE(inputs->drive_answers);
+    EXPECT_EQ(bench.reads_of(5), 3u);
+    EXPECT_EQ(bench.reads_of(6), 3u);
+}
+
+class PollerOfOneWithoutRefresh : public PollerOfOne {
+protected:
+    PollerOfOneWithoutRefresh() : PollerOfOne(unit(3600s)) {}
+};
+
+TEST_F(PollerOfOneWithoutRefresh, RepeatsAnOutputThatIsNotUnderstoodSeldomUntilItIs)
+{
+    drive().write_errors[10] = AccessError::not_understood;
+    bench.layout(0, 1, {5}, {10, 11});
+    bench.master_writes(0, 10, 1);
+    bench.run(9s);
+    EXPECT_EQ(bench.writes_of(10), 3u);
+    EXPECT_EQ(bench.writes_of(11), 1u);
+    EXPECT_GE(bench.reads_of(5), 400u);
+    EXPECT_EQ(seen().states[1], WordState::refused);
+    EXPECT_EQ(seen().losses, 0u);
+    bench.master_writes(0, 10, 2);
+    bench.run(200ms);
+    EXPECT_EQ(bench.writes_of(10), 6u) << "a new word is tried at once";
+    drive().write_errors.clear();
+    bench.run(11s);
+    EXPECT_EQ(drive().words[10], 2) << "nothing that the drive has not taken is left at that";
+    EXPECT_EQ(seen().states[1], WordState::good);
+    EXPECT_EQ(bench.writes_of(10), 7u);
+}
+
 TEST_F(PollerOfOne, ShowsARefusedWriteOfAParameterThatIsAlsoRead)
 {
     drive().write_errors[10] = AccessError::out_of_range;
@@ -454,13 +527,28 @@ TEST(PollerOfThree, ADeadDriveCostsTheOthersOnlyItsOwnTimeOuts)
     bench.run(60s);
     const auto silences = bench.count([](const test::Done& d) { return d.error == AccessError::no_answer; });
     const auto others = bench.count([](const test::Done& d) { return d.unit != 1; });
-    // Three attempts, then one probe a second (plus its own 220 ms): about 50 of them in a minute.
-    EXPECT_GE(silences, 45u);
-    EXPECT_LE(silences, 3u + 60u);
+    // Three attempts, then probes after 1, 2, 4 and then every 8 s.
+    EXPECT_GE(silences, 3u + 3u + 5u);
+    EXPECT_LE(silences, 3u + 3u + 8u);
     EXPECT_GE(others, (60'000u - silences * 220u) / 20u - 2u) << "all the rest of the time is theirs";
     const auto first_lost = bench.poller.snapshot(1);
     EXPECT_EQ(first_lost.losses, 1u);
     EXPECT_FALSE(first_lost.answers);
+}
+
+TEST(PollerOfSix, FiveDeadDrivesLeaveTheLineToTheLivingOne)
+{
+    PollerBench bench{{unit(), unit(), unit(), unit(), unit(), unit()}};
+    for (std::size_t i = 0; i < 6; ++i) {
+        bench.drives[i].words = {{1, 1}, {2, 2}, {3, 3}};
+        bench.drives[i].alive = i == 3;
+        bench.layout(i, 1, {1, 2, 3});
+    }
+    bench.run(60s);
+    bench.log.clear();
+    bench.run(60s);
+    const auto living = bench.count([](const test::Done& d) { return d.unit == 3; });
+    EXPECT_GE(living * test::kAnswerTime, 40s);
 }
 
 } // namespace

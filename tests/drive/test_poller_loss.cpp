@@ -70,14 +70,28 @@ TEST_F(PollerLoss, InputsHoldAndAreMarkedStaleWhileTheDriveIsLost)
     EXPECT_EQ(seen().states[2], WordState::stale);
 }
 
-TEST_F(PollerLoss, ALostDriveIsOnlyProbed)
+TEST_F(PollerLoss, ALostDriveIsOnlyProbedAndMoreAndMoreSeldom)
 {
     exchanges();
     drive().alive = false;
-    bench.run(1s);
-    bench.log.clear();
-    bench.run(12'200ms);
-    EXPECT_EQ(bench.purposes(), std::string(10, 'p')) << "one a second, and each takes 220 ms";
+    bench.run(3 * test::kSilenceTime);
+    for (int loss = 0; loss < 2; ++loss) { // it starts anew with each loss
+        ASSERT_FALSE(seen().answers);
+        Instant free = bench.now;
+        bench.log.clear();
+        bench.run(1s + 2s + 4s + 8s + 8s + 5 * test::kSilenceTime);
+        ASSERT_EQ(bench.purposes(), "ppppp");
+        const std::chrono::seconds pauses[] = {1s, 2s, 4s, 8s, 8s};
+        for (std::size_t i = 0; i < 5; ++i) {
+            EXPECT_EQ(bench.log[i].at - free, pauses[i]) << i;
+            free = bench.log[i].at + test::kSilenceTime;
+        }
+        drive().alive = true;
+        bench.run(9s);
+        ASSERT_TRUE(seen().answers);
+        drive().alive = false;
+        while (seen().answers) bench.step();
+    }
 }
 
 TEST_F(PollerLoss, AfterTheReturnEveryPresentOutputIsWrittenAgain)
@@ -174,7 +188,7 @@ TEST_F(PollerLoss, LeavingIsToldTwiceAndCountsOnce)
     exchanges();
     bench.master_leaves(0);
     bench.run(1s);
-    bench.poller.left_data_exchange(0, {1}, bench.now);
+    bench.poller.left_data_exchange(0, {1});
     bench.run(1s);
     EXPECT_EQ(bench.writes_of(10), 1u);
 }
@@ -182,7 +196,7 @@ TEST_F(PollerLoss, LeavingIsToldTwiceAndCountsOnce)
 TEST_F(PollerLoss, AnOldImageThatComesAfterTheLeavingWritesNothing)
 {
     exchanges();
-    bench.poller.left_data_exchange(0, {1}, bench.now);
+    bench.poller.left_data_exchange(0, {1});
     bench.master_writes(0, 10, 8); // the mailbox still held it
     bench.run(5s);
     EXPECT_EQ(drive().words[10], 0);
@@ -206,7 +220,7 @@ TEST_F(PollerLoss, TheZeroReachesADriveThatIsLostAtThatMomentAndReturnsLater)
     bench.run(30s);
     EXPECT_EQ(drive().words[10], 5);
     drive().alive = true;
-    bench.run(3s);
+    bench.run(9s);
     EXPECT_EQ(drive().words[10], 0);
     EXPECT_EQ(drive().words[11], 0);
     EXPECT_EQ(bench.writes_of(10), 1u);
@@ -261,29 +275,120 @@ TEST_F(PollerLoss, TheZeroIsWrittenWhileTheNewLayoutMayNotWriteYet)
     EXPECT_EQ(drive().words[10], 44);
 }
 
-TEST_F(PollerLoss, AnOrderToLeaveThatComesAfterTheNewLayoutStillZeroesTheOld)
+TEST_F(PollerLoss, ANewLayoutIsTheEndOfTheOneBefore)
 {
     exchanges();
     bench.layout(0, 2, {1}, {11});
-    bench.poller.left_data_exchange(0, {1}, bench.now);
     bench.master_writes(0, 11, 33);
     bench.run(1s);
     EXPECT_EQ(drive().words[10], 0);
     EXPECT_EQ(drive().words[11], 33);
+    bench.poller.left_data_exchange(0, {1});
     bench.master_writes(0, 11, 34);
     bench.run(1s);
     EXPECT_EQ(drive().words[11], 34) << "the order ended generation 1, not 2";
+    EXPECT_EQ(bench.writes_of(10), 1u);
+}
+
+TEST_F(PollerLoss, AnOrderToLeaveEndsEveryLayoutBeforeIt)
+{
+    exchanges();
+    bench.poller.left_data_exchange(0, {3});
+    bench.run(1s);
+    EXPECT_EQ(drive().words[10], 0);
+    bench.layout(0, 2, {1}, {12}); // the mailbox was read before the order
+    bench.master_writes(0, 12, 50);
+    bench.run(1s);
+    EXPECT_EQ(drive().words[12], 0) << "the master was in Data_Exchange with it";
+    bench.layout(0, 4, {1}, {12});
+    bench.master_writes(0, 12, 51);
+    bench.run(1s);
+    EXPECT_EQ(drive().words[12], 51);
 }
 
 TEST_F(PollerLoss, AnOrderToLeaveThatComesBeforeItsLayoutEndsIt)
 {
     exchanges();
-    bench.poller.left_data_exchange(0, {2}, bench.now);
+    bench.poller.left_data_exchange(0, {2});
     bench.layout(0, 2, {1}, {12});
+    bench.run(1s);
+    EXPECT_EQ(bench.writes_of(12), 0u) << "the master was never allowed to write it";
+    EXPECT_EQ(drive().words[10], 0) << "generation 1 had ended before it";
+    bench.log.clear();
     bench.master_writes(0, 12, 50);
+    bench.master_writes(0, 12, 51);
     bench.run(1s);
     EXPECT_EQ(drive().words[12], 0);
-    EXPECT_EQ(drive().words[10], 0) << "generation 1 had ended before it";
+    EXPECT_EQ(bench.writes_of(12), 1u);
+}
+
+TEST_F(PollerLoss, FailedStartUpsWriteNothingToADriveThatRunsLocally)
+{
+    for (Generation generation = 2; generation < 10; ++generation) {
+        bench.layout(0, generation, {1}, {10, 11});
+        bench.run(300ms);
+        if (generation % 3 == 0) bench.poller.left_data_exchange(0, {generation});
+        if (generation % 3 == 1) bench.poller.set_outputs(0, {});
+        bench.run(300ms);
+    }
+    EXPECT_EQ(bench.count([](const test::Done& d) { return d.kind == Transaction::Kind::write; }), 0u);
+    EXPECT_FALSE(bench.poller.safe_state_pending());
+    EXPECT_EQ(drive().words[10], 1010);
+}
+
+TEST_F(PollerLoss, AZeroThatIsNotUnderstoodIsRepeatedUntilItIs)
+{
+    exchanges();
+    drive().not_understood = 1;
+    bench.master_leaves(0);
+    bench.run(500ms);
+    EXPECT_EQ(drive().words[10], 0);
+    EXPECT_EQ(drive().words[11], 0);
+    EXPECT_FALSE(bench.poller.safe_state_pending());
+}
+
+TEST_F(PollerLoss, AZeroThatIsNeverUnderstoodStopsNeitherTheOthersNorTheCycle)
+{
+    exchanges();
+    drive().write_errors[10] = AccessError::not_understood;
+    bench.master_leaves(0);
+    bench.run(9s);
+    EXPECT_EQ(bench.writes_of(10), 3u);
+    EXPECT_EQ(drive().words[11], 0);
+    EXPECT_GE(bench.reads_of(1), 200u);
+    EXPECT_TRUE(bench.poller.safe_state_pending());
+    drive().write_errors.clear();
+    bench.run(2s);
+    EXPECT_EQ(drive().words[10], 0);
+    EXPECT_FALSE(bench.poller.safe_state_pending());
+}
+
+TEST_F(PollerLoss, AZeroThatWasNotUnderstoodIsWrittenAtOnceAfterTheReturn)
+{
+    exchanges();
+    drive().write_errors[10] = AccessError::not_understood;
+    bench.master_leaves(0);
+    bench.run(500ms);
+    drive().alive = false;
+    while (seen().answers) bench.step();
+    drive().write_errors.clear();
+    drive().alive = true;
+    bench.run(1500ms);
+    EXPECT_EQ(drive().words[10], 0);
+}
+
+TEST_F(PollerLoss, AZeroThatWaitsWithoutAnyCycleIsADeadline)
+{
+    exchanges();
+    drive().write_errors[10] = AccessError::not_understood;
+    bench.poller.left_data_exchange(0, {1});
+    bench.layout(0, 2, {});
+    while (bench.step()) {
+    }
+    EXPECT_GT(bench.poller.next_deadline(), bench.now);
+    drive().write_errors.clear();
+    bench.run(11s);
+    EXPECT_EQ(drive().words[10], 0);
 }
 
 TEST_F(PollerLoss, TheEndOfALayoutThatWasNeverSeenZeroesNothingTwice)
@@ -291,7 +396,7 @@ TEST_F(PollerLoss, TheEndOfALayoutThatWasNeverSeenZeroesNothingTwice)
     exchanges();
     bench.master_leaves(0);
     bench.run(1s);
-    bench.poller.left_data_exchange(0, {2}, bench.now);
+    bench.poller.left_data_exchange(0, {2});
     bench.run(1s);
     EXPECT_EQ(bench.writes_of(10), 1u);
 }
@@ -305,12 +410,13 @@ TEST_F(PollerLoss, SaysAsLongAsZerosAreToBeWritten)
     bench.run(5s);
     EXPECT_TRUE(bench.poller.safe_state_pending());
     drive().alive = true;
-    bench.run(2s);
+    bench.run(9s);
     EXPECT_FALSE(bench.poller.safe_state_pending());
 }
 
 TEST_F(PollerLoss, GenerationsMayPassThroughTheirEnd)
 {
+    for (const Generation generation : {0x70000000u, 0xD0000000u}) bench.layout(0, generation, {1});
     bench.layout(0, 0xFFFFFFFF, {1}, {10});
     bench.master_writes(0, 10, 5);
     bench.run(200ms);

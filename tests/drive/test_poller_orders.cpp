@@ -204,11 +204,91 @@ TEST_F(PollerOrders, ASilentDriveGivesNoAnswerAndTheWriteIsDoneAfterItsReturn)
     bench.run(10s);
     EXPECT_TRUE(answers().empty());
     bench.drives[0].alive = true;
+    bench.run(9s);
+    const auto all = answers();
+    ASSERT_EQ(all.size(), 1u);
+    EXPECT_EQ(all[0].error, AccessError::none);
+    EXPECT_EQ(bench.drives[0].words[50], 9);
+}
+
+TEST_F(PollerOrders, WritesThatNoLongerStandAreDroppedWhenTheDriveIsLost)
+{
+    bench.drives[0].alive = false;
+    order(Kind::write, 50, 1); // start
+    order(Kind::write, 50, 2); // stop
+    order(Kind::write, 51, 3);
+    bench.run(60s);
+    EXPECT_EQ(bench.poller.snapshot(0).orders_dropped, 2u);
+    bench.drives[0].alive = true;
+    bench.run(10s);
+    EXPECT_EQ(bench.drives[0].words[50], 1050);
+    EXPECT_EQ(bench.drives[0].words[51], 3) << "the one that stands is done at the return";
+    const auto all = answers();
+    ASSERT_EQ(all.size(), 1u);
+    EXPECT_EQ(all[0].number, 3u);
+}
+
+TEST_F(PollerOrders, AWriteThatIsSupersededWhileTheDriveIsLostIsDropped)
+{
+    bench.drives[0].alive = false;
+    bench.run(5s);
+    order(Kind::write, 50, 1);
+    order(Kind::write, 51, 2);
+    order(Kind::cancel, 0);
+    EXPECT_EQ(bench.poller.snapshot(0).orders_dropped, 2u);
+    order(Kind::write, 52, 3);
+    order(Kind::read, 53);
+    bench.drives[0].alive = true;
+    bench.run(10s);
+    EXPECT_EQ(bench.writes_of(50) + bench.writes_of(51) + bench.writes_of(52), 0u);
+    EXPECT_EQ(answers().back().value, 1053);
+    EXPECT_EQ(bench.poller.snapshot(0).orders_dropped, 3u);
+}
+
+TEST_F(PollerOrders, CountsTheWritesThatFindNoRoom)
+{
+    for (int i = 0; i < 70; ++i) order(Kind::write, 50, i);
+    bench.run(30s);
+    EXPECT_EQ(bench.poller.snapshot(0).orders_dropped, 6u);
+    EXPECT_EQ(bench.writes_of(50), 64u);
+    EXPECT_EQ(bench.drives[0].words[50], 69) << "the last one is what counts";
+}
+
+TEST_F(PollerOrders, AnOrderThatIsNotUnderstoodGivesNoAnswerAndIsTriedOnceARound)
+{
+    bench.drives[0].read_errors[50] = AccessError::not_understood;
+    order(Kind::read, 50);
+    bench.run(20ms * 7 * 10);
+    EXPECT_TRUE(answers().empty()) << "the previous answer stays";
+    EXPECT_GE(bench.reads_of(50), 9u);
+    EXPECT_LE(bench.reads_of(50), 11u);
+    EXPECT_TRUE(bench.poller.snapshot(0).answers);
+    bench.drives[0].read_errors.clear();
+    bench.run(200ms);
+    EXPECT_EQ(answers().back().value, 1050);
+}
+
+TEST_F(PollerOrders, AWriteThatIsNotUnderstoodWaitsForItsTurnWhileItStands)
+{
+    bench.drives[0].not_understood = 5;
+    order(Kind::write, 50, 9);
     bench.run(2s);
     const auto all = answers();
     ASSERT_EQ(all.size(), 1u);
     EXPECT_EQ(all[0].error, AccessError::none);
     EXPECT_EQ(bench.drives[0].words[50], 9);
+}
+
+TEST_F(PollerOrders, AWriteThatIsNeverUnderstoodDoesNotStopTheOrdersBehindIt)
+{
+    bench.drives[0].write_errors[50] = AccessError::not_understood;
+    order(Kind::write, 50, 1);
+    bench.run(1s);
+    order(Kind::write, 51, 2);
+    bench.run(1s);
+    EXPECT_EQ(bench.drives[0].words[51], 2);
+    EXPECT_EQ(bench.poller.snapshot(0).orders_dropped, 1u);
+    EXPECT_EQ(answers().size(), 1u);
 }
 
 TEST_F(PollerOrders, AWriteWhoseAnswerWasLostIsRepeated)
@@ -225,7 +305,7 @@ TEST_F(PollerOrders, OrdersEndWithTheirLayout)
     order(Kind::read, 50);
     bench.run(200ms);
     (void)answers();
-    bench.poller.left_data_exchange(0, {1}, bench.now);
+    bench.poller.left_data_exchange(0, {1});
     bench.log.clear();
     order(Kind::read, 51); // told late, of the layout that has ended
     bench.run(1s);
@@ -286,6 +366,15 @@ TEST_F(PollerOrders, DpctlIsToldAboutErrorsAndASilentDrive)
     EXPECT_TRUE(bench.poller.operate({.number = 4, .unit = 0, .tag = 50}));
     EXPECT_EQ(bench.poller.take_operate_answer()->error, AccessError::no_answer)
         << "known to be lost: at once";
+}
+
+TEST_F(PollerOrders, DpctlIsToldThatTheDriveDidNotUnderstandAfterTheRetries)
+{
+    bench.drives[0].write_errors[50] = AccessError::not_understood;
+    EXPECT_TRUE(bench.poller.operate({.number = 1, .unit = 0, .is_write = true, .tag = 50, .word = 1}));
+    bench.run(1s);
+    EXPECT_EQ(bench.poller.take_operate_answer()->error, AccessError::not_understood);
+    EXPECT_EQ(bench.writes_of(50), 3u);
 }
 
 TEST_F(PollerOrders, DpctlCannotPileUpOrders)

@@ -52,7 +52,9 @@ enum class WordState : std::uint8_t {
     invalid_tag,  ///< the drive (or the tag table) has no such tag: the input reads 0, the output is dropped
     read_only,    ///< the write was refused: read only
     out_of_range, ///< the write was refused, or the value does not fit in 16 bit
-    refused,      ///< the drive refused for another reason (not stopped, not in configuration mode, type)
+    /// The drive refused for another reason (not stopped, not in configuration mode, type), or does not
+    /// understand the request.
+    refused,
 };
 
 /// From the drive side to DP. words[i] belongs to parameter i of the layout with the same generation.
@@ -66,7 +68,8 @@ struct InputImage {
 /// Why an access to one tag failed on the drive side.
 enum class AccessError : std::uint8_t {
     none,
-    no_answer, ///< the drive is silent; no code of Demand Data stands for it
+    no_answer,      ///< the drive is silent; no code of Demand Data stands for it
+    not_understood, ///< the drive answers but cannot take the request: noise, wrong format; no code either
     invalid_tag,
     read_only,
     out_of_range,

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The one narrow door to a drive, whatever protocol it speaks. A call may block for one response time-out,
-/// no longer: repetitions are the poller's business, so that one dead drive does not stop the others.
+/// The one narrow door to a drive, whatever protocol it speaks. A call is one exchange; after a refusal it
+/// asks for the reason as well (EI-ASCII: EE), and before the first write of an unlisted tag it reads it.
+/// Each exchange may block for one response time-out and the time that its characters take, whatever comes on
+/// the line; the first one without a good answer ends the call. Repetitions are the poller's business, so
+/// that one dead drive does not stop the others.
 #pragma once
 
 #include "dpslave/base/process_image.hpp"

@@ -115,8 +115,8 @@ Result<std::uint16_t, ValueFlaw> decode_value(const Tag& tag, std::string_view t
 Result<std::uint16_t, ValueFlaw> decode_word(std::string_view text);
 
 /// What the drive's last error (EE, its high octet) means for an access. Line and format errors (02, 03,
-/// 07C7) are no_answer: the same request again may pass. A number that no table has refuses a write as read
-/// only.
+/// 07C7) are not_understood: the same request again may pass. So is a number that no table has; but it
+/// refuses a write as read only.
 AccessError error_of_ee(std::uint16_t ee, bool is_write);
 std::string_view meaning_of_ee(std::uint16_t ee) noexcept;
 

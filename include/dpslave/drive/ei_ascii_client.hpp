@@ -43,7 +43,6 @@ public:
 private:
     std::optional<ei::Answer> exchange(const ei::Frame& request, ei::AnswerParser::To kind);
     std::optional<ei::Answer> poll(UnitAddress unit, ei::Mnemonic mnemonic);
-    std::optional<std::uint16_t> last_error_of(UnitAddress unit);
     std::optional<ei::Mnemonic> mnemonic_for(UnitAddress unit, const Tag& tag);
     AccessError unknown_parameter(UnitAddress unit, const Tag& tag);
     AccessError refused(UnitAddress unit, bool is_write);
@@ -51,6 +50,7 @@ private:
     AccessError take_unlisted(UnitAddress unit, const Tag& tag, const std::string& text, std::uint16_t& word);
     MnemonicRule rule_of(UnitAddress unit) const;
     std::chrono::nanoseconds duration_of(std::size_t characters) const;
+    std::chrono::nanoseconds gap() const;
     void drain();
 
     SerialLine& line_;

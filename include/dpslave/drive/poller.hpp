@@ -29,8 +29,9 @@ struct UnitSettings {
     std::chrono::nanoseconds output_refresh = std::chrono::seconds{1}; ///< 0 = every cycle
     OutputLoss output_loss = OutputLoss::zero;
     int retries = 2;
-    std::chrono::nanoseconds probe_interval =
-        std::chrono::seconds{1}; ///< while lost, and while nothing else is asked
+    /// While nothing else is asked, and for the first probe of a lost drive; each further one takes twice as
+    /// long, up to eight times.
+    std::chrono::nanoseconds probe_interval = std::chrono::seconds{1};
 };
 
 /// Who asked for a transaction.
@@ -54,8 +55,8 @@ struct Outcome {
 };
 
 /// State of one drive for `dpctl`, as a plain value. reads and writes count what the drive did, refusals what
-/// it refused, silences what it did not answer (or not so that it can be believed), losses how often it was
-/// given up.
+/// it refused or did not understand, silences what it did not answer (or not so that it can be believed),
+/// losses how often it was given up.
 struct UnitSnapshot {
     bool known = false; ///< false until the first answer or the first loss
     bool answers = false;
@@ -65,6 +66,9 @@ struct UnitSnapshot {
     std::array<Instant, kMaxParameters> updated_at{}; ///< last success; default = never
     std::chrono::nanoseconds cycle{};                 ///< the last whole round over this unit's parameters
     std::uint64_t reads = 0, writes = 0, silences = 0, refusals = 0, losses = 0;
+    /// Writes of Demand Data that were never made: too many waited, or they no longer stood when the drive
+    /// was lost or did not understand them.
+    std::uint64_t orders_dropped = 0;
 };
 
 /// An order of `dpctl` for one drive: read or write one tag now.
@@ -86,11 +90,13 @@ public:
     Poller(const std::vector<UnitSettings>& units, BlockRule rule);
     ~Poller();
 
-    // What the master wants, by the index of the drive. An image with another generation is a new layout. An
-    // image and an order to leave may come in either order; orders of Demand Data come after the image of
-    // their layout or before.
-    void set_outputs(std::size_t unit, const OutputImage& image, Instant now);
-    void left_data_exchange(std::size_t unit, const LeftDataExchange& left, Instant now);
+    // What the master wants, by the index of the drive. Orders of Demand Data come after the image of their
+    // layout or before.
+    /// An image with another generation is a new layout, and the end of the one before it.
+    void set_outputs(std::size_t unit, const OutputImage& image);
+    /// Every layout up to and including this generation has ended; may come before its image, and again. Only
+    /// the outputs of an image with may_write go to the safe state: before, nothing is written at all.
+    void left_data_exchange(std::size_t unit, const LeftDataExchange& left);
     void set_demand(std::size_t unit, const DemandOrder& order);
     /// False: too many wait already, or there is no such drive. A lost drive is answered for at once:
     /// no_answer. The limits of the tag table are not looked at: parse_value() has done it.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dpslave/base/bytes.hpp"
+#include "dpslave/base/units.hpp"
 
 #include <chrono>
 #include <cstddef>
@@ -22,6 +23,9 @@ public:
     /// `into.size()`. 0: nothing came in this time, or the line is gone. Parity is removed; an octet with
     /// wrong parity comes as 00.
     virtual std::size_t read(std::span<std::uint8_t> into, std::chrono::nanoseconds timeout) = 0;
+
+    /// The monotonic clock that read() waits by.
+    virtual Instant now() const = 0;
 
     /// Forgets all that was received and not yet read.
     virtual void discard() = 0;

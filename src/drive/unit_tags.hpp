@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What is known about the tags of one drive without asking it, and what a layout asks of them.
+#pragma once
+
+#include "output_plan.hpp"
+#include "read_plan.hpp"
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+namespace dpslave::drive {
+
+/// Those that the layout has, in its order.
+std::span<const Parameter> parameters_of(const Layout& layout);
+
+class UnitTags {
+public:
+    /// `table` outlives this. `only_from_table`: a tag that is not in it is invalid.
+    UnitTags(const TagTable* table, bool only_from_table) : table_(table), only_from_table_(only_from_table)
+    {}
+
+    /// The row of the table, or one made for a tag that is in none; valid as long as this.
+    const Tag* row(std::uint16_t number);
+
+    /// What is known without asking the drive. The limits of the table are not among it: for cyclic and
+    /// Demand Data writes the drive decides, because its own limits may have been set otherwise.
+    AccessError verdict(const Tag& row, bool is_write) const;
+
+    std::vector<ReadPlan::Item> inputs_of(const Layout& layout); ///< each tag once, ascending
+    std::vector<OutputPlan::Item> outputs_of(const Layout& layout);
+
+private:
+    const TagTable* table_;
+    bool only_from_table_;
+    std::map<std::uint16_t, Tag> unlisted_; ///< rows of tags that are in no table; they stay where they are
+};
+
+} // namespace dpslave::drive
