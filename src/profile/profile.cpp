@@ -110,6 +110,8 @@ private:
                                  "protocol \"" + protocol + R"(": write "ei-ascii" or "modbus-rtu".)");
             profile_.protocols = *std::move(protocols);
         }
+        if (const auto baud = root_.integer("recommended_baud", 300, 921'600))
+            profile_.recommended_baud = static_cast<std::uint32_t>(*baud);
         root_.require("mnemonic_rule", R"(mnemonic_rule = "none")");
         using drive::MnemonicRule;
         if (const auto rule =

@@ -32,7 +32,8 @@ struct Profile {
     drive::MnemonicRule mnemonics = drive::MnemonicRule::none;
     drive::OutputLoss output_loss = drive::OutputLoss::zero;
     led::Language leds = led::Language::option_board;
-    std::vector<std::string> protocols; ///< legal back-ends: "ei-ascii"
+    std::optional<std::uint32_t> recommended_baud; ///< of the drive line; another rate is a warning (A-037)
+    std::vector<std::string> protocols;            ///< legal back-ends: "ei-ascii"
 };
 
 /// Reads `folder`/NAME.toml and the table it names (../tags/FILE beside the folder). All faults of both files

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Wakes an epoll at a steady pace, so that a loop which waits thousands of times a second for octets need
+/// not arm and cancel a timer each time.
+#pragma once
+
+#include "dpslave/io/fd.hpp"
+
+#include <chrono>
+
+namespace dpslave::io {
+
+class Ticker {
+public:
+    /// Throws std::system_error when the system has no timer left.
+    explicit Ticker(std::chrono::nanoseconds period);
+    int fd() const { return fd_.get(); } ///< readable after each period until clear()
+
+    /// To be called after each tick: the next one comes only then.
+    void clear() noexcept;
+
+private:
+    Fd fd_;
+};
+
+} // namespace dpslave::io
