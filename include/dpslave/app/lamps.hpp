@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The lamps of all stations: the LED language says the pattern, the sinks shine.
+#pragma once
+
+#include "dpslave/app/config.hpp"
+#include "dpslave/io/led_sink.hpp"
+#include "dpslave/led/pattern.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dpslave::app {
+
+class Lamps {
+public:
+    /// Opens every sink that the configuration names. One that cannot be opened stays dark: `warnings` says
+    /// why.
+    Lamps(const Config& config, std::vector<std::string>& warnings);
+
+    /// What is the case at this station from now on.
+    void set(std::size_t station, const led::Condition& condition);
+    /// Lets every lamp shine as its pattern says at `now`.
+    void show(Instant now);
+    /// When show() is needed next.
+    Instant next_change(Instant now) const;
+
+    const led::Condition& condition(std::size_t station) const { return conditions_[station]; }
+
+private:
+    struct Lamp {
+        std::size_t station = 0;
+        std::string name;
+        led::Pattern pattern;
+        std::unique_ptr<io::LedSink> sink;
+    };
+    std::vector<led::Language> languages_;
+    std::vector<led::Condition> conditions_;
+    std::vector<Lamp> lamps_;
+};
+
+} // namespace dpslave::app

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+/// From the snapshots that the main thread holds to the words and numbers of the control interface
+/// (org.dpslaved.Control.varlink). Nothing here asks another thread; the time is a parameter.
+#pragma once
+
+#include "dpslave/app/config.hpp"
+#include "dpslave/app/links.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dpslave::app {
+
+/// One station as the main thread sees it now.
+struct StationView {
+    const StationConfig* config = nullptr;
+    const LineConfig* line = nullptr;
+    dp::Snapshot bus{};
+    drive::UnitSnapshot drive{};
+    bool line_open = false;
+    std::vector<std::string> troubles; ///< what the drive or the tag table said no to, newest last
+};
+
+/// Everything, as the main thread sees it now.
+struct View {
+    const Config* config = nullptr;
+    BusSnapshot bus{};
+    std::vector<StationView> stations;
+    std::uint64_t lost_events = 0; ///< events that no log could take
+};
+
+nlohmann::json bus_json(const View& view, Instant now);
+nlohmann::json station_json(const StationView& station);
+nlohmann::json stations_json(const View& view);
+/// `pending`: the address in the configuration file now, when it differs from the active one.
+nlohmann::json info_json(const StationView& station, std::optional<std::uint8_t> pending);
+nlohmann::json io_json(const StationView& station, Instant now);
+nlohmann::json words_json(const StationView& station, Instant now);
+nlohmann::json diagnosis_json(const StationView& station);
+nlohmann::json counters_json(const View& view);
+nlohmann::json leds_json(const StationConfig& station, const led::Condition& condition, Instant now);
+
+/// "octets" and "bits" of a Slave_Diag reply, in words (wire reference 5.1).
+nlohmann::json diagnosis_octets_json(Bytes diagnosis);
+
+/// What a refused Set_Prm or Chk_Cfg was refused for, in a sentence and with an advice.
+struct Explanation {
+    std::string telegram; ///< "Set_Prm" or "Chk_Cfg"
+    std::string what;
+    std::optional<std::string> expected;
+    std::optional<std::string> got;
+    std::string advice;
+};
+Explanation explain(const dp::RefusalDetail& refusal);
+
+/// One line for the log.
+std::string sentence(const std::string& station, const dp::Event& event);
+
+/// "2 of 3 stations in Data_Exch; unwinder: Data_Exch with master 2 ...": for systemctl status.
+std::string status_line(const View& view);
+
+/// A word as `dpctl` shows it: by the tag table, else hexadecimal.
+std::string shown_value(const drive::TagTable& tags, std::uint16_t tag, std::uint16_t word);
+
+/// Why a value given by hand cannot be written to this tag, with what it takes.
+std::string bad_value_words(const drive::Tag& tag, AccessError error);
+
+/// "invalid tag", "read only" ...
+std::string_view text(AccessError error) noexcept;
+/// The error code that Demand Data has for it; none for silence.
+std::optional<int> demand_code(AccessError error) noexcept;
+
+} // namespace dpslave::app

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A tty as the serial line of a drive back-end. When the port vanishes the drives on it are silent; it is
+/// opened again with back-off.
+#pragma once
+
+#include "dpslave/base/units.hpp"
+#include "dpslave/drive/serial_line.hpp"
+#include "dpslave/io/tty.hpp"
+
+#include <atomic>
+#include <optional>
+#include <string>
+
+namespace dpslave::app {
+
+class TtyLine final : public drive::SerialLine {
+public:
+    /// `is_open` tells the main thread whether the port is there; it outlives the line.
+    TtyLine(std::string path, const io::TtySettings& settings, io::Tty tty, std::atomic<bool>& is_open);
+
+    bool write(Bytes octets) override;
+    std::size_t read(std::span<std::uint8_t> into, std::chrono::nanoseconds timeout) override;
+    Instant now() const override;
+    void discard() override;
+
+private:
+    static constexpr std::chrono::seconds kReopenAfter{1};
+
+    bool ready();
+    void lose();
+
+    std::string path_;
+    io::TtySettings settings_;
+    std::optional<io::Tty> tty_;
+    std::atomic<bool>& is_open_;
+    Instant next_reopen_{};
+};
+
+} // namespace dpslave::app

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dpslave/app/config.hpp"
+
+#include "config_parts.hpp"
+
+#include <grp.h>
+#include <sys/un.h>
+
+#include <algorithm>
+#include <system_error>
+
+namespace dpslave::app {
+namespace {
+
+using profile::Document;
+using profile::Faults;
+using profile::Table;
+
+RealtimeConfig read_realtime(Table table)
+{
+    RealtimeConfig config;
+    if (const auto priority = table.integer("priority", 0, 99)) config.priority = static_cast<int>(*priority);
+    if (const auto cpu = table.integer("cpu", -1, 1023)) config.cpu = static_cast<int>(*cpu);
+    config.lock_memory = table.boolean("lock_memory").value_or(config.lock_memory);
+    return config;
+}
+
+ControlConfig read_control(Document& document, Table table, Faults& warnings)
+{
+    ControlConfig config;
+    if (auto socket = table.text("socket")) {
+        constexpr std::size_t longest = sizeof(sockaddr_un::sun_path) - 1;
+        if (socket->size() > longest)
+            table.refuse("socket", "'socket' is longer than the " + std::to_string(longest) +
+                                       " octets that a socket's path may have: choose a shorter path.");
+        config.socket = *std::move(socket);
+    }
+    if (auto group = table.text("operator_group")) config.operator_group = *std::move(group);
+    if (::getgrnam(config.operator_group.c_str()) == nullptr) {
+        const profile::Place at = table.place_of("operator_group");
+        warnings.push_back(
+            {document.name(), at.line, at.column,
+             "the system has no group \"" + config.operator_group +
+                 "\": only root may operate until there is one or 'operator_group' names another."});
+    }
+    return config;
+}
+
+} // namespace
+
+std::shared_ptr<const profile::Profile> Shelf::profile(const std::string& name)
+{
+    const auto [entry, is_new] = profiles_.try_emplace(name);
+    if (!is_new) return entry->second;
+    auto loaded = profile::load_profile(folder_, name);
+    if (loaded)
+        entry->second = std::make_shared<const profile::Profile>(*std::move(loaded));
+    else
+        keep(loaded.error());
+    return entry->second;
+}
+
+std::shared_ptr<const drive::TagTable> Shelf::tags(const std::filesystem::path& file)
+{
+    const auto [entry, is_new] = tables_.try_emplace(file);
+    if (!is_new) return entry->second;
+    auto loaded = profile::load_tags(file);
+    if (loaded)
+        entry->second = std::make_shared<const drive::TagTable>(*std::move(loaded));
+    else
+        keep(loaded.error());
+    return entry->second;
+}
+
+void Shelf::keep(const profile::Faults& faults)
+{
+    for (const profile::Fault& fault :
+         faults) { // two profiles may name one tag table: its faults are said once
+        const std::string text = to_string(fault);
+        if (std::none_of(faults_.begin(), faults_.end(),
+                         [&](const auto& known) { return to_string(known) == text; }))
+            faults_.push_back(fault);
+    }
+}
+
+void Unlike::check(Table& table, std::string_view key, const std::string& value, const std::string& shown,
+                   std::string_view remedy)
+{
+    const auto [entry, is_new] = seen_.try_emplace(value, table.place_of(key));
+    if (!is_new)
+        table.refuse(key, shown + " stands on line " + std::to_string(entry->second.line) +
+                              " already: " + std::string{remedy} + ".");
+}
+
+std::string canonical(const std::string& path)
+{
+    std::error_code error;
+    const auto found = std::filesystem::weakly_canonical(path, error);
+    return error ? std::filesystem::path{path}.lexically_normal().string() : found.string();
+}
+
+Result<Config, Faults> load_config(const std::filesystem::path& file, const std::filesystem::path& profiles)
+{
+    Document document{file};
+    if (!document.readable()) return Failure{document.faults()};
+
+    Config config;
+    config.file = file;
+    Shelf shelf{profiles};
+    Table root = document.root();
+    config.bus = read_bus(document, config.warnings);
+    config.realtime = read_realtime(root.table("realtime"));
+    if (const auto sysfs = root.table("leds").text("sysfs")) config.sysfs = *sysfs;
+    config.control = read_control(document, root.table("control"), config.warnings);
+    const std::vector<ReadLine> lines = read_lines(document, config.bus);
+    config.stations = read_stations(document, config.bus, lines, shelf, config.warnings);
+    for (const ReadLine& read : lines) config.lines.push_back(read.line);
+
+    Faults faults = document.faults();
+    faults.insert(faults.end(), shelf.faults().begin(), shelf.faults().end());
+    if (!faults.empty()) return Failure{std::move(faults)};
+    return config;
+}
+
+} // namespace dpslave::app

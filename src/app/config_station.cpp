@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: Apache-2.0
+// [[station]]: one PROFIBUS slave address, its device type and its drive.
+#include "config_parts.hpp"
+
+#include "dpslave/profile/wording.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+namespace dpslave::app {
+namespace {
+
+using profile::Document;
+using profile::in_quotes;
+using profile::Place;
+using profile::Profile;
+using profile::Table;
+
+/// EI-ASCII: one hexadecimal digit for the group, one for the unit.
+std::optional<drive::UnitAddress> ei_unit(std::string_view text)
+{
+    std::uint8_t both = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), both, 16);
+    if (text.size() != 2 || error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return drive::UnitAddress{static_cast<std::uint8_t>(both >> 4), static_cast<std::uint8_t>(both & 15)};
+}
+
+class StationReader {
+public:
+    StationReader(Document& document, const BusConfig& bus, const std::vector<ReadLine>& lines, Shelf& shelf,
+                  profile::Faults& warnings)
+        : document_(document), bus_(bus), lines_(lines), shelf_(shelf), warnings_(warnings)
+    {}
+
+    StationConfig read(Table& table)
+    {
+        StationConfig station;
+        table.require("name", R"(name = "unwinder", by which dpctl calls it)");
+        station.name = table.text("name").value_or("");
+        if (!station.name.empty())
+            names_.check(table, "name", station.name, "station name " + in_quotes(station.name),
+                         "give each station a name of its own");
+        read_profile(table, station);
+        read_address(table, station);
+        read_drive(table, station);
+        read_behaviour(table, station);
+        read_personality(table, station);
+        read_tags(table, station);
+        read_leds(table, station);
+        refuse_foreign_keys(table, station);
+        return station;
+    }
+
+private:
+    void read_profile(Table& table, StationConfig& station)
+    {
+        const auto& names = shelf_.names();
+        table.require("profile", "profile = " + in_quotes(names.empty() ? "590" : names.front()));
+        const auto name = table.text("profile");
+        if (!name) return;
+        if (std::find(names.begin(), names.end(), *name) != names.end()) {
+            station.profile = shelf_.profile(*name);
+            return;
+        }
+        const std::string folder = shelf_.folder().string();
+        std::string what = "there is no profile " + in_quotes(*name) + " in " + folder + ": ";
+        if (names.empty())
+            what += "the folder holds no profile at all; name the right one with --profiles.";
+        else
+            what += "write " + profile::listed(names) + ".";
+        table.refuse("profile", std::move(what));
+    }
+
+    void read_address(Table& table, StationConfig& station)
+    {
+        table.require("address", "address = 5");
+        const auto value = table.integer("address", 0, 127);
+        if (!value) return;
+        station.address = static_cast<std::uint8_t>(*value);
+        const std::string text = "address " + std::to_string(*value);
+        const int min = station.profile ? station.profile->min_address : 0;
+        const int max = station.profile ? station.profile->max_address : 125;
+        const std::string range = std::to_string(min) + " to " + std::to_string(max);
+        if (*value > 125)
+            table.refuse("address", text +
+                                        (*value == 126 ? " is that of stations which have none yet"
+                                                       : " is that of telegrams to all stations") +
+                                        ": choose one from " + range + ".");
+        else if (*value < min || *value > max)
+            table.refuse("address", text + " is none of profile " + in_quotes(station.profile->name) +
+                                        ": choose one from " + range + ".");
+        else if (*value <= 2)
+            warn(table.place_of("address"),
+                 text + ": masters and engineering tools usually have 0 to 2; see that no one "
+                        "else on the bus has it.");
+        addresses_.check(table, "address", std::to_string(*value), text,
+                         "give each station of the bus an address of its own");
+    }
+
+    void read_drive(Table& table, StationConfig& station)
+    {
+        table.require("line", lines_.empty() || lines_.front().line.name.empty()
+                                  ? R"(line = "p3", the name of a [[line]])"
+                                  : "line = " + in_quotes(lines_.front().line.name));
+        if (const auto name = table.text("line")) find_line(table, station, *name);
+        table.require("unit", R"(unit = "00", group and unit id of the drive)");
+        const auto unit = table.text("unit");
+        if (!unit) return;
+        station.unit_text = *unit;
+        const auto parsed = ei_unit(*unit);
+        if (!parsed) {
+            table.refuse("unit", "unit " + in_quotes(*unit) +
+                                     ": write two hexadecimal digits, the group and the unit id of the "
+                                     "drive, as in \"00\".");
+            return;
+        }
+        station.unit = *parsed;
+        if (!line_known_) return;
+        const std::string& line = lines_[station.line].line.name;
+        drives_.check(table, "unit",
+                      std::to_string(station.line) + '/' + std::to_string(parsed->group * 16 + parsed->unit),
+                      "unit " + in_quotes(*unit) + " of drive line " + in_quotes(line),
+                      "one drive serves one station only");
+    }
+
+    void warn_of_rate(Table& table, const StationConfig& station)
+    {
+        const std::uint32_t rate = lines_[station.line].line.baud;
+        if (!station.profile || !station.profile->recommended_baud ||
+            *station.profile->recommended_baud == rate)
+            return;
+        warn(table.place_of("line"), "the line of this station runs at " + std::to_string(rate) +
+                                         " bit/s; for a " + station.profile->name + " " +
+                                         std::to_string(*station.profile->recommended_baud) +
+                                         " is recommended, with others the link may perform worse");
+    }
+
+    void find_line(Table& table, StationConfig& station, const std::string& name)
+    {
+        line_known_ = false;
+        std::vector<std::string> names;
+        for (std::size_t i = 0; i < lines_.size(); ++i) {
+            names.push_back(lines_[i].line.name);
+            if (lines_[i].line.name != name || line_known_) continue;
+            station.line = i;
+            line_known_ = true;
+        }
+        if (!line_known_) {
+            table.refuse("line", "there is no line " + in_quotes(name) + ": " +
+                                     (names.empty() ? "add a [[line]] with this name."
+                                                    : "write " + profile::listed(names) +
+                                                          ", or add a [[line]] with this name."));
+            return;
+        }
+        warn_of_rate(table, station);
+        const std::string& protocol = lines_[station.line].line.protocol;
+        if (!station.profile || protocol != "ei-ascii") return; // another protocol is refused at the line
+        const auto& legal = station.profile->protocols;
+        if (std::find(legal.begin(), legal.end(), protocol) == legal.end())
+            table.refuse("line", "line " + in_quotes(name) + " speaks " + protocol +
+                                     ", but a device of profile " + in_quotes(station.profile->name) +
+                                     " is reached by " + profile::listed(legal) + ": choose another line.");
+    }
+
+    void read_behaviour(Table& table, StationConfig& station)
+    {
+        if (const auto seconds = table.real("output_refresh_s", 0, 86'400))
+            station.output_refresh =
+                std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>{*seconds});
+        using drive::OutputLoss;
+        const auto loss =
+            table.choice<OutputLoss>("output_loss", {{"zero", OutputLoss::zero}, {"hold", OutputLoss::hold}});
+        if (loss)
+            station.output_loss = *loss;
+        else if (station.profile)
+            station.output_loss = station.profile->output_loss;
+    }
+
+    /// The profile's, with what this station and this bus say otherwise.
+    void read_personality(Table& table, StationConfig& station)
+    {
+        const auto ident = table.integer("ident", 1, 0xFFFF);
+        Table demand = table.table("demand");
+        const auto error_base = demand.integer("error_base", 0, 1);
+        if (demand.has("extended_reply"))
+            demand.refuse("extended_reply",
+                          "this profile has no extended commands of Demand Data: remove 'extended_reply'.");
+        if (!station.profile) return;
+
+        dp::Personality personality = station.profile->personality;
+        if (!ident && !table.has("ident") && !station.profile->ident)
+            document_.fault(table.place(),
+                            "'ident' is missing in [[station]]: profile " + in_quotes(station.profile->name) +
+                                " leaves it open; add ident = 0x.... as the master's GSD has it.");
+        if (ident) personality.ident = static_cast<std::uint16_t>(*ident);
+        if (error_base && personality.demand == dp::DemandForm::none)
+            demand.refuse("error_base", "profile " + in_quotes(station.profile->name) +
+                                            " has no Demand Data: remove 'error_base'.");
+        if (error_base) personality.demand_error_base = static_cast<std::uint16_t>(*error_base);
+
+        Table bus = document_.root().table("bus");
+        const bool rate_named = bus.has("baud") && !bus.is_text("baud");
+        if (rate_named && personality.max_tsdr[index_of(bus_.baud)].count == 0)
+            table.refuse("profile", "profile " + in_quotes(station.profile->name) +
+                                        " does not support the rate of the bus, " +
+                                        std::to_string(static_cast<std::uint32_t>(bus_.baud)) +
+                                        " bit/s: its [max_tsdr] does not list it.");
+        if (bus_.max_tsdr > 0)
+            for (Tbit& each : personality.max_tsdr)
+                if (each.count > 0) each = Tbit{bus_.max_tsdr};
+        station.personality = std::make_shared<const dp::Personality>(std::move(personality));
+    }
+
+    void read_tags(Table& table, StationConfig& station)
+    {
+        if (const auto own = table.text("tags")) {
+            const std::filesystem::path file =
+                std::filesystem::path{document_.name()}.parent_path() / *own; // absolute stays
+            station.tag_file = file.lexically_normal().string();
+            station.tags = shelf_.tags(file.lexically_normal());
+        } else if (station.profile) {
+            station.tag_file = station.profile->tag_file.string();
+            station.tags = {station.profile, &station.profile->tags};
+        }
+        if (station.profile && station.tags) warn_of_tags_without_mnemonic(station);
+    }
+
+    void warn_of_tags_without_mnemonic(const StationConfig& station)
+    {
+        if (!line_known_ || lines_[station.line].line.protocol != "ei-ascii") return;
+        std::string list;
+        std::size_t count = 0;
+        constexpr std::size_t shown = 8;
+        for (const drive::Tag& tag : station.tags->all()) {
+            if (tag.type == drive::TagType::string || mnemonic_of(tag, station.profile->mnemonics)) continue;
+            if (++count <= shown) list += (count > 1 ? ", " : "") + std::to_string(tag.number);
+        }
+        if (count == 0) return;
+        if (count > shown) list += " and " + std::to_string(count - shown) + " more";
+        const std::string what = "no mnemonic for tag " + list +
+                                 ": they read as invalid tag; fill in column mnemonic, or set "
+                                 "mnemonic_rule in profile " +
+                                 in_quotes(station.profile->name) + ".";
+        const auto same = [&](const profile::Fault& known) {
+            return known.file == station.tag_file && known.what == what;
+        };
+        if (std::none_of(warnings_.begin(), warnings_.end(), same))
+            warnings_.push_back({station.tag_file, 0, 0, what});
+    }
+
+    void read_leds(Table& table, StationConfig& station)
+    {
+        Table leds = table.table("leds");
+        if (!leds.exists() || !station.profile) return;
+        std::vector<std::string> lamps;
+        for (const led::Lamp& lamp : led::lamps(station.profile->leds, led::Condition{}))
+            lamps.emplace_back(lamp.name);
+        for (const std::string& lamp : lamps) {
+            const auto sink = leds.text(lamp);
+            if (!sink || !legal_sink(leds, lamp, *sink)) continue;
+            sinks_.check(leds, lamp, *sink, "sink " + in_quotes(*sink), "give each lamp an LED of its own");
+            station.leds.push_back({lamp, *sink});
+        }
+    }
+
+    static bool legal_sink(Table& leds, const std::string& lamp, std::string_view sink)
+    {
+        const auto refuse = [&](const std::string& what) {
+            leds.refuse(lamp, "sink " + in_quotes(sink) + ": " + what);
+            return false;
+        };
+        if (sink.starts_with("line:"))
+            return refuse(
+                "lines of a GPIO chip are not part of this release; write \"gpio:N\" or \"led:NAME\".");
+        if (sink.starts_with("gpio:")) {
+            std::uint16_t number = 0;
+            const char* const end = sink.data() + sink.size();
+            const auto [stop, error] = std::from_chars(sink.data() + 5, end, number);
+            return (error == std::errc{} && stop == end) ||
+                   refuse("behind gpio: stands the number of the GPIO, 0 to 65535.");
+        }
+        if (sink.starts_with("led:")) {
+            const std::string_view name = sink.substr(4);
+            const bool plain =
+                !name.empty() && name.find('/') == std::string_view::npos && name != "." && name != "..";
+            return plain || refuse("behind led: stands the name of a folder in <sysfs>/class/leds.");
+        }
+        return refuse("write \"gpio:N\" for a GPIO of sysfs or \"led:NAME\" for an LED of the LED class.");
+    }
+
+    /// Keys that belong to device types which have what this one has not.
+    static void refuse_foreign_keys(Table& table, const StationConfig& station)
+    {
+        const std::string device =
+            station.profile ? "a device of profile " + in_quotes(station.profile->name) : "this device";
+        if (table.has("tec"))
+            table.refuse("tec", device + " has no TEC OPTION function block: remove [station.tec].");
+        if (table.has("diagnosis"))
+            table.refuse("diagnosis", device + " has no extended diagnosis: remove [station.diagnosis].");
+        if (table.has("resolution"))
+            table.refuse("resolution", device + " has one resolution only: remove 'resolution'.");
+        if (table.has("ext_diag_bit"))
+            table.refuse("ext_diag_bit", device + " has no extended diagnosis: remove 'ext_diag_bit'.");
+    }
+
+    void warn(Place at, std::string what)
+    {
+        warnings_.push_back({document_.name(), at.line, at.column, std::move(what)});
+    }
+
+    Document& document_;
+    const BusConfig& bus_;
+    const std::vector<ReadLine>& lines_;
+    Shelf& shelf_;
+    profile::Faults& warnings_;
+    Unlike names_, addresses_, drives_, sinks_;
+    bool line_known_ = false; ///< of the station being read
+};
+
+} // namespace
+
+std::vector<StationConfig> read_stations(Document& document, const BusConfig& bus,
+                                         const std::vector<ReadLine>& lines, Shelf& shelf,
+                                         profile::Faults& warnings)
+{
+    std::vector<StationConfig> stations;
+    StationReader reader{document, bus, lines, shelf, warnings};
+    Table root = document.root();
+    for (Table& table : root.tables("station")) stations.push_back(reader.read(table));
+    if (stations.empty())
+        document.fault(
+            {},
+            "there is no station: add a [[line]] with the drive's serial port and a [[station]] with name, "
+            "address, profile, line and unit.");
+    return stations;
+}
+
+} // namespace dpslave::app

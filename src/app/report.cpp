@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dpslave/app/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dpslave::app {
+
+using nlohmann::json;
+
+namespace {
+
+double milliseconds(std::chrono::nanoseconds time)
+{
+    return std::chrono::duration<double, std::milli>(time).count();
+}
+
+/// How long ago `then` was; null for "never".
+json age_json(Instant then, Instant now)
+{
+    if (then == Instant{}) return nullptr;
+    return milliseconds(now - then);
+}
+
+json optional_json(const std::optional<std::string>& value)
+{
+    return value ? json(*value) : json(nullptr);
+}
+
+std::string_view link_text(const StationView& station)
+{
+    if (!station.line_open) return "silent";
+    if (!station.drive.known) return "unknown";
+    return station.drive.answers ? "answers" : "silent";
+}
+
+std::string_view text(WordState state)
+{
+    switch (state) {
+        case WordState::untried: return "untried";
+        case WordState::good: return "good";
+        case WordState::stale: return "stale";
+        case WordState::invalid_tag: return "invalid tag";
+        case WordState::read_only: return "read only";
+        case WordState::out_of_range: return "out of range";
+        case WordState::refused: return "refused";
+    }
+    return "?";
+}
+
+json drive_json(const StationView& station)
+{
+    const drive::UnitSnapshot& drive = station.drive;
+    return {{"line", station.line->name},
+            {"port", station.line->port},
+            {"protocol", station.line->protocol},
+            {"unit", station.config->unit_text},
+            {"link", link_text(station)},
+            {"cycle_ms", drive.cycle.count() > 0 ? json(milliseconds(drive.cycle)) : json(nullptr)},
+            {"reads", drive.reads},
+            {"writes", drive.writes},
+            {"silences", drive.silences},
+            {"refusals", drive.refusals},
+            {"losses", drive.losses},
+            {"last_trouble", station.troubles.empty() ? json(nullptr) : json(station.troubles.back())}};
+}
+
+/// The four registers of Demand Data in words.
+std::string demand_words(const std::array<std::uint16_t, 4>& request,
+                         const std::array<std::uint16_t, 4>& reply)
+{
+    const unsigned command = request[0] >> 12;
+    const unsigned tag = request[0] & 0x07FF;
+    if (command == 0) return "no command";
+    const std::string asked = command == 1   ? fmt::format("read tag {}", tag)
+                              : command == 2 ? fmt::format("write {} to tag {}", request[3], tag)
+                                             : fmt::format("command {} with tag {}", command, tag);
+    const unsigned answer = reply[0] >> 12;
+    const unsigned echo = reply[0] & 0x07FF;
+    if (answer == 0 || echo != tag) return asked + ": not answered yet";
+    if (answer == 1 && command == 2 && reply[3] != request[3]) return asked + ": not answered yet";
+    if (answer == 1) return fmt::format("{}: done, value {}", asked, reply[3]);
+    return fmt::format("{}: rejected with error code {}", asked, reply[3]);
+}
+
+std::string pattern_words(const led::Pattern& pattern)
+{
+    if (pattern.period.count() == 0) return pattern.on.count() > 0 ? "on" : "off";
+    return fmt::format("flashing {:g} Hz", 1000.0 / static_cast<double>(pattern.period.count()));
+}
+
+} // namespace
+
+std::string shown_value(const drive::TagTable& tags, std::uint16_t tag, std::uint16_t word)
+{
+    const drive::Tag* row = tags.find(tag);
+    return row != nullptr ? drive::displayed(*row, word) : fmt::format(">{:04X}", word);
+}
+
+std::string_view text(AccessError error) noexcept
+{
+    switch (error) {
+        case AccessError::none: return "done";
+        case AccessError::no_answer: return "the drive does not answer";
+        case AccessError::not_understood: return "the drive did not understand the request";
+        case AccessError::invalid_tag: return "invalid tag";
+        case AccessError::read_only: return "read only";
+        case AccessError::out_of_range: return "value under or over range";
+        case AccessError::not_stopped: return "only while the drive is stopped";
+        case AccessError::not_config_mode: return "only in configuration mode";
+        case AccessError::unsupported_type: return "this type of parameter is not transported";
+        case AccessError::value_not_encoded: return "the drive cannot read this value";
+    }
+    return "?";
+}
+
+std::optional<int> demand_code(AccessError error) noexcept
+{
+    switch (error) {
+        case AccessError::none:
+        case AccessError::no_answer:
+        case AccessError::not_understood: return std::nullopt;
+        case AccessError::invalid_tag:
+        case AccessError::unsupported_type: return 0;
+        case AccessError::read_only:
+        case AccessError::not_stopped:
+        case AccessError::not_config_mode: return 1;
+        case AccessError::out_of_range:
+        case AccessError::value_not_encoded: return 2;
+    }
+    return std::nullopt;
+}
+
+json bus_json(const View& view, Instant now)
+{
+    const auto exchanging =
+        std::count_if(view.stations.begin(), view.stations.end(),
+                      [](const StationView& one) { return one.bus.state == dp::State::data_exch; });
+    return {{"port", view.config->bus.port},
+            {"baud", static_cast<std::uint32_t>(view.bus.baud)},
+            {"baud_state", fdl::text(view.bus.baud_state)},
+            {"stations", view.stations.size()},
+            {"exchanging", exchanging},
+            {"last_telegram_age_ms", age_json(view.bus.last_telegram, now)}};
+}
+
+json station_json(const StationView& station)
+{
+    const dp::Snapshot& bus = station.bus;
+    return {{"name", station.config->name},
+            {"address", station.config->address},
+            {"profile", station.config->profile->name},
+            {"device", station.config->profile->device},
+            {"state", dp::text(bus.state)},
+            {"master", bus.master == 0xFF ? json(nullptr) : json(bus.master)},
+            {"watchdog_ms", bus.watchdog_on ? json(bus.watchdog.count()) : json(nullptr)},
+            {"min_tsdr", bus.min_tsdr.count},
+            {"groups", bus.groups},
+            {"sync", bus.sync},
+            {"freeze", bus.freeze},
+            {"stat_diag", bus.stat_diag},
+            {"diag_pending", bus.diag_pending},
+            {"parameters", bus.layout.count},
+            {"demand_data", bus.demand_data},
+            {"left_count", bus.counters.left_data_exchange},
+            {"left_because",
+             bus.left_because == dp::LeaveReason::none ? json(nullptr) : json(dp::text(bus.left_because))},
+            {"drive", drive_json(station)}};
+}
+
+json stations_json(const View& view)
+{
+    json all = json::array();
+    for (const StationView& one : view.stations) all.push_back(station_json(one));
+    return all;
+}
+
+json info_json(const StationView& station, std::optional<std::uint8_t> pending)
+{
+    const StationConfig& config = *station.config;
+    const profile::Profile& profile = *config.profile;
+    const dp::Personality& personality = *config.personality;
+    json bauds = json::array();
+    json max_tsdr = json::array();
+    for (std::size_t i = 0; i < kBauds.size(); ++i) {
+        if (personality.max_tsdr[i].count == 0) continue;
+        bauds.push_back(static_cast<std::uint32_t>(kBauds[i]));
+        max_tsdr.push_back(personality.max_tsdr[i].count);
+    }
+    const std::size_t demand_octets = personality.demand == dp::DemandForm::none ? 0 : 8;
+    const std::size_t most_octets = demand_octets + 2 * personality.max_parameters;
+    return {{"name", config.name},
+            {"profile", profile.name},
+            {"device", profile.device},
+            {"order_code", profile.order_code},
+            {"firmware", profile.firmware},
+            {"manual", profile.manual},
+            {"ident", personality.ident},
+            {"address_active", config.address},
+            {"address_pending", pending ? json(*pending) : json(nullptr)},
+            {"address_min", profile.min_address},
+            {"address_max", profile.max_address},
+            {"max_parameters", personality.max_parameters},
+            {"max_input_octets", most_octets},
+            {"max_output_octets", most_octets},
+            {"max_diag_octets", personality.max_diag_length},
+            {"demand_data", personality.demand != dp::DemandForm::none},
+            {"sync", personality.sync},
+            {"freeze", personality.freeze},
+            {"bauds", bauds},
+            {"max_tsdr", max_tsdr},
+            {"tag_table", config.tag_file},
+            {"tags_in_table", config.tags->all().size()}};
+}
+
+json words_json(const StationView& station, Instant now)
+{
+    const dp::Snapshot& bus = station.bus;
+    const drive::UnitSnapshot& drive = station.drive;
+    const bool same_layout = drive.generation == bus.layout.generation;
+    std::size_t in_octet = bus.demand_data ? 8 : 0;
+    std::size_t out_octet = in_octet;
+    json words = json::array();
+    const auto add = [&](std::size_t i, bool input) {
+        const std::uint16_t tag = bus.layout.parameters[i].tag;
+        const std::uint16_t raw = input ? bus.inputs[i] : bus.outputs[i];
+        const drive::Tag* row = station.config->tags->find(tag);
+        std::size_t& octet = input ? in_octet : out_octet;
+        words.push_back({{"tag", tag},
+                         {"name", row != nullptr ? json(row->name) : json(nullptr)},
+                         {"direction", input ? "in" : "out"},
+                         {"octet", octet},
+                         {"raw", raw},
+                         {"value", shown_value(*station.config->tags, tag, raw)},
+                         {"state", text(same_layout ? drive.states[i] : WordState::untried)},
+                         {"age_ms", same_layout ? age_json(drive.updated_at[i], now) : json(nullptr)}});
+        octet += 2;
+    };
+    for (std::size_t i = 0; i < bus.layout.count; ++i) {
+        if (bus.layout.parameters[i].reads) add(i, true);
+        if (bus.layout.parameters[i].writes) add(i, false);
+    }
+    return words;
+}
+
+json io_json(const StationView& station, Instant now)
+{
+    const dp::Snapshot& bus = station.bus;
+    json demand = nullptr;
+    if (bus.demand_data)
+        demand = {{"request", bus.demand_request},
+                  {"reply", bus.demand_reply},
+                  {"words", demand_words(bus.demand_request, bus.demand_reply)}};
+    return {{"name", station.config->name},      {"address", station.config->address},
+            {"state", dp::text(bus.state)},      {"may_write", bus.may_write},
+            {"words", words_json(station, now)}, {"demand", demand}};
+}
+
+std::string status_line(const View& view)
+{
+    const auto exchanging =
+        std::count_if(view.stations.begin(), view.stations.end(),
+                      [](const StationView& one) { return one.bus.state == dp::State::data_exch; });
+    std::string line = fmt::format("{} of {} in Data_Exch", exchanging, view.stations.size());
+    for (const StationView& one : view.stations) {
+        line += fmt::format("; {}: {}", one.config->name, dp::text(one.bus.state));
+        if (one.bus.master != 0xFF) line += fmt::format(" with master {}", one.bus.master);
+        if (one.drive.known && !one.drive.answers) line += ", drive silent";
+    }
+    return line;
+}
+
+json leds_json(const StationConfig& station, const led::Condition& condition, Instant now)
+{
+    json leds = json::array();
+    for (const led::Lamp& lamp : led::lamps(station.profile->leds, condition)) {
+        const auto wired = std::find_if(station.leds.begin(), station.leds.end(),
+                                        [&lamp](const LedConfig& one) { return one.lamp == lamp.name; });
+        leds.push_back({{"name", lamp.name},
+                        {"sink", wired == station.leds.end() ? "none" : wired->sink},
+                        {"lit", led::lit(lamp.pattern, now)},
+                        {"pattern", pattern_words(lamp.pattern)}});
+    }
+    return {
+        {"name", station.name}, {"meaning", led::meaning(station.profile->leds, condition)}, {"leds", leds}};
+}
+
+std::string bad_value_words(const drive::Tag& tag, AccessError error)
+{
+    const auto limit = [&tag](std::int32_t counts) {
+        return drive::displayed(tag, static_cast<std::uint16_t>(counts));
+    };
+    switch (error) {
+        case AccessError::out_of_range:
+            if (tag.min && tag.max) return fmt::format("takes {} to {}", limit(*tag.min), limit(*tag.max));
+            return "does not fit into 16 bit with the decimals of the tag table";
+        case AccessError::unsupported_type:
+            return fmt::format("{} is a {}, which is not transported", tag.name, drive::text(tag.type));
+        default:
+            return fmt::format("takes a {}{}", drive::text(tag.type),
+                               tag.decimals > 0 ? fmt::format(" with up to {} decimals", tag.decimals)
+                                                : std::string{});
+    }
+}
+
+json diagnosis_json(const StationView& station)
+{
+    json refusal = nullptr;
+    if (station.bus.refusal.why != dp::Refusal::none) {
+        const Explanation why = explain(station.bus.refusal);
+        refusal = {
+            {"telegram", why.telegram},
+            {"what", why.what},
+            {"octet", station.bus.refusal.octet == 0 ? json(nullptr) : json(station.bus.refusal.octet)},
+            {"expected", optional_json(why.expected)},
+            {"got", optional_json(why.got)},
+            {"advice", why.advice}};
+    }
+    json trouble = json::array();
+    if (station.drive.known && !station.drive.answers)
+        trouble.push_back("the drive does not answer: its inputs are held and marked stale");
+    for (const std::string& one : station.troubles) trouble.push_back(one);
+
+    json result = diagnosis_octets_json(station.bus.diagnosis.bytes());
+    result["name"] = station.config->name;
+    result["hex"] = hex(station.bus.diagnosis.bytes());
+    result["refusal"] = refusal;
+    result["last_prm"] = hex(station.bus.prm.bytes());
+    result["last_cfg"] = hex(station.bus.cfg.bytes());
+    result["trouble"] = trouble;
+    return result;
+}
+
+} // namespace dpslave::app

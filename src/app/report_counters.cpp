@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// What was counted, with a meaning beside each number.
+#include "dpslave/app/report.hpp"
+
+#include <fmt/format.h>
+
+namespace dpslave::app {
+
+using nlohmann::json;
+
+namespace {
+
+void add(json& counters, std::string_view name, std::uint64_t value, std::string_view meaning)
+{
+    counters.push_back({{"name", name}, {"value", value}, {"meaning", meaning}});
+}
+
+json group(std::string name, json counters)
+{
+    return {{"name", std::move(name)}, {"counters", std::move(counters)}};
+}
+
+json bus_counters(const View& view)
+{
+    const fdl::Counters& fdl = view.bus.counters;
+    json c = json::array();
+    add(c, "octets", fdl.octets, "received");
+    add(c, "telegrams", fdl.telegrams, "valid ones, of anybody");
+    add(c, "requests", fdl.requests, "to one of our addresses or to all");
+    add(c, "replies", fdl.replies, "sent");
+    add(c, "retries", fdl.retries, "answered with the stored reply: the master had not heard the first one");
+    add(c, "overtaken", fdl.overtaken,
+        "requests dropped because something followed them: the machine reads too late");
+    add(c, "late", fdl.late, "replies suppressed because MaxTsdr had passed: see [realtime] and max_tsdr");
+    add(c, "own_address", fdl.own_address, "telegrams of somebody else who uses one of our addresses");
+    add(c, "write_errors", view.bus.write_errors, "replies that the port did not take");
+    for (std::size_t i = 0; i < fdl::kFlaws; ++i)
+        add(c, fmt::format("flaw: {}", fdl::text(static_cast<fdl::Flaw>(i))), fdl.flaws[i],
+            "telegrams that were none: noise, wiring, termination, rate");
+    add(c, "lost_events", view.lost_events, "events that the log could not take");
+    return group("bus", std::move(c));
+}
+
+json station_counters(const StationView& station)
+{
+    const dp::Counters& dp = station.bus.counters;
+    const drive::UnitSnapshot& drive = station.drive;
+    json c = json::array();
+    add(c, "data_exchange", dp.data_exchange, "Data_Exchange telegrams carried out");
+    add(c, "slave_diag", dp.slave_diag, "");
+    add(c, "set_prm", dp.set_prm, "");
+    add(c, "chk_cfg", dp.chk_cfg, "");
+    add(c, "get_cfg", dp.get_cfg, "");
+    add(c, "rd_inp", dp.rd_inp, "");
+    add(c, "rd_outp", dp.rd_outp, "");
+    add(c, "global_control", dp.global_control, "received, also those for other groups or of other masters");
+    add(c, "not_activated", dp.not_activated,
+        "requests answered RS: not possible in this state or for this master");
+    add(c, "no_resource", dp.no_resource, "requests answered RR");
+    add(c, "watchdog_expired", dp.watchdog_expired, "the master was silent for longer than it promised");
+    add(c, "left_data_exchange", dp.left_data_exchange,
+        "ways out of Data_Exch: the outputs went to their safe state");
+    add(c, "demand_orders", dp.demand_orders, "Demand Data reads and writes");
+    add(c, "demand_rejects", dp.demand_rejects, "answered with 7");
+    add(c, "drive_reads", drive.reads, "transactions with the drive");
+    add(c, "drive_writes", drive.writes, "");
+    add(c, "drive_silences", drive.silences, "transactions without answer");
+    add(c, "drive_refusals", drive.refusals, "transactions that the drive refused");
+    add(c, "drive_losses", drive.losses, "times the drive was given up until it answered again");
+    return group(station.config->name, std::move(c));
+}
+
+} // namespace
+
+json counters_json(const View& view)
+{
+    json groups = json::array();
+    groups.push_back(bus_counters(view));
+    for (const StationView& one : view.stations) groups.push_back(station_counters(one));
+    return groups;
+}
+
+} // namespace dpslave::app

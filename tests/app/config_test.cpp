@@ -1,0 +1,680 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "profile/files.hpp"
+
+#include "dpslave/app/config.hpp"
+
+#include <gmock/gmock.h>
+
+namespace dpslave {
+namespace {
+
+using app::Config;
+using app::load_config;
+using profile::Faults;
+using test::Folder;
+using test::short_forms;
+using test::with;
+using testing::AllOf;
+using testing::Contains;
+using testing::Each;
+using testing::ElementsAre;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+const std::filesystem::path kSource{DPSLAVE_SOURCE_DIR};
+
+/// The lines are counted by the tests below: change nothing in front of what they name.
+constexpr const char* kGood = R"([bus]
+port = "/dev/null-bus"
+baud = 187500
+direction = "none"
+
+[control]
+operator_group = "root"
+
+[[line]]
+name = "p3"
+port = "/dev/null-p3"
+protocol = "ei-ascii"
+
+[[station]]
+name = "unwinder"
+address = 5
+profile = "590"
+line = "p3"
+unit = "00"
+)";
+
+constexpr const char* kSecondStation = R"(
+[[station]]
+name = "winder"
+address = 6
+profile = "620"
+line = "p3"
+unit = "01"
+)";
+
+class ConfigFile : public testing::Test {
+protected:
+    ConfigFile()
+    {
+        for (const char* name : {"584s.toml", "590.toml", "620.toml"})
+            folder_.write(std::string{"profiles/"} + name,
+                          test::content_of(kSource / "config/profiles" / name));
+        folder_.write("tags/example.csv", "tag,name,type\n55,SPEED,INT\n1200,MOTTO,STRING\n");
+    }
+
+    Result<Config, Faults> load(std::string_view content) const
+    {
+        return load_config(folder_.write("etc/dpslaved.toml", content), folder_.path() / "profiles");
+    }
+
+    Config good(std::string_view content) const
+    {
+        auto config = load(content);
+        if (config) return *std::move(config);
+        for (const auto& fault : config.error()) ADD_FAILURE() << to_string(fault);
+        return {};
+    }
+
+    Faults bad(std::string_view content) const
+    {
+        const auto config = load(content);
+        EXPECT_FALSE(config);
+        return config ? Faults{} : config.error();
+    }
+
+    /// Copies the profile 590 under another name, with one change.
+    void change_profile(const std::string& name, std::string_view from, std::string_view to) const
+    {
+        folder_.write("profiles/" + name + ".toml",
+                      with(test::content_of(kSource / "config/profiles/590.toml"), from, to));
+    }
+
+    Folder folder_;
+};
+
+TEST_F(ConfigFile, with_the_required_keys_only_has_the_defaults_of_the_sample)
+{
+    const Config config = good(with(kGood, "[control]\noperator_group = \"root\"\n", ""));
+
+    EXPECT_EQ(config.bus.port, "/dev/null-bus");
+    EXPECT_EQ(config.bus.port_line, 2U);
+    EXPECT_EQ(config.bus.baud, Baud::k187_5);
+    EXPECT_EQ(config.bus.max_tsdr, 0U);
+    EXPECT_EQ(config.realtime.priority, 80);
+    EXPECT_EQ(config.realtime.cpu, -1);
+    EXPECT_TRUE(config.realtime.lock_memory);
+    EXPECT_EQ(config.sysfs, "/sys");
+    EXPECT_EQ(config.control.socket, "/run/dpslaved/control.sock");
+    EXPECT_EQ(config.control.operator_group, "dpslaved");
+    ASSERT_EQ(config.lines.size(), 1U);
+    EXPECT_EQ(config.lines[0].baud, 9600U);
+    EXPECT_EQ(config.lines[0].format.data_bits, 7);
+    EXPECT_EQ(config.lines[0].format.parity, 'E');
+    EXPECT_EQ(config.lines[0].format.stop_bits, 1);
+    EXPECT_EQ(config.lines[0].timeout, std::chrono::milliseconds{200});
+    EXPECT_EQ(config.lines[0].retries, 2);
+    ASSERT_EQ(config.stations.size(), 1U);
+    EXPECT_EQ(config.stations[0].output_refresh, std::chrono::seconds{1});
+    EXPECT_EQ(config.stations[0].output_loss, drive::OutputLoss::zero);
+    EXPECT_THAT(config.stations[0].leds, IsEmpty());
+}
+
+TEST_F(ConfigFile, a_station_has_the_personality_and_the_tags_of_its_profile)
+{
+    const Config config = good(kGood);
+    const app::StationConfig& station = config.stations.at(0);
+
+    EXPECT_EQ(station.name, "unwinder");
+    EXPECT_EQ(station.address, 5);
+    EXPECT_EQ(station.profile->name, "590");
+    EXPECT_EQ(station.personality->ident, 0x0533);
+    EXPECT_EQ(station.personality->max_tsdr, station.profile->personality.max_tsdr);
+    EXPECT_EQ(station.personality->demand_error_base, 0);
+    EXPECT_EQ(station.tags->find(55)->name, "SPEED");
+    EXPECT_THAT(station.tag_file, EndsWith("tags/example.csv"));
+    EXPECT_EQ(station.line, 0U);
+    EXPECT_EQ(station.unit, (drive::UnitAddress{0, 0}));
+    EXPECT_EQ(station.unit_text, "00");
+    EXPECT_THAT(config.warnings, IsEmpty());
+}
+
+TEST_F(ConfigFile, every_key_is_read)
+{
+    folder_.write("etc/own.csv", "tag,name\n56,LOAD\n");
+    const Config config = good(R"([bus]
+port = "/dev/null-bus"
+baud = 45450
+max_tsdr = 500
+direction = "none"
+gpio_chip = "/dev/gpiochip0"
+gpio_line = 17
+gpio_active_low = true
+echo = "off"
+[realtime]
+priority = 0
+cpu = 1
+lock_memory = false
+[leds]
+sysfs = "/tmp/sys"
+[control]
+socket = "/tmp/c.sock"
+operator_group = "root"
+[[line]]
+name = "a"
+port = "/dev/null-a"
+protocol = "ei-ascii"
+baud = 19200
+format = "8N2"
+timeout_ms = 50
+retries = 0
+[[line]]
+name = "b"
+port = "/dev/null-b"
+protocol = "ei-ascii"
+[[station]]
+name = "s"
+address = 125
+profile = "620"
+line = "b"
+unit = "3f"
+ident = 0x1649
+tags = "own.csv"
+output_refresh_s = 0.25
+output_loss = "hold"
+[station.demand]
+error_base = 1
+[station.leds]
+red = "gpio:23"
+green = "led:dpslaved-green"
+)");
+
+    EXPECT_EQ(config.bus.baud, Baud::k45_45);
+    EXPECT_EQ(config.bus.max_tsdr, 500U);
+    EXPECT_EQ(config.realtime.priority, 0);
+    EXPECT_EQ(config.realtime.cpu, 1);
+    EXPECT_FALSE(config.realtime.lock_memory);
+    EXPECT_EQ(config.sysfs, "/tmp/sys");
+    EXPECT_EQ(config.control.socket, "/tmp/c.sock");
+    EXPECT_EQ(config.control.operator_group, "root");
+    ASSERT_EQ(config.lines.size(), 2U);
+    EXPECT_EQ(config.lines[0].name, "a");
+    EXPECT_EQ(config.lines[0].port, "/dev/null-a");
+    EXPECT_EQ(config.lines[0].protocol, "ei-ascii");
+    EXPECT_EQ(config.lines[0].port_line, 21U);
+    EXPECT_EQ(config.lines[0].baud, 19200U);
+    EXPECT_EQ(config.lines[0].format.data_bits, 8);
+    EXPECT_EQ(config.lines[0].format.parity, 'N');
+    EXPECT_EQ(config.lines[0].format.stop_bits, 2);
+    EXPECT_EQ(config.lines[0].timeout, std::chrono::milliseconds{50});
+    EXPECT_EQ(config.lines[0].retries, 0);
+    const app::StationConfig& station = config.stations.at(0);
+    EXPECT_EQ(station.address, 125);
+    EXPECT_EQ(station.line, 1U);
+    EXPECT_EQ(station.unit, (drive::UnitAddress{3, 15}));
+    EXPECT_EQ(station.personality->ident, 0x1649);
+    EXPECT_EQ(station.profile->ident, 0x0533) << "the profile itself stays as it is";
+    EXPECT_THAT(station.personality->max_tsdr, Each(500_tbit));
+    EXPECT_EQ(station.personality->demand_error_base, 1);
+    EXPECT_EQ(station.tags->find(56)->name, "LOAD");
+    EXPECT_EQ(station.tags->find(55), nullptr);
+    EXPECT_EQ(station.tag_file, folder_.path() / "etc/own.csv");
+    EXPECT_EQ(station.output_refresh, std::chrono::milliseconds{250});
+    EXPECT_EQ(station.output_loss, drive::OutputLoss::hold);
+    ASSERT_EQ(station.leds.size(), 2U);
+    EXPECT_EQ(station.leds[0].lamp, "red");
+    EXPECT_EQ(station.leds[0].sink, "gpio:23");
+    EXPECT_EQ(station.leds[1].sink, "led:dpslaved-green");
+}
+
+TEST_F(ConfigFile, output_refresh_0_means_in_every_cycle)
+{
+    EXPECT_EQ(good(std::string{kGood} + "output_refresh_s = 0\n").stations.at(0).output_refresh.count(), 0);
+}
+
+TEST_F(ConfigFile, a_max_tsdr_of_the_bus_leaves_rates_that_the_device_has_not_unsupported)
+{
+    change_profile("slow", "1500000 = 150", "");
+    const Config config =
+        good(with(with(kGood, "\"590\"", "\"slow\""), "baud = 187500", "baud = 187500\nmax_tsdr = 400"));
+
+    EXPECT_EQ(config.stations.at(0).personality->max_tsdr[index_of(Baud::k187_5)], 400_tbit);
+    EXPECT_EQ(config.stations.at(0).personality->max_tsdr[index_of(Baud::k1500)], 0_tbit);
+}
+
+TEST_F(ConfigFile, an_ident_that_the_profile_leaves_open_is_taken_from_the_station)
+{
+    change_profile("open", "ident = 0x0533", "");
+    const std::string text = with(kGood, "\"590\"", "\"open\"");
+
+    EXPECT_THAT(short_forms(bad(text)), ElementsAre(AllOf(StartsWith("14:1: 'ident' is missing"),
+                                                          HasSubstr("\"open\" leaves it open"))));
+    EXPECT_EQ(good(text + "ident = 0x1649\n").stations.at(0).personality->ident, 0x1649);
+}
+
+TEST_F(ConfigFile, two_stations_may_share_bus_line_profile_and_table)
+{
+    const Config config = good(std::string{kGood} + with(kSecondStation, "\"620\"", "\"590\""));
+
+    ASSERT_EQ(config.stations.size(), 2U);
+    EXPECT_EQ(config.stations[0].profile, config.stations[1].profile);
+    EXPECT_EQ(config.stations[0].tags, config.stations[1].tags);
+    EXPECT_EQ(config.stations[1].unit, (drive::UnitAddress{0, 1}));
+}
+
+struct BadChange {
+    const char* from;
+    const char* to;
+    const char* place;    ///< "line:column: "
+    const char* sentence; ///< a part of it
+};
+
+void PrintTo(const BadChange& change, std::ostream* out)
+{
+    *out << test::case_name(std::string{change.sentence} + " for " + change.to);
+}
+
+class BadConfigFile : public ConfigFile, public testing::WithParamInterface<BadChange> {};
+
+TEST_P(BadConfigFile, is_refused_with_place_and_remedy)
+{
+    const BadChange& change = GetParam();
+
+    const Faults faults = bad(with(kGood, change.from, change.to));
+
+    ASSERT_EQ(faults.size(), 1U) << (faults.size() > 1 ? to_string(faults[1]) : "");
+    EXPECT_THAT(faults[0].file, EndsWith("etc/dpslaved.toml"));
+    EXPECT_THAT(test::short_form(faults[0]), AllOf(StartsWith(change.place), HasSubstr(change.sentence)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    bus, BadConfigFile,
+    testing::Values(
+        BadChange{"port = \"/dev/null-bus\"", "",
+                  "1:1: ", "'port' is missing in [bus]: add port = \"/dev/ttyS1\""},
+        BadChange{"port = \"/dev/null-bus\"", "port = 1", "2:8: ", "a text in quotes"},
+        BadChange{"port = \"/dev/null-bus\"", "port = \"x\"\nprot = \"y\"", "3:1: ", "did you mean 'port'?"},
+        BadChange{"baud = 187500", "", "1:1: ", "'baud' is not set and then means \"auto\""},
+        BadChange{"baud = 187500", "baud = \"auto\"", "3:8: ", "set baud to the rate of the bus, 9600"},
+        BadChange{"baud = 187500", "baud = \"187500\"", "3:8: ", "without quotes"},
+        BadChange{"baud = 187500", "baud = 38400",
+                  "3:8: ", "38400 is no rate that is served: set baud to the rate of the bus, 9600"},
+        BadChange{"baud = 187500", "baud = 12000000", "3:8: ", "no rate that is served"},
+        BadChange{"baud = 187500", "baud = true", "3:8: ", "not true"},
+        BadChange{"direction = \"none\"", "", "1:1: ", "'direction' is not set and then means \"gpio\""},
+        BadChange{"direction = \"none\"", "direction = \"gpio\"", "4:13: ", "set direction = \"none\""},
+        BadChange{"direction = \"none\"", "direction = \"kernel\"", "4:13: ", "set direction = \"none\""},
+        BadChange{"direction = \"none\"", "direction = \"rts\"", "4:13: ", "set direction = \"none\""},
+        BadChange{"direction = \"none\"", "direction = \"nome\"", "4:13: ", "Did you mean \"none\"?"},
+        BadChange{"direction = \"none\"", "direction = \"none\"\necho = \"on\"",
+                  "5:8: ", "set echo = \"off\""},
+        BadChange{"direction = \"none\"", "direction = \"none\"\necho = \"auto\"",
+                  "5:8: ", "set echo = \"off\""},
+        BadChange{"direction = \"none\"", "direction = \"none\"\ngpio_line = -1",
+                  "5:13: ", "from 0 to 65535"},
+        BadChange{"direction = \"none\"", "direction = \"none\"\nmax_tsdr = 10",
+                  "5:12: ", "set 0 for the profile's value"},
+        BadChange{"direction = \"none\"", "direction = \"none\"\nmax_tsdr = -1", "5:12: ", "from 0 to 65535"},
+        BadChange{"[bus]", "leds = 1\n[bus]", "1:8: ", "a table"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    machine, BadConfigFile,
+    testing::Values(BadChange{"[control]", "[realtime]\npriority = 100\n[control]", "7:12: ", "from 0 to 99"},
+                    BadChange{"[control]", "[realtime]\ncpu = -2\n[control]", "7:7: ", "from -1 to 1023"},
+                    BadChange{"[control]", "[realtime]\nlock_memory = 1\n[control]",
+                              "7:15: ", "true or false"},
+                    BadChange{"[control]", "[realtime]\nprio = 1\n[control]",
+                              "7:1: ", "unknown key 'prio' in [realtime]"},
+                    BadChange{"[control]", "[leds]\nsysfs = \"\"\n[control]", "7:9: ", "is empty"},
+                    BadChange{"[control]", "[contorl]\na = 1\n[control]", "6:2: ", "did you mean 'control'?"},
+                    BadChange{"[control]",
+                              "[control]\nsocket = \"/tmp/"
+                              "012345678901234567890123456789012345678901234567890123456789012345678901234567"
+                              "8901234567890123456789"
+                              "012345\"",
+                              "7:10: ", "longer than the 107 octets"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    line, BadConfigFile,
+    testing::Values(
+        BadChange{"port = \"/dev/null-p3\"", "", "9:1: ", "'port' is missing in [[line]]"},
+        BadChange{"port = \"/dev/null-p3\"", "port = \"/dev/null-bus\"",
+                  "11:8: ", "is that of the bus on line 2"},
+        BadChange{"port = \"/dev/null-p3\"", "port = \"/dev/../dev/null-bus\"",
+                  "11:8: ", "is that of the bus"},
+        BadChange{"protocol = \"ei-ascii\"", "", "9:1: ", "'protocol' is missing"},
+        BadChange{"protocol = \"ei-ascii\"", "protocol = \"modbus-rtu\"",
+                  "12:12: ", "not part of this release"},
+        BadChange{"protocol = \"ei-ascii\"", "protocol = \"ei-asci\"",
+                  "12:12: ", "Did you mean \"ei-ascii\"?"},
+        BadChange{"protocol = \"ei-ascii\"", "protocol = \"ei-ascii\"\nbaud = 0",
+                  "13:8: ", "from 300 to 921600"},
+        BadChange{"protocol = \"ei-ascii\"", "protocol = \"ei-ascii\"\nformat = \"9E1\"",
+                  "13:10: ", "as in \"7E1\""},
+        BadChange{"protocol = \"ei-ascii\"", "protocol = \"ei-ascii\"\nformat = \"7E\"",
+                  "13:10: ", "format \"7E\""},
+        BadChange{"protocol = \"ei-ascii\"", "protocol = \"ei-ascii\"\ntimeout_ms = 0",
+                  "13:14: ", "from 10 to 10000"},
+        BadChange{"protocol = \"ei-ascii\"", "protocol = \"ei-ascii\"\nretries = -1",
+                  "13:11: ", "from 0 to 10"},
+        BadChange{"protocol = \"ei-ascii\"", "protocol = \"ei-ascii\"\nretires = 1",
+                  "13:1: ", "did you mean 'retries'?"},
+        BadChange{"[[station]]",
+                  "[[line]]\nname = \"p3\"\nport = \"/dev/null-q\"\nprotocol = \"ei-ascii\"\n[[station]]",
+                  "15:8: ", "line name \"p3\" stands on line 10 already"},
+        BadChange{"[[station]]",
+                  "[[line]]\nname = \"q\"\nport = \"/dev/null-p3\"\nprotocol = \"ei-ascii\"\n[[station]]",
+                  "16:8: ", "port \"/dev/null-p3\" stands on line 11 already"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    station, BadConfigFile,
+    testing::Values(
+        BadChange{"name = \"unwinder\"", "", "14:1: ", "'name' is missing in [[station]]"},
+        BadChange{"address = 5", "", "14:1: ", "'address' is missing in [[station]]"},
+        BadChange{"address = 5", "address = 126", "16:11: ", "choose one from 0 to 125"},
+        BadChange{"address = 5", "address = 127", "16:11: ", "telegrams to all stations"},
+        BadChange{"address = 5", "address = 128", "16:11: ", "from 0 to 127"},
+        BadChange{"address = 5\nprofile = \"590\"", "address = 0\nprofile = \"620\"",
+                  "16:11: ", "choose one from 1 to 125"},
+        BadChange{"profile = \"590\"", "", "14:1: ", "'profile' is missing"},
+        BadChange{"profile = \"590\"", "profile = \"591\"", "17:11: ", "write \"584s\", \"590\" or \"620\""},
+        BadChange{"profile = \"590\"", "profile = \"../profiles/590\"", "17:11: ", "there is no profile"},
+        BadChange{"line = \"p3\"", "", "14:1: ", "add line = \"p3\""},
+        BadChange{"line = \"p3\"", "line = \"p4\"", "18:8: ", "there is no line \"p4\": write \"p3\""},
+        BadChange{"unit = \"00\"", "", "14:1: ", "'unit' is missing"},
+        BadChange{"unit = \"00\"", "unit = 0", "19:8: ", "a text in quotes"},
+        BadChange{"unit = \"00\"", "unit = \"0\"", "19:8: ", "two hexadecimal digits"},
+        BadChange{"unit = \"00\"", "unit = \"0G\"", "19:8: ", "two hexadecimal digits"},
+        BadChange{"unit = \"00\"", "unit = \"000\"", "19:8: ", "two hexadecimal digits"},
+        BadChange{"unit = \"00\"", "unit = \"00\"\nident = 0", "20:9: ", "from 1 to 65535"},
+        BadChange{"unit = \"00\"", "unit = \"00\"\noutput_refresh_s = -1", "20:20: ", "from 0 to 86400"},
+        BadChange{"unit = \"00\"", "unit = \"00\"\noutput_loss = \"keep\"",
+                  "20:15: ", "\"zero\" or \"hold\""},
+        BadChange{"unit = \"00\"", "unit = \"00\"\nresolution = \"full\"", "20:14: ", "remove 'resolution'"},
+        BadChange{"unit = \"00\"", "unit = \"00\"\next_diag_bit = true", "20:16: ", "no extended diagnosis"},
+        BadChange{"unit = \"00\"", "unit = \"00\"\n[station.tec]\ntype = 2",
+                  "20:1: ", "no TEC OPTION function block"},
+        BadChange{"unit = \"00\"", "unit = \"00\"\n[station.diagnosis]\nstatus_tag = 75",
+                  "20:1: ", "remove [station.diagnosis]"},
+        BadChange{"unit = \"00\"", "unit = \"00\"\n[station.demand]\nerror_base = 2",
+                  "21:14: ", "from 0 to 1"},
+        BadChange{"unit = \"00\"", "unit = \"00\"\n[station.demand]\nextended_reply = \"table\"",
+                  "21:18: ", "no extended commands"},
+        BadChange{"unit = \"00\"", "unit = \"00\"\nadress = 5", "20:1: ", "did you mean 'address'?"},
+        BadChange{"unit = \"00\"", "unit = \"00\"\n[station.leds]\nblue = \"gpio:1\"",
+                  "21:1: ", "known here are red, green"},
+        BadChange{"unit = \"00\"", "unit = \"00\"\n[station.leds]\nred = \"gpio:x\"",
+                  "21:7: ", "number of the GPIO"},
+        BadChange{"unit = \"00\"", "unit = \"00\"\n[station.leds]\nred = \"gpio:\"",
+                  "21:7: ", "number of the GPIO"},
+        BadChange{"unit = \"00\"", "unit = \"00\"\n[station.leds]\nred = \"led:a/b\"",
+                  "21:7: ", "name of a folder"},
+        BadChange{"unit = \"00\"", "unit = \"00\"\n[station.leds]\nred = \"line:/dev/gpiochip0:24\"",
+                  "21:7: ", "not part of this release"},
+        BadChange{"unit = \"00\"", "unit = \"00\"\n[station.leds]\nred = \"23\"", "21:7: ", "\"led:NAME\""},
+        BadChange{"unit = \"00\"", "unit = \"00\"\n[station.leds]\nred = \"gpio:1\"\ngreen = \"gpio:1\"",
+                  "22:9: ", "sink \"gpio:1\" stands on line 21 already"}));
+
+TEST_F(ConfigFile, two_stations_with_one_address_are_a_fault_that_names_both_lines)
+{
+    const Faults faults = bad(std::string{kGood} + with(kSecondStation, "address = 6", "address = 5"));
+
+    EXPECT_THAT(short_forms(faults),
+                ElementsAre(AllOf(StartsWith("23:11: address 5 stands on line 16 already"),
+                                  HasSubstr("an address of its own"))));
+}
+
+TEST_F(ConfigFile, two_stations_with_one_name_or_one_drive_are_faults)
+{
+    const std::string text = with(with(kSecondStation, "\"winder\"", "\"unwinder\""), "\"01\"", "\"00\"");
+
+    EXPECT_THAT(
+        short_forms(bad(kGood + text)),
+        ElementsAre(StartsWith("22:8: station name \"unwinder\" stands on line 15 already"),
+                    AllOf(StartsWith("26:8: unit \"00\" of drive line \"p3\" stands on line 19 already"),
+                          HasSubstr("one drive serves one station only"))));
+}
+
+TEST_F(ConfigFile, two_names_of_one_tty_are_one_port)
+{
+    const auto tty = folder_.write("tty", "");
+    std::filesystem::create_symlink(tty, folder_.path() / "by-id");
+    const std::string text =
+        with(with(kGood, "/dev/null-bus", tty.string()), "/dev/null-p3", (folder_.path() / "by-id").string());
+
+    EXPECT_THAT(short_forms(bad(text)),
+                ElementsAre(AllOf(StartsWith("11:8: "), HasSubstr("is that of the bus on line 2"))));
+}
+
+TEST_F(ConfigFile, a_file_without_any_station_says_what_to_add)
+{
+    const std::string text{kGood};
+
+    EXPECT_THAT(short_forms(bad(text.substr(0, text.find("[[station]]")))),
+                ElementsAre(AllOf(StartsWith("0:0: there is no station: add"),
+                                  HasSubstr("name, address, profile, line and unit"))));
+}
+
+TEST_F(ConfigFile, a_line_with_single_brackets_is_a_fault)
+{
+    EXPECT_THAT(short_forms(bad(with(kGood, "[[line]]", "[line]"))),
+                ElementsAre(AllOf(StartsWith("9:1: "), HasSubstr("double brackets")),
+                            StartsWith("18:8: there is no line")));
+}
+
+TEST_F(ConfigFile, an_empty_file_says_that_bus_and_station_are_missing)
+{
+    EXPECT_THAT(short_forms(bad("")),
+                ElementsAre(HasSubstr("'bus' is missing in the file"), HasSubstr("there is no station")));
+}
+
+TEST_F(ConfigFile, what_is_no_toml_is_told_with_its_place)
+{
+    EXPECT_THAT(short_forms(bad("[bus\nport = 1\n")),
+                ElementsAre(AllOf(StartsWith("1:5: "), HasSubstr("no TOML"))));
+}
+
+TEST_F(ConfigFile, that_is_not_there_is_a_fault)
+{
+    const auto config = load_config(folder_.path() / "absent.toml", folder_.path() / "profiles");
+
+    ASSERT_FALSE(config);
+    EXPECT_THAT(to_string(config.error().at(0)),
+                EndsWith("absent.toml: the file cannot be read: No such file or directory."));
+}
+
+TEST_F(ConfigFile, a_profile_folder_that_is_not_there_is_named)
+{
+    const auto file = folder_.write("etc/dpslaved.toml", kGood);
+    const auto config = load_config(file, folder_.path() / "elsewhere");
+
+    ASSERT_FALSE(config);
+    EXPECT_THAT(short_forms(config.error()),
+                ElementsAre(AllOf(StartsWith("17:11: "), HasSubstr("elsewhere"), HasSubstr("--profiles"))));
+}
+
+TEST_F(ConfigFile, a_rate_that_the_device_has_not_is_a_fault)
+{
+    change_profile("slow", "1500000 = 150", "");
+    const std::string text = with(with(kGood, "\"590\"", "\"slow\""), "187500", "1500000");
+
+    EXPECT_THAT(short_forms(bad(text)),
+                ElementsAre(AllOf(StartsWith("17:11: "),
+                                  HasSubstr("does not support the rate of the bus, 1500000 bit/s"))));
+}
+
+TEST_F(ConfigFile, a_protocol_that_the_device_has_not_is_a_fault)
+{
+    change_profile("modern", "[\"ei-ascii\"]", "[\"modbus-rtu\"]");
+
+    EXPECT_THAT(short_forms(bad(with(kGood, "\"590\"", "\"modern\""))),
+                ElementsAre(AllOf(StartsWith("18:8: "), HasSubstr("is reached by \"modbus-rtu\""))));
+}
+
+TEST_F(ConfigFile, an_error_base_without_demand_data_is_a_fault)
+{
+    const std::string none = with(test::content_of(kSource / "config/profiles/590.toml"),
+                                  "form       = \"basic\"", "form = \"none\"");
+    folder_.write("profiles/plain.toml", with(with(none, "identifier = 0x73", ""), "error_base = 0", ""));
+
+    EXPECT_THAT(short_forms(bad(with(kGood, "\"590\"", "\"plain\"") + "[station.demand]\nerror_base = 1\n")),
+                ElementsAre(AllOf(StartsWith("21:14: "), HasSubstr("has no Demand Data"))));
+}
+
+TEST_F(ConfigFile, all_faults_of_configuration_profiles_and_tables_are_told_in_one_run)
+{
+    change_profile("broken", "ident = 0x0533", "ident = \"x\"");
+    folder_.write("tags/example.csv", "tag\nx\n");
+    folder_.write("etc/own.csv", "tag\n1\n70000\n");
+    std::string text = with(with(kGood, "baud = 187500", "baud = \"auto\""), "direction", "directoin");
+    text = with(with(text, "\"590\"", "\"broken\""), "unit = \"00\"", "unit = \"xx\"\ntags = \"own.csv\"");
+
+    const Faults faults = bad(text + with(kSecondStation, "address = 6", "address = 5"));
+
+    std::vector<std::string> seen;
+    for (const auto& fault : faults)
+        seen.push_back(std::filesystem::path{fault.file}.filename().string() + ":" + test::short_form(fault));
+    EXPECT_THAT(
+        seen,
+        ElementsAre(AllOf(StartsWith("dpslaved.toml:1:1: "), HasSubstr("'direction' is not set")),
+                    AllOf(StartsWith("dpslaved.toml:3:8: "), HasSubstr("\"auto\"")),
+                    AllOf(StartsWith("dpslaved.toml:4:1: "), HasSubstr("did you mean 'direction'?")),
+                    AllOf(StartsWith("dpslaved.toml:19:8: "), HasSubstr("two hexadecimal digits")),
+                    AllOf(StartsWith("dpslaved.toml:24:11: "), HasSubstr("address 5 stands on line 16")),
+                    StartsWith("broken.toml:14:9: "), StartsWith("example.csv:2:1: "),
+                    StartsWith("own.csv:3:1: ")));
+}
+
+TEST_F(ConfigFile, a_table_of_two_profiles_tells_its_faults_once)
+{
+    folder_.write("tags/example.csv", "tag\nx\n");
+
+    EXPECT_THAT(short_forms(bad(std::string{kGood} + kSecondStation)), ElementsAre(StartsWith("2:1: ")));
+}
+
+class ConfigWarning : public ConfigFile {};
+
+TEST_F(ConfigWarning, an_operator_group_that_the_system_has_not_leaves_root_alone)
+{
+    const Config config = good(with(kGood, "\"root\"", "\"no-such-group-here\""));
+
+    EXPECT_THAT(
+        short_forms(config.warnings),
+        ElementsAre(AllOf(StartsWith("7:18: "), HasSubstr("\"no-such-group-here\": only root may operate"))));
+}
+
+TEST_F(ConfigWarning, addresses_0_to_2_are_usually_those_of_masters)
+{
+    for (const char* address : {"address = 0", "address = 1", "address = 2"})
+        EXPECT_THAT(short_forms(good(with(kGood, "address = 5", address)).warnings),
+                    ElementsAre(AllOf(StartsWith("16:11: "), HasSubstr(address + 10), HasSubstr("masters"))));
+    EXPECT_THAT(good(with(kGood, "address = 5", "address = 3")).warnings, IsEmpty());
+}
+
+TEST_F(ConfigWarning, a_620_is_recommended_9600_and_performs_worse_with_other_rates)
+{
+    const std::string at_9600 = with(kGood, "\"590\"", "\"620\"");
+
+    EXPECT_THAT(good(at_9600).warnings, IsEmpty());
+    EXPECT_THAT(
+        short_forms(
+            good(with(at_9600, "protocol = \"ei-ascii\"", "protocol = \"ei-ascii\"\nbaud = 19200")).warnings),
+        ElementsAre(AllOf(HasSubstr("runs at 19200 bit/s"), HasSubstr("9600 is recommended"))));
+}
+
+TEST_F(ConfigWarning, a_max_tsdr_above_1000_is_more_than_many_masters_wait)
+{
+    EXPECT_THAT(short_forms(good(with(kGood, "baud = 187500", "baud = 187500\nmax_tsdr = 1001")).warnings),
+                ElementsAre(AllOf(StartsWith("4:12: "), HasSubstr("above 1000 bit times"))));
+    EXPECT_THAT(good(with(kGood, "baud = 187500", "baud = 187500\nmax_tsdr = 1000")).warnings, IsEmpty());
+}
+
+TEST_F(ConfigWarning, tags_without_mnemonic_are_named_once_a_table)
+{
+    change_profile("plain", R"(mnemonic_rule = "590plus")", R"(mnemonic_rule = "none")");
+    folder_.write("tags/example.csv", "tag,type,mnemonic\n1,INT,aa\n2,INT,\n3,STRING,\n4,WORD,\n");
+    const std::string second = with(kSecondStation, "\"620\"", "\"plain\"");
+
+    const Config config = good(with(kGood, "\"590\"", "\"plain\"") + second);
+
+    ASSERT_EQ(config.warnings.size(), 1U);
+    EXPECT_THAT(config.warnings[0].file, EndsWith("tags/example.csv"));
+    EXPECT_THAT(config.warnings[0].what, StartsWith("no mnemonic for tag 2, 4: they read as invalid tag"));
+}
+
+TEST_F(ConfigWarning, of_many_tags_without_mnemonic_the_first_eight_are_named)
+{
+    change_profile("plain", R"(mnemonic_rule = "590plus")", R"(mnemonic_rule = "none")");
+    std::string table = "tag\n";
+    for (int tag = 1; tag <= 11; ++tag) table += std::to_string(tag) + "\n";
+    folder_.write("tags/example.csv", table);
+
+    EXPECT_THAT(short_forms(good(with(kGood, "\"590\"", "\"plain\"")).warnings),
+                ElementsAre(HasSubstr("7, 8 and 3 more")));
+}
+
+class ShippedSample : public ConfigFile {
+protected:
+    const std::string sample_ = test::content_of(kSource / "config/dpslaved.toml");
+
+    /// Settings that are switched off begin with # and no blank.
+    static std::string switched_on(const std::string& text)
+    {
+        std::string out;
+        std::istringstream lines{text};
+        for (std::string line; std::getline(lines, line);) {
+            const bool off = line.size() > 1 && line[0] == '#' && line[1] != ' ';
+            out += (off ? line.substr(1) : line) + '\n';
+        }
+        return out;
+    }
+};
+
+TEST_F(ShippedSample, as_it_is_asks_for_bus_and_station_and_has_no_other_fault)
+{
+    EXPECT_THAT(short_forms(bad(sample_)),
+                ElementsAre(HasSubstr("'bus' is missing in the file"), HasSubstr("there is no station")));
+}
+
+TEST_F(ShippedSample, switched_on_is_a_good_configuration_with_the_shipped_profiles)
+{
+    const auto file = folder_.write("etc/dpslaved.toml", switched_on(sample_));
+    const auto config = load_config(file, kSource / "config/profiles");
+
+    ASSERT_TRUE(config) << to_string(config.error().at(0));
+    EXPECT_EQ(config->bus.port, "/dev/ttyS1");
+    ASSERT_EQ(config->lines.size(), 1U);
+    ASSERT_EQ(config->stations.size(), 1U);
+    EXPECT_EQ(config->stations[0].name, "unwinder");
+    EXPECT_EQ(config->stations[0].leds.size(), 2U);
+}
+
+TEST_F(ShippedSample, shows_every_key_with_its_default)
+{
+    // The same file with every optional setting left out must mean the same.
+    const Config shown = good(switched_on(sample_));
+    const Config left_out = good(with(kGood, "[control]\noperator_group = \"root\"\n", ""));
+
+    EXPECT_EQ(shown.bus.max_tsdr, left_out.bus.max_tsdr);
+    EXPECT_EQ(shown.realtime.priority, left_out.realtime.priority);
+    EXPECT_EQ(shown.realtime.cpu, left_out.realtime.cpu);
+    EXPECT_EQ(shown.realtime.lock_memory, left_out.realtime.lock_memory);
+    EXPECT_EQ(shown.sysfs, left_out.sysfs);
+    EXPECT_EQ(shown.control.socket, left_out.control.socket);
+    EXPECT_EQ(shown.control.operator_group, left_out.control.operator_group);
+    EXPECT_EQ(shown.lines.at(0).baud, left_out.lines.at(0).baud);
+    EXPECT_EQ(shown.lines.at(0).format.data_bits, left_out.lines.at(0).format.data_bits);
+    EXPECT_EQ(shown.lines.at(0).timeout, left_out.lines.at(0).timeout);
+    EXPECT_EQ(shown.lines.at(0).retries, left_out.lines.at(0).retries);
+    EXPECT_EQ(shown.stations.at(0).output_refresh, left_out.stations.at(0).output_refresh);
+    EXPECT_EQ(shown.stations.at(0).output_loss, left_out.stations.at(0).output_loss);
+    EXPECT_EQ(shown.stations.at(0).personality->ident, left_out.stations.at(0).personality->ident);
+    EXPECT_EQ(shown.stations.at(0).personality->demand_error_base,
+              left_out.stations.at(0).personality->demand_error_base);
+}
+
+} // namespace
+} // namespace dpslave
