@@ -55,7 +55,8 @@ TEST_F(NewestRequest, EverySdnInOneReadIsCarriedOut)
 TEST_F(NewestRequest, AtTheEndOfAPieceOfOneReadIsDroppedWhole)
 {
     const Octets request = sd2(kUs, kMaster, kSrdFcb1, {0xAA});
-    station.on_bytes(request, bus.now(), true); // the edge has more of the same read: a bad character, the rest
+    station.on_bytes(request, bus.now(),
+                     true); // the edge has more of the same read: a bad character, the rest
     station.on_character_error(bus.now());
 
     EXPECT_TRUE(user.srds.empty());

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What the bench found, in numbers and in a verdict.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace dpslave::bench {
+
+/// One responder's part of the run.
+struct Sample {
+    std::string name{};
+    std::vector<std::chrono::nanoseconds>
+        times{};                    ///< one per telegram; with a retry in it where one was needed
+    std::chrono::nanoseconds cpu{}; ///< of the whole process, over the run
+    std::size_t retries = 0;        ///< requests that had to be sent again
+};
+
+struct Ratios {
+    double p50 = 0;
+    double p99 = 0;
+    double cpu = 0; ///< per telegram
+};
+Ratios ratios(const Sample& sample, const Sample& base);
+
+/// The limits that the project has set itself.
+inline constexpr Ratios kLimits{.p50 = 1.30, .p99 = 1.30, .cpu = 1.50};
+
+void print_header();
+void print(const Sample& sample);
+void print(const std::string& name, const Ratios& ratios);
+
+/// Prints a line per limit; true = all are kept.
+bool judge(const Ratios& ratios);
+
+} // namespace dpslave::bench

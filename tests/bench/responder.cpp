@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "responder.hpp"
+
+#include "dpslave/io/fd.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+namespace dpslave::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+pid_t fork_child()
+{
+    const pid_t child = ::fork();
+    if (child < 0) throw std::system_error{errno, std::system_category(), "fork"};
+    if (child == 0) ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    return child;
+}
+
+void write_config(const DaemonSetup& setup, const fs::path& file)
+{
+    std::ofstream out{file};
+    out << "[bus]\nport = \"" << setup.bus
+        << "\"\nbaud = 1500000\ndirection = \"none\"\nmax_tsdr = " << setup.max_tsdr
+        << "\n[realtime]\npriority = 80\nlock_memory = true\ncpu = " << setup.cpu << "\n"
+        << "[control]\nsocket = \"" << (setup.folder / "control.sock").string() << "\"\n"
+        << "[[line]]\nname = \"p3\"\nport = \"" << setup.drive << "\"\nprotocol = \"ei-ascii\"\nbaud = 9600\n"
+        << "[[station]]\nname = \"bench\"\naddress = " << int{kSlave}
+        << "\nprofile = \"590\"\nline = \"p3\"\nunit = \"00\"\n";
+    if (!out.flush()) throw std::runtime_error{file.string() + " cannot be written"};
+}
+
+bool pin(int cpu)
+{
+    if (cpu < 0) return true;
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    CPU_SET(static_cast<std::size_t>(cpu), &set);
+    return ::sched_setaffinity(0, sizeof set, &set) == 0;
+}
+
+/// The child's whole life: as little as an answer can cost to somebody who also has deadlines to keep, as
+/// every slave has: wait for octets or the time, read, look at the length, write.
+[[noreturn]] void respond(const char* path, const Octets& reply, const Scheduling& scheduling)
+{
+    const int tty = ::open(path, O_RDWR | O_NOCTTY); // raw already; read() waits
+    sched_param param{};
+    param.sched_priority = scheduling.priority;
+    if (tty < 0 || !pin(scheduling.cpu) || ::sched_setscheduler(0, scheduling.policy, &param) != 0)
+        ::_exit(1);
+    ::mlockall(MCL_CURRENT | MCL_FUTURE); // where the daemon may, this may
+    std::array<std::uint8_t, 512> room;
+    std::size_t have = 0;
+    pollfd waiting{.fd = tty, .events = POLLIN, .revents = 0};
+    const timespec heartbeat{.tv_sec = 0, .tv_nsec = 100'000'000};
+    for (;;) {
+        if (::ppoll(&waiting, 1, &heartbeat, nullptr) == 0) continue;
+        const ssize_t got = ::read(tty, room.data() + have, room.size() - have);
+        if (got <= 0) ::_exit(2);
+        have += static_cast<std::size_t>(got);
+        if (have < 6 || have < room[1] + std::size_t{6}) continue;
+        const bool whole =
+            room[0] == 0x68 && room[1] == room[2] && room[3] == 0x68 && have == room[1] + std::size_t{6};
+        have = 0;
+        if (whole && ::write(tty, reply.data(), reply.size()) != static_cast<ssize_t>(reply.size()))
+            ::_exit(3);
+    }
+}
+
+} // namespace
+
+std::string text(const Scheduling& scheduling)
+{
+    std::string words = "ordinary scheduling";
+    if (scheduling.policy != SCHED_OTHER) words = "policy " + std::to_string(scheduling.policy);
+    if (scheduling.policy == SCHED_FIFO) words = "SCHED_FIFO " + std::to_string(scheduling.priority);
+    return words + (scheduling.cpu < 0 ? ", not pinned" : ", processor " + std::to_string(scheduling.cpu));
+}
+
+Child::Child(Child&& other) noexcept : pid_(std::exchange(other.pid_, -1)) {}
+
+Child::~Child()
+{
+    if (!alive()) return;
+    ::kill(pid_, SIGTERM);
+    constexpr timespec kPause{.tv_sec = 0, .tv_nsec = 10'000'000};
+    for (int i = 0; i < 500 && alive(); ++i) ::nanosleep(&kPause, nullptr);
+    if (!alive()) return;
+    ::kill(pid_, SIGKILL);
+    ::waitpid(pid_, nullptr, 0);
+}
+
+bool Child::alive()
+{
+    if (pid_ > 0 && ::waitpid(pid_, nullptr, WNOHANG) == pid_) pid_ = -1;
+    return pid_ > 0;
+}
+
+std::chrono::nanoseconds Child::cpu() const
+{
+    clockid_t clock = 0;
+    timespec used{};
+    if (::clock_getcpuclockid(pid_, &clock) != 0 || ::clock_gettime(clock, &used) != 0)
+        throw std::runtime_error{"a responder has ended: its CPU time cannot be read"};
+    return std::chrono::seconds{used.tv_sec} + std::chrono::nanoseconds{used.tv_nsec};
+}
+
+int reserve_cpu()
+{
+    cpu_set_t mine;
+    CPU_ZERO(&mine);
+    if (::sched_getaffinity(0, sizeof mine, &mine) != 0 || CPU_COUNT(&mine) < 2) return -1;
+    std::size_t last = CPU_SETSIZE - 1;
+    while (!CPU_ISSET(last, &mine)) --last;
+    CPU_CLR(last, &mine);
+    if (::sched_setaffinity(0, sizeof mine, &mine) != 0) return -1;
+    return static_cast<int>(last);
+}
+
+Child start_daemon(const DaemonSetup& setup)
+{
+    const fs::path config = setup.folder / "dpslaved.toml";
+    write_config(setup, config);
+    const std::string log = setup.folder / "log";
+    const pid_t child = fork_child();
+    if (child == 0) {
+        const int out = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+        ::dup2(out, STDOUT_FILENO);
+        ::dup2(out, STDERR_FILENO);
+        for (const char* name : {"NOTIFY_SOCKET", "JOURNAL_STREAM", "WATCHDOG_USEC"}) ::unsetenv(name);
+        ::execl(setup.program.c_str(), setup.program.c_str(), "--config", config.c_str(), "--profiles",
+                setup.profiles.c_str(), nullptr);
+        ::_exit(127);
+    }
+    return Child{child};
+}
+
+pid_t bus_thread_of(pid_t daemon)
+{
+    pid_t best = daemon;
+    int highest = -1;
+    for (const auto& entry : fs::directory_iterator{"/proc/" + std::to_string(daemon) + "/task"}) {
+        const pid_t thread = std::stoi(entry.path().filename());
+        std::string name;
+        std::getline(std::ifstream{entry.path() / "comm"}, name);
+        if (name == "bus") return thread;
+        if (const int priority = scheduling_of(thread).priority; priority > highest) {
+            highest = priority;
+            best = thread;
+        }
+    }
+    return best;
+}
+
+Scheduling scheduling_of(pid_t thread)
+{
+    sched_param param{};
+    Scheduling scheduling;
+    scheduling.policy = ::sched_getscheduler(thread);
+    if (scheduling.policy < 0 || ::sched_getparam(thread, &param) != 0)
+        throw std::system_error{errno, std::system_category(), "sched_getscheduler"};
+    scheduling.policy &= ~SCHED_RESET_ON_FORK;
+    scheduling.priority = param.sched_priority;
+    return scheduling;
+}
+
+std::chrono::nanoseconds cpu_of_thread(pid_t daemon, pid_t thread)
+{
+    // The CPU clock of a thread is for its own process only; the kernel's book of the scheduler is for all.
+    std::ifstream book{"/proc/" + std::to_string(daemon) + "/task/" + std::to_string(thread) + "/schedstat"};
+    std::int64_t ran = 0;
+    book >> ran;
+    return std::chrono::nanoseconds{ran};
+}
+
+Child start_null_responder(const std::string& path, const Octets& reply, const Scheduling& scheduling)
+{
+    const pid_t child = fork_child();
+    if (child == 0) respond(path.c_str(), reply, scheduling);
+    return Child{child};
+}
+
+} // namespace dpslave::bench

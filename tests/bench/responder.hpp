@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Who answers at the other end of a cable: the real daemon, or the least that can answer at all.
+#pragma once
+
+#include "wire.hpp"
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+
+namespace dpslave::bench {
+
+/// How a thread is scheduled: what the daemon's bus thread got, the null responder gets too.
+struct Scheduling {
+    int policy = 0;
+    int priority = 0;
+    int cpu = -1; ///< pinned to this processor; -1 = not
+};
+std::string text(const Scheduling& scheduling);
+
+/// A child process that ends with the bench, however that ends.
+class Child {
+public:
+    Child() = default;
+    explicit Child(pid_t pid) : pid_(pid) {}
+    Child(Child&& other) noexcept;
+    Child& operator=(Child&&) = delete;
+    ~Child(); ///< SIGTERM, and SIGKILL if that does not help within five seconds
+
+    pid_t pid() const { return pid_; }
+    bool alive();                         ///< false as soon as it has ended
+    std::chrono::nanoseconds cpu() const; ///< used by the whole process up to now
+
+private:
+    pid_t pid_ = -1;
+};
+
+/// All responders share one processor, and the master takes the others: a reply that has to wake another
+/// processor, or has not, would make more difference than any program. Pins the caller away from the
+/// processor it gives; -1: there is only one, nothing was pinned.
+int reserve_cpu();
+
+/// Starts the daemon with one station (profile 590, address 5) on `bus` at 1.5 Mbit/s and a drive line on
+/// `drive`. Its configuration, socket and log lie in `folder`.
+struct DaemonSetup {
+    std::filesystem::path program;
+    std::filesystem::path profiles;
+    std::string bus;
+    std::string drive;
+    std::filesystem::path folder;
+    int cpu = -1;          ///< [realtime] cpu
+    unsigned max_tsdr = 0; ///< [bus] max_tsdr; 0 = the profile's
+};
+Child start_daemon(const DaemonSetup& setup);
+
+/// The thread of the daemon that serves the bus: the one of that name, else the one with the highest
+/// priority.
+pid_t bus_thread_of(pid_t daemon);
+Scheduling scheduling_of(pid_t thread); ///< policy and priority
+std::chrono::nanoseconds cpu_of_thread(pid_t daemon, pid_t thread);
+
+/// A process that reads `path`, checks the SD2 length and writes `reply`: two system calls a telegram,
+/// nothing else.
+Child start_null_responder(const std::string& path, const Octets& reply, const Scheduling& scheduling);
+
+} // namespace dpslave::bench

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: Apache-2.0
+# Shared by the scripts of this folder: where the project lies, how it says things, how it installs what it needs.
+# shellcheck shell=bash
+
+set -euo pipefail
+project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+cd "$project"
+
+say() { printf '\n\033[1m==> %s\033[0m\n' "$*"; }
+die() {
+    printf '%s: %s\n' "$(basename "$0")" "$*" >&2
+    exit 1
+}
+
+# What a bare Debian needs to build the programs.
+build_packages=(
+    g++ cmake ninja-build pkg-config
+    libspdlog-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libsystemd-dev
+)
+# What the tests need beside that.
+test_packages=(libgtest-dev libgmock-dev binutils)
+
+# Installs those of the named packages that are missing; asks nothing, and touches apt only when it must.
+install_missing() {
+    local missing=() name
+    for name in "$@"; do
+        dpkg-query -W -f '${Status}' "$name" 2>/dev/null | grep -q 'ok installed' || missing+=("$name")
+    done
+    [ ${#missing[@]} -eq 0 ] && return 0
+    say "Installing ${missing[*]}"
+    local as_root=()
+    if [ "$(id -u)" -ne 0 ]; then
+        command -v sudo >/dev/null || die "these packages are missing and there is no sudo to install them: ${missing[*]}"
+        as_root=(sudo)
+    fi
+    "${as_root[@]}" apt-get update -q >/dev/null || die "apt-get update failed: is there a package mirror in reach?"
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+        apt-get install -y -q --no-install-recommends "${missing[@]}" >/dev/null ||
+        die "apt-get could not install ${missing[*]}"
+}
+
+# Configures and builds one preset; further words are targets.
+build() {
+    local preset=$1
+    shift
+    say "Building ($preset)"
+    cmake --preset "$preset" >/dev/null || cmake --preset "$preset"
+    cmake --build --preset "$preset" ${*:+--target "$@"}
+}
