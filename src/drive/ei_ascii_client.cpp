@@ -142,11 +142,16 @@ AccessError EiAsciiClient::refused(UnitAddress unit, bool is_write)
     return ei::error_of_ee(*ee, is_write);
 }
 
-/// After an EOT on a poll: the drive has no such parameter, unless EE says that it can only be written.
+/// After an EOT on a poll: the drive has no such parameter, unless EE says that it can only be written. An
+/// EOT without a drive that answers for EE was noise: one bad octet must not turn an input into 0.
 AccessError EiAsciiClient::unknown_parameter(UnitAddress unit, const Tag& tag)
 {
     const auto answer = poll(unit, ei::kLastError);
     const auto ee = answer ? word_of(*answer) : std::nullopt;
+    if (!answer) {
+        trouble_ = "an EOT, but no answer for EE behind it: noise";
+        return AccessError::no_answer;
+    }
     const bool write_only = ee && high(*ee) == 0x04;
     trouble_ = "the drive knows no tag " + std::to_string(tag.number) + " (EOT)";
     if (write_only)

@@ -282,6 +282,14 @@ TEST_F(EiClient, ReturnsWithinItsDeadlineFromALineThatBabblesForEver)
         }
 }
 
+TEST_F(EiClient, AnEotThatNoDriveStandsBehindIsNoiseAndNoVerdictOnTheTag)
+{
+    line.comes_by_itself("\x04", 15ms);
+
+    EXPECT_EQ(read(kNobody, status), AccessError::no_answer);
+    EXPECT_EQ(client.last_trouble(), "an EOT, but no answer for EE behind it: noise");
+}
+
 TEST_F(EiClient, GivesUpADriveThatTricklesAtItsDeadline)
 {
     line.comes_by_itself("\x02ox>", 15ms);

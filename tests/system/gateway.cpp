@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gateway.hpp"
+
+#include <fmt/format.h>
+#include <grp.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace dpslave::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kStationNames[] = {"unwinder", "rewinder"};
+const fs::path kConfigFolder = fs::path{DPSLAVE_SOURCE_DIR} / "config";
+
+/// The simulated masters wait 20 ms beyond the slot time; the daemon may take three quarters of that.
+unsigned patient_max_tsdr(unsigned baud)
+{
+    return std::max(60U, baud * 15 / 1000);
+}
+
+/// A group that this user is in, so that the tests may operate whoever runs them.
+std::string own_group()
+{
+    const group* const found = ::getgrgid(::getegid());
+    return found != nullptr ? found->gr_name : "root";
+}
+
+void must(const ::testing::AssertionResult& result)
+{
+    if (!result) throw std::runtime_error(result.message());
+}
+
+std::unique_ptr<Process> paced_line(unsigned baud, const char* bits, const fs::path& a, const fs::path& b)
+{
+    auto process = std::make_unique<Process>(
+        Arguments{DPSIM_PROGRAM, "line", "--baud", std::to_string(baud), "--bits", bits, "--a", a, "--b", b});
+    must(process->says("ready"));
+    return process;
+}
+
+} // namespace
+
+Folder::Folder()
+{
+    std::string name = fs::temp_directory_path() / "dpslaved-XXXXXX";
+    if (::mkdtemp(name.data()) == nullptr)
+        throw std::runtime_error("no temporary folder can be made: " + name);
+    path_ = name;
+}
+
+Folder::~Folder()
+{
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+}
+
+std::string content(const fs::path& file)
+{
+    std::ifstream in{file};
+    std::ostringstream text;
+    text << in.rdbuf();
+    std::string all = text.str();
+    if (!all.empty() && all.back() == '\n') all.pop_back();
+    return all;
+}
+
+void write_file(const fs::path& file, const std::string& text)
+{
+    fs::create_directories(file.parent_path());
+    std::ofstream out{file};
+    out << text;
+    if (!out.flush()) throw std::runtime_error(file.string() + " cannot be written");
+}
+
+Gateway::Gateway(Wiring wiring) : wiring_(std::move(wiring))
+{
+    plug_bus();
+    line_ = paced_line(wiring_.drive_baud, "10", folder_ / "drive-end", folder_ / "drive-gateway");
+    Arguments drive{DPSIM_PROGRAM, "drive",
+                    "--model",     wiring_.profile,
+                    "--port",      folder_ / "drive-end",
+                    "--baud",      std::to_string(wiring_.drive_baud),
+                    "--tags",      kConfigFolder / "tags/example.csv",
+                    "--log",       "--unit"};
+    drive.insert(drive.end(), wiring_.units.begin(), wiring_.units.end());
+    drive_ = std::make_unique<Process>(std::move(drive));
+    must(drive_->says("ready"));
+    if (wiring_.lamps) {
+        write_file(lamp_folder() / "class/gpio/gpio23/direction", "in\n");
+        write_file(lamp_folder() / "class/gpio/gpio23/value", "0\n");
+        write_file(lamp_folder() / "class/leds/green/brightness", "0\n");
+        write_file(lamp_folder() / "class/leds/green/max_brightness", "1\n");
+        write_file(lamp_folder() / "class/leds/green/trigger", "none\n");
+    }
+    write_file(config(), config_text());
+    if (wiring_.started) start_daemon();
+}
+
+Gateway::~Gateway()
+{
+    for (Process* const one : {daemon_.get(), drive_.get(), line_.get(), bus_.get()}) {
+        if (one == nullptr) continue;
+        EXPECT_EQ(one->end(), 0);
+    }
+}
+
+std::string Gateway::config_text() const
+{
+    std::string text =
+        fmt::format("[bus]\n"
+                    "port = \"{}\"\n"
+                    "baud = {}\n"
+                    "direction = \"none\"\n"
+                    "max_tsdr = {}\n"
+                    "[leds]\n"
+                    "sysfs = \"{}\"\n"
+                    "[control]\n"
+                    "socket = \"{}\"\n"
+                    "operator_group = \"{}\"\n"
+                    "[[line]]\n"
+                    "name = \"p3\"\n"
+                    "port = \"{}\"\n"
+                    "protocol = \"ei-ascii\"\n"
+                    "baud = {}\n",
+                    (folder_ / "bus-gateway").string(), wiring_.bus_baud,
+                    wiring_.max_tsdr.value_or(patient_max_tsdr(wiring_.bus_baud)), lamp_folder().string(),
+                    socket().string(), own_group(), (folder_ / "drive-gateway").string(), wiring_.drive_baud);
+    for (std::size_t i = 0; i < wiring_.units.size(); ++i)
+        text +=
+            fmt::format("[[station]]\n"
+                        "name = \"{}\"\n"
+                        "address = {}\n"
+                        "profile = \"{}\"\n"
+                        "line = \"p3\"\n"
+                        "unit = \"{}\"\n"
+                        "output_refresh_s = {}\n",
+                        kStationNames[i], 5 + i, wiring_.profile, wiring_.units[i], wiring_.output_refresh_s);
+    if (wiring_.lamps) text += "[station.leds]\nred = \"gpio:23\"\ngreen = \"led:green\"\n";
+    return text;
+}
+
+Arguments Gateway::daemon_command(Arguments more) const
+{
+    Arguments command{DPSLAVED_PROGRAM, "--config", config(), "--profiles", kConfigFolder / "profiles"};
+    command.insert(command.end(), more.begin(), more.end());
+    return command;
+}
+
+void Gateway::start_daemon()
+{
+    daemon_ = std::make_unique<Process>(daemon_command(), wiring_.environment);
+    must(daemon_->says("station(s) on")); // all is open; whoever calls now is answered
+}
+
+void Gateway::plug_bus()
+{
+    bus_ = paced_line(wiring_.bus_baud, "11", bus_end(), folder_ / "bus-gateway");
+}
+
+void Gateway::unplug_bus()
+{
+    bus_->end();
+}
+
+Arguments Gateway::dpctl_command(Arguments arguments) const
+{
+    Arguments command{DPCTL_PROGRAM, "--socket", socket(), "--timeout", std::to_string(kLimit.count())};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    return command;
+}
+
+Outcome Gateway::dpctl(Arguments arguments) const
+{
+    return run(dpctl_command(std::move(arguments)));
+}
+
+::testing::AssertionResult Gateway::is_exchanging_says(int status, const std::string& station) const
+{
+    Arguments question{"is-exchanging"};
+    if (!station.empty()) question.push_back(station);
+    return eventually([&] { return dpctl(question).status == status; });
+}
+
+Json Gateway::json(Arguments arguments) const
+{
+    arguments.insert(arguments.begin(), "--json");
+    return Json::parse(dpctl(std::move(arguments)).out);
+}
+
+Json Gateway::station(std::size_t index) const
+{
+    return json({"stations"}).at("stations").at(index);
+}
+
+Json Gateway::diagnosis() const
+{
+    return json({"diag"}).at("stations").at(0);
+}
+
+Json Gateway::word(unsigned tag) const
+{
+    const Json all = json({"io"}).at("stations").at(0).at("words");
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const Json& one) { return one.at("tag") == tag; });
+    return found != all.end() ? *found : Json{};
+}
+
+std::uint64_t Gateway::counter(const std::string& group, const std::string& name) const
+{
+    const Json all = json({"counters"});
+    for (const Json& one : all.at("groups"))
+        for (const Json& c : one.at("counters"))
+            if (one.at("name") == group && c.at("name") == name) return c.at("value").get<std::uint64_t>();
+    throw std::runtime_error("there is no counter " + name + " of " + group);
+}
+
+std::uint64_t Gateway::flaws() const
+{
+    std::uint64_t sum = 0;
+    const Json all = json({"counters"});
+    for (const Json& c : all.at("groups").at(0).at("counters"))
+        if (c.at("name").get<std::string>().starts_with("flaw: ")) sum += c.at("value").get<std::uint64_t>();
+    return sum;
+}
+
+std::string Gateway::spoken_on_the_bus()
+{
+    const std::size_t before = bus_->transcript().size();
+    bus_->tell("stats");
+    const auto found = bus_->transcript().await("b to a: ", before, kLimit);
+    if (!found) return "the line gives no answer";
+    const std::string line = bus_->transcript().lines(*found).front();
+    return line.substr(0, line.find(" passed"));
+}
+
+// ---- the master
+
+namespace {
+
+Arguments master_command(const Gateway& gateway, const Arguments& settings, unsigned slave)
+{
+    Arguments command{DPSIM_PROGRAM, "master",
+                      "--port",      gateway.bus_end(),
+                      "--baud",      std::to_string(gateway.bus_baud()),
+                      "--slave",     std::to_string(slave)};
+    const auto says_watchdog = [](const std::string& word) {
+        return word.find("watchdog") != std::string::npos;
+    };
+    if (std::none_of(settings.begin(), settings.end(), says_watchdog))
+        command.insert(command.end(), {"--watchdog", "5000"});
+    command.insert(command.end(), settings.begin(), settings.end());
+    return command;
+}
+
+} // namespace
+
+Master::Master(const Gateway& gateway, Arguments settings, unsigned slave)
+    : Process(master_command(gateway, settings, slave))
+{}
+
+/// Behind each command goes a comment, which the master repeats when it comes to it.
+::testing::AssertionResult Master::does(const std::string& command)
+{
+    const std::string done = fmt::format("# done {}", ++commands_);
+    tell(command);
+    tell(done);
+    return says("> " + done, 2 * kLimit);
+}
+
+::testing::AssertionResult Master::leaves()
+{
+    tell("quit");
+    const auto status = wait();
+    if (status == 0) return ::testing::AssertionSuccess();
+    return ::testing::AssertionFailure() << "the master ends with status " << status.value_or(-1);
+}
+
+} // namespace dpslave::test

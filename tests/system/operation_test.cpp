@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a person sees and does at the gateway: dpctl, its exit codes, and the two lamps.
+#include "gateway.hpp"
+
+#include <gmock/gmock.h>
+
+namespace dpslave::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(Dpctl, TellsScriptsWithItsExitCodeWhetherDataIsExchanged)
+{
+    Gateway gateway;
+    EXPECT_TRUE(gateway.is_exchanging_says(1));
+    {
+        Master master{gateway, {"--tags", "55"}};
+        ASSERT_TRUE(master.does("start 30s"));
+        EXPECT_TRUE(gateway.is_exchanging_says(0));
+        EXPECT_TRUE(gateway.is_exchanging_says(0, "unwinder"));
+        EXPECT_TRUE(gateway.is_exchanging_says(0, "5"));
+        EXPECT_TRUE(gateway.is_exchanging_says(1, "nobody"));
+        EXPECT_TRUE(master.does("unlock"));
+    }
+    EXPECT_TRUE(gateway.is_exchanging_says(1));
+}
+
+TEST(Dpctl, EndsWithOneWhenRefusedTwoForUsageAndThreeWithoutDaemon)
+{
+    Gateway gateway;
+    EXPECT_EQ(gateway.dpctl({"status"}).status, 0);
+    EXPECT_EQ(gateway.dpctl({"io", "nobody"}).status, 1);
+    EXPECT_EQ(gateway.dpctl({"no-such-command"}).status, 2);
+    EXPECT_EQ(gateway.dpctl({"write", "56"}).status, 2);
+    EXPECT_EQ(gateway.daemon().end(), 0);
+    const Outcome without = gateway.dpctl({"status"});
+    EXPECT_EQ(without.status, 3);
+    EXPECT_THAT(without.err, HasSubstr(gateway.socket().string()));
+    EXPECT_EQ(gateway.dpctl({"is-exchanging"}).status, 3);
+}
+
+TEST(Dpctl, AnswersEachQuestionInWordsAndInJson)
+{
+    Gateway gateway;
+    Master master{gateway, {"--tags", "55,56w"}};
+    ASSERT_TRUE(master.does("start 30s"));
+    for (const char* const question :
+         {"status", "stations", "info", "io", "diag", "counters", "leds", "version", "is-exchanging"}) {
+        SCOPED_TRACE(question);
+        const Outcome words = gateway.dpctl({question}), json = gateway.dpctl({"--json", question});
+        EXPECT_EQ(words.status, 0);
+        EXPECT_EQ(words.err, "");
+        EXPECT_NE(words.out, "");
+        EXPECT_EQ(json.status, 0);
+        EXPECT_TRUE(Json::accept(json.out)) << json.out;
+    }
+    EXPECT_THAT(gateway.dpctl({"info"}).out, HasSubstr("590 with PROFIBUS-DP option board"));
+}
+
+TEST(Dpctl, ReadsAndWritesATagOfTheDriveInItsOwnUnits)
+{
+    Gateway gateway;
+    const Outcome read = gateway.dpctl({"read", "62"});
+    EXPECT_EQ(read.status, 0);
+    EXPECT_THAT(read.out, HasSubstr("is 110.0"));
+
+    EXPECT_EQ(gateway.dpctl({"write", "62", "95.5"}).status, 0);
+    EXPECT_TRUE(gateway.drive().says("tag 62 written 95.5"));
+    EXPECT_EQ(gateway.json({"read", "62"}).at("raw"), 955);
+    EXPECT_EQ(gateway.dpctl({"write", "56", "-12.5"}).status, 0);
+    EXPECT_TRUE(gateway.drive().says("tag 56 written -12.50"));
+
+    EXPECT_EQ(gateway.dpctl({"write", "62", "200.1"}).status, 1) << "beyond its limit";
+    EXPECT_EQ(gateway.dpctl({"write", "55", "1"}).status, 1) << "read only";
+    EXPECT_EQ(gateway.dpctl({"read", "1999"}).status, 1) << "no such tag";
+    EXPECT_EQ(gateway.dpctl({"read", "130"}).status, 1) << "text is not transported";
+    gateway.drive().tell("silence");
+    const Outcome silent = gateway.dpctl({"read", "62"});
+    EXPECT_EQ(silent.status, 1);
+    EXPECT_THAT(silent.err, HasSubstr("does not answer"));
+}
+
+TEST(Dpctl, WatchShowsChangesAsTheyCome)
+{
+    Gateway gateway;
+    Process watch{gateway.dpctl_command({"watch", "--json"})};
+    EXPECT_TRUE(watch.says("Wait_Prm"));
+    Master master{gateway, {"--tags", "55,56w"}};
+    ASSERT_TRUE(master.does("start 30s"));
+    EXPECT_TRUE(watch.says("Data_Exch"));
+    gateway.drive().tell("set 55 12.34");
+    EXPECT_TRUE(watch.says("12.34"));
+    EXPECT_EQ(gateway.daemon().end(), 0);
+    EXPECT_TRUE(watch.wait().has_value()) << "without a daemon there is nothing to watch";
+}
+
+TEST(Dpctl, ShowsAnAddressThatWasChangedInTheFileAsPending)
+{
+    Gateway gateway;
+    EXPECT_TRUE(gateway.json({"info"}).at("stations").at(0).at("address_pending").is_null());
+
+    std::string text = gateway.config_text();
+    text.replace(text.find("address = 5"), 11, "address = 7");
+    write_file(gateway.config(), text);
+    const Json info = gateway.json({"info"}).at("stations").at(0);
+    EXPECT_EQ(info.at("address_active"), 5);
+    EXPECT_EQ(info.at("address_pending"), 7);
+    EXPECT_THAT(gateway.dpctl({"info"}).out, HasSubstr("5 active, 7 pending"));
+    {
+        Master master{gateway, {"--tags", "55"}, 5};
+        EXPECT_TRUE(master.does("start 30s")) << "until the restart the old one counts";
+    }
+    EXPECT_EQ(gateway.daemon().end(), 0);
+    gateway.start_daemon();
+    Master master{gateway, {"--tags", "55"}, 7};
+    EXPECT_TRUE(master.does("start 30s"));
+}
+
+class Lamps : public ::testing::Test {
+protected:
+    explicit Lamps(const char* profile = "590") : gateway{{.profile = profile, .lamps = true}} {}
+
+    static bool shows(const std::filesystem::path& lamp, const std::string& value)
+    {
+        return eventually([&] { return content(lamp) == value; });
+    }
+    static bool flashes(const std::filesystem::path& lamp)
+    {
+        return shows(lamp, "1") && shows(lamp, "0") && shows(lamp, "1");
+    }
+    std::string pattern(const char* lamp) const
+    {
+        const Json all = gateway.json({"leds"});
+        for (const Json& one : all.at("stations").at(0).at("leds"))
+            if (one.at("name") == lamp) return one.at("pattern");
+        return "";
+    }
+
+    Gateway gateway;
+    const std::filesystem::path red = gateway.lamp_folder() / "class/gpio/gpio23/value";
+    const std::filesystem::path green = gateway.lamp_folder() / "class/leds/green/brightness";
+};
+
+TEST_F(Lamps, SpeakTheLanguageOfTheOptionBoard)
+{
+    EXPECT_EQ(content(gateway.lamp_folder() / "class/gpio/gpio23/direction"), "out");
+    EXPECT_TRUE(shows(red, "1")) << "external fault: there is no master";
+    EXPECT_TRUE(flashes(green));
+    EXPECT_EQ(pattern("green"), "flashing 1 Hz");
+
+    Master master{gateway, {"--tags", "55,56w"}};
+    ASSERT_TRUE(master.does("start 30s"));
+    EXPECT_TRUE(shows(red, "0")) << "data exchange";
+    EXPECT_TRUE(flashes(green));
+    EXPECT_EQ(pattern("red"), "off");
+    EXPECT_EQ(pattern("green"), "flashing 2 Hz");
+
+    gateway.drive().tell("silence");
+    EXPECT_TRUE(shows(red, "1")) << "internal fault: the drive does not answer";
+    EXPECT_TRUE(flashes(green));
+    EXPECT_EQ(pattern("green"), "flashing 2 Hz");
+
+    gateway.drive().tell("ok");
+    EXPECT_TRUE(shows(red, "0"));
+}
+
+class LampsOf620 : public Lamps {
+protected:
+    LampsOf620() : Lamps("620") {}
+};
+
+TEST_F(LampsOf620, FlashBothForAnInternalFault)
+{
+    EXPECT_TRUE(shows(red, "1"));
+    gateway.drive().tell("silence");
+    EXPECT_TRUE(flashes(red));
+    EXPECT_EQ(pattern("red"), "flashing 2 Hz");
+    EXPECT_EQ(pattern("green"), "flashing 2 Hz");
+}
+
+TEST_F(Lamps, AreDarkWhenTheDaemonHasEnded)
+{
+    EXPECT_TRUE(shows(red, "1"));
+    EXPECT_EQ(gateway.daemon().end(), 0);
+    EXPECT_EQ(content(red), "0");
+    EXPECT_EQ(content(green), "0");
+}
+
+} // namespace
+} // namespace dpslave::test

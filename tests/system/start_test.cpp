@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the daemon starts, does not start, and ends; what it tells the service manager.
+#include "gateway.hpp"
+
+#include <gmock/gmock.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <sstream>
+#include <system_error>
+
+namespace dpslave::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+/// The place of systemd: a datagram socket, of which each line is noted.
+class ServiceManager {
+public:
+    explicit ServiceManager(const std::filesystem::path& path)
+        : fd_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0))
+    {
+        sockaddr_un address{};
+        address.sun_family = AF_UNIX;
+        path.string().copy(address.sun_path, sizeof address.sun_path - 1);
+        const void* const any = &address;
+        if (fd_ < 0 || ::bind(fd_, static_cast<const sockaddr*>(any), sizeof address) != 0)
+            throw std::system_error{errno, std::system_category(), path.string()};
+        listener_ = std::jthread{[this](const std::stop_token& stop) { listen(stop); }};
+    }
+    ~ServiceManager()
+    {
+        listener_.request_stop();
+        listener_.join();
+        ::close(fd_);
+    }
+    ServiceManager(const ServiceManager&) = delete;
+    ServiceManager& operator=(const ServiceManager&) = delete;
+
+    ::testing::AssertionResult hears(std::string_view text) { return heard_.says(text); }
+
+private:
+    void listen(const std::stop_token& stop)
+    {
+        while (!stop.stop_requested()) {
+            pollfd one{fd_, POLLIN, 0};
+            if (::poll(&one, 1, 50) != 1) continue;
+            std::array<char, 4096> datagram{};
+            const ssize_t got = ::recv(fd_, datagram.data(), datagram.size(), 0);
+            std::istringstream lines{
+                std::string{datagram.data(), static_cast<std::size_t>(std::max<ssize_t>(got, 0))}};
+            for (std::string line; std::getline(lines, line);) transcript_.add(line);
+        }
+        transcript_.close();
+    }
+
+    int fd_;
+    Transcript transcript_;
+    Reader heard_{transcript_};
+    std::jthread listener_;
+};
+
+TEST(End, BySigtermZeroesTheOutputsRemovesTheSocketAndIsASuccess)
+{
+    Gateway gateway;
+    Master master{gateway, {"--tags", "55,56w"}};
+    ASSERT_TRUE(master.does("start 30s"));
+    EXPECT_TRUE(master.does("out 1 = 500"));
+    EXPECT_TRUE(gateway.drive().says("tag 56 written 5.00"));
+
+    EXPECT_EQ(gateway.daemon().end(), 0);
+    EXPECT_TRUE(gateway.drive().says("tag 56 written 0.00"));
+    EXPECT_FALSE(std::filesystem::exists(gateway.socket()));
+    EXPECT_TRUE(master.does("wait 30s for state not data-exchange"));
+
+    gateway.start_daemon();
+    EXPECT_TRUE(master.does("wait 30s for state data-exchange")) << "and it can be started again at once";
+    EXPECT_TRUE(gateway.drive().says("tag 56 written 5.00"));
+}
+
+TEST(Notify, TellsReadinessStatesTheWatchdogAndTheEnd)
+{
+    const Folder folder;
+    ServiceManager manager{folder / "notify"};
+    Gateway gateway{{.environment = {{"NOTIFY_SOCKET", folder / "notify"}, {"WATCHDOG_USEC", "400000"}}}};
+    EXPECT_TRUE(manager.hears("READY=1"));
+    EXPECT_TRUE(manager.hears("STATUS=0 of 1 in Data_Exch; unwinder: Wait_Prm"));
+    Master master{gateway, {"--tags", "55"}};
+    ASSERT_TRUE(master.does("start 30s"));
+    EXPECT_TRUE(manager.hears("STATUS=1 of 1 in Data_Exch; unwinder: Data_Exch with master 2"));
+    for (int i = 0; i < 5; ++i) EXPECT_TRUE(manager.hears("WATCHDOG=1"));
+    gateway.drive().tell("silence");
+    EXPECT_TRUE(manager.hears("drive silent"));
+    EXPECT_EQ(gateway.daemon().end(), 0);
+    EXPECT_TRUE(manager.hears("STOPPING=1"));
+}
+
+TEST(BadStart, NamesAllFaultsOfTheConfigurationInOneRunAndOpensNothing)
+{
+    Gateway gateway{{.units = {"00", "01"}, .started = false}};
+    std::string text = gateway.config_text();
+    text.replace(text.find("address = 6"), 11, "address = 5");
+    text.replace(text.rfind("\"590\""), 5, "\"591\"");
+    text += "adress = 7\n";
+    text += "tags = \"wrong.csv\"\n";
+    write_file(gateway.config(), text);
+    write_file(gateway.folder("wrong.csv"), "tag,name,type\n55,speed,INT\n56,setpoint,INTEGER\n");
+
+    for (const Outcome& outcome : {gateway.run_daemon(), gateway.run_daemon({"--check"})}) {
+        EXPECT_EQ(outcome.status, 1);
+        EXPECT_THAT(outcome.err, HasSubstr("adress"));
+        EXPECT_THAT(outcome.err, HasSubstr("address 5 stands on line"));
+        EXPECT_THAT(outcome.err, HasSubstr("there is no profile \"591\""));
+        EXPECT_THAT(outcome.err, HasSubstr("wrong.csv:3"));
+        std::istringstream lines{outcome.err};
+        for (std::string line; std::getline(lines, line);)
+            EXPECT_THAT(line, StartsWith(gateway.folder("").string())) << "each fault with file and line";
+    }
+    EXPECT_FALSE(std::filesystem::exists(gateway.socket()));
+    EXPECT_EQ(gateway.spoken_on_the_bus(), "b to a: 0 octets");
+}
+
+TEST(BadStart, WithoutConfigurationFileSaysWhichOneIsMissing)
+{
+    const Gateway gateway{{.started = false}};
+    std::filesystem::remove(gateway.config());
+    const Outcome outcome = gateway.run_daemon();
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_THAT(outcome.err, HasSubstr(gateway.config().string()));
+}
+
+TEST(BadStart, ByWrongUsageEndsWithTwo)
+{
+    const Gateway gateway{{.started = false}};
+    EXPECT_EQ(gateway.run_daemon({"--no-such-option"}).status, 2);
+    EXPECT_EQ(gateway.run_daemon({"something"}).status, 2);
+    EXPECT_EQ(run({DPSLAVED_PROGRAM, "--help"}).status, 0);
+    EXPECT_EQ(run({DPSLAVED_PROGRAM, "--version"}).status, 0);
+}
+
+TEST(BadStart, WithoutTtyEndsWithThreeAndLeavesNothingBehind)
+{
+    Gateway gateway{{.started = false}};
+    for (const char* const port : {"bus-gateway", "drive-gateway"}) {
+        SCOPED_TRACE(port);
+        std::string text = gateway.config_text();
+        text.replace(text.find(port), std::strlen(port), "not-there");
+        write_file(gateway.config(), text);
+        EXPECT_EQ(gateway.run_daemon({"--check"}).status, 0) << "the file itself is good";
+        const Outcome outcome = gateway.run_daemon();
+        EXPECT_EQ(outcome.status, 3);
+        EXPECT_THAT(outcome.err, HasSubstr("not-there is not there"));
+        EXPECT_FALSE(std::filesystem::exists(gateway.socket()));
+    }
+    EXPECT_EQ(gateway.spoken_on_the_bus(), "b to a: 0 octets");
+}
+
+TEST(BadStart, NextToARunningDaemonEndsWithThreeAndDoesNotDisturbIt)
+{
+    Gateway running;
+    Master master{running, {"--tags", "55"}};
+    ASSERT_TRUE(master.does("start 30s"));
+
+    const Outcome same_port = running.run_daemon();
+    EXPECT_EQ(same_port.status, 3);
+    EXPECT_THAT(same_port.err, HasSubstr("is used by another program"));
+
+    const Gateway second{{.started = false}}; // ports of its own, but the socket of the other one
+    std::string text = second.config_text();
+    text.replace(text.find(second.socket().string()), second.socket().string().size(),
+                 running.socket().string());
+    write_file(second.config(), text);
+    const Outcome same_socket = second.run_daemon();
+    EXPECT_EQ(same_socket.status, 3);
+    EXPECT_THAT(same_socket.err, HasSubstr("another dpslaved is running"));
+
+    EXPECT_TRUE(running.is_exchanging_says(0));
+    EXPECT_EQ(running.station().at("left_count"), 0);
+}
+
+TEST(Start, AfterACrashTakesTheSocketThatWasLeftBehind)
+{
+    Gateway gateway;
+    EXPECT_EQ(gateway.daemon().end(SIGKILL), 128 + SIGKILL);
+    EXPECT_TRUE(std::filesystem::exists(gateway.socket()));
+    gateway.start_daemon();
+    EXPECT_EQ(gateway.dpctl({"status"}).status, 0);
+}
+
+TEST(Check, PassesAGoodConfigurationWithoutOpeningAnything)
+{
+    const Gateway gateway{{.started = false}};
+    const Outcome outcome = gateway.run_daemon({"--check"});
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_THAT(outcome.err, Not(HasSubstr("cannot")));
+    EXPECT_FALSE(std::filesystem::exists(gateway.socket()));
+}
+
+} // namespace
+} // namespace dpslave::test
