@@ -126,7 +126,8 @@ ExitStatus run_daemon(const Config& config, const std::filesystem::path& profile
 
     MainThread main_thread(config, profiles, links, lamps, signals);
     if (const auto trouble = main_thread.open_socket()) {
-        spdlog::error("[control] socket: {}", *trouble);
+        spdlog::error("{}: [control] socket: {}; set it to a place where this user may write",
+                      config.file.string(), *trouble);
         return ExitStatus::device_not_opened;
     }
 

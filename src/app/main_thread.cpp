@@ -47,6 +47,9 @@ MainThread::MainThread(const Config& config, std::filesystem::path profiles, Lin
 
 std::optional<std::string> MainThread::open_socket()
 {
+    // systemd makes this folder for the service; whoever starts the program by hand need not.
+    std::error_code refused; // the socket itself tells why it cannot be made
+    std::filesystem::create_directories(config_.control.socket.parent_path(), refused);
     control::ServerSettings settings;
     settings.socket = config_.control.socket;
     settings.operator_group = group_id(config_.control.operator_group);

@@ -13,7 +13,8 @@ int tell(const control::ClientError& error, Terminal& terminal)
     using Kind = control::ClientError::Kind;
     terminal.err << "dpctl: " << error.text << '\n';
     if (error.kind == Kind::no_daemon)
-        terminal.err << "Is dpslaved running? Ask: systemctl status dpslaved\n";
+        terminal.err
+            << "Is dpslaved running? Ask: systemctl status dpslaved, or start it: dpslaved --config FILE\n";
     if (error.kind == Kind::no_access) terminal.err << "The folder or the socket is closed to this user.\n";
     if (error.kind == Kind::timeout)
         terminal.err << "The daemon runs but is silent; see: journalctl -u dpslaved\n";

@@ -60,7 +60,7 @@ int main(int argc, char** argv)
     CLI::App app{"PROFIBUS-DP slave that takes the place of a drive's option board.", "dpslaved"};
     app.footer(kFooter);
     std::string file = "/etc/dpslaved/dpslaved.toml";
-    std::string profiles = "/usr/share/dpslaved/profiles";
+    std::string profiles = DPSLAVE_DATA_FOLDER "/profiles"; // given by CMake
     bool check = false;
     app.add_option("--config", file, "Configuration file")->capture_default_str();
     app.add_option("--profiles", profiles, "Folder of the device profiles")->capture_default_str();

@@ -234,8 +234,10 @@ TEST(DpctlWithoutDaemon, EndsWith3AndSaysWhatToDo)
         const Ran ran = dpctl(all);
         EXPECT_EQ(ran.exit, 3) << arguments[0];
         EXPECT_EQ(ran.out, "") << arguments[0];
-        EXPECT_EQ(ran.err, "dpctl: nothing answers on /nonexistent/control.sock (No such file or directory)\n"
-                           "Is dpslaved running? Ask: systemctl status dpslaved\n")
+        EXPECT_EQ(
+            ran.err,
+            "dpctl: nothing answers on /nonexistent/control.sock (No such file or directory)\n"
+            "Is dpslaved running? Ask: systemctl status dpslaved, or start it: dpslaved --config FILE\n")
             << arguments[0];
     }
 }

@@ -17,7 +17,7 @@ case $room in
     fdl)     doors='base/.*'                                      outside=$nothing forbidden=$impure ;;
     dp)      doors='base/.*|fdl/sap_user\.hpp'                    outside=$nothing forbidden=$impure ;;
     led)     doors='base/.*'                                      outside=$nothing forbidden=$impure ;;
-    drive)   doors='base/.*|io/.*'                                outside='modbus.*|sys/.*|[a-z]+\.h' forbidden=$nothing ;;
+    drive)   doors='base/.*'                                      outside=$nothing forbidden=$impure ;;
     profile) doors='base/.*|dp/personality\.hpp|drive/(tag|poller)\.hpp|led/pattern\.hpp' outside='toml\+\+/.*' forbidden='thread|iostream' ;;
     io)      doors='base/.*'                                      outside='.*' forbidden=iostream ;;
     control) doors='base/.*'                                      outside='.*' forbidden=iostream ;;

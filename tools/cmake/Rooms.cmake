@@ -29,7 +29,7 @@ function(dpslave_program name)
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
 
-# dpslave_test(ROOM SOURCES ... LINKS ... [WORKING_DATA]) makes tests/<room>: the program test_<room> and its ctest entries.
+# dpslave_test(ROOM SOURCES ... LINKS ...) makes tests/<room>: the program test_<room> and its ctest entries.
 function(dpslave_test name)
   cmake_parse_arguments(arg "" "" "SOURCES;LINKS" ${ARGN})
   add_executable(test_${name} ${arg_SOURCES})
