@@ -243,7 +243,7 @@ void MainThread::answer_asked()
             const StationConfig& station = config_.stations[asked.station];
             const drive::Tag* row = station.tags->find(asked.tag);
             if (answer->error != AccessError::none) {
-                const auto code = demand_code(answer->error);
+                const auto code = dp::demand_code(answer->error);
                 server_->complete(answer->number, Error{"DriveRefused",
                                                         {{"tag", asked.tag},
                                                          {"reason", text(answer->error)},

@@ -115,23 +115,6 @@ std::string_view text(AccessError error) noexcept
     return "?";
 }
 
-std::optional<int> demand_code(AccessError error) noexcept
-{
-    switch (error) {
-        case AccessError::none:
-        case AccessError::no_answer:
-        case AccessError::not_understood: return std::nullopt;
-        case AccessError::invalid_tag:
-        case AccessError::unsupported_type: return 0;
-        case AccessError::read_only:
-        case AccessError::not_stopped:
-        case AccessError::not_config_mode: return 1;
-        case AccessError::out_of_range:
-        case AccessError::value_not_encoded: return 2;
-    }
-    return std::nullopt;
-}
-
 json bus_json(const View& view, Instant now)
 {
     const auto exchanging =

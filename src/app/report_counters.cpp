@@ -67,6 +67,9 @@ json station_counters(const StationView& station)
     add(c, "drive_silences", drive.silences, "transactions without answer");
     add(c, "drive_refusals", drive.refusals, "transactions that the drive refused");
     add(c, "drive_losses", drive.losses, "times the drive was given up until it answered again");
+    add(c, "demand_orders_lost", dp.orders_lost, "Demand Data orders that the bus side had no room for");
+    add(c, "drive_orders_dropped", drive.orders_dropped,
+        "Demand Data writes that no longer stood when they could have been carried out");
     return group(station.config->name, std::move(c));
 }
 

@@ -27,25 +27,24 @@ constexpr std::uint16_t kInvalidTag = 0;
 constexpr std::uint16_t kReadOnly = 1;
 constexpr std::uint16_t kOutOfRange = 2;
 
-/// Source: EI-ASCII reference 4, mapping; acceptance X-34.
-constexpr std::uint16_t code_of(AccessError error)
+} // namespace
+
+std::optional<std::uint16_t> demand_code(AccessError error) noexcept
 {
     switch (error) {
+        case AccessError::none:
+        case AccessError::no_answer:
+        case AccessError::not_understood: return std::nullopt;
+        case AccessError::invalid_tag:
+        case AccessError::unsupported_type: return kInvalidTag;
         case AccessError::read_only:
         case AccessError::not_stopped:
         case AccessError::not_config_mode: return kReadOnly;
         case AccessError::out_of_range:
         case AccessError::value_not_encoded: return kOutOfRange;
-        case AccessError::none:
-        case AccessError::no_answer:
-        case AccessError::not_understood:
-        case AccessError::invalid_tag:
-        case AccessError::unsupported_type: break;
     }
-    return kInvalidTag;
+    return std::nullopt;
 }
-
-} // namespace
 
 void DemandData::begin(Generation generation)
 {
@@ -129,12 +128,11 @@ void DemandData::withdraw()
 void DemandData::answer(const DemandAnswer& answer)
 {
     if (standing_.kind == DemandOrder::Kind::cancel || answer.number != standing_.number) return;
-    switch (answer.error) {
-        case AccessError::no_answer:
-        case AccessError::not_understood: return; // no code stands for it: the previous answer stays
-        case AccessError::none: reply_with(kRead, answer.value); return;
-        default: reject(code_of(answer.error)); return;
-    }
+    if (answer.error == AccessError::none)
+        reply_with(kRead, answer.value);
+    else if (const auto code = demand_code(answer.error))
+        reject(*code);
+    // else no code stands for it: the previous answer stays
 }
 
 void DemandData::reply_with(std::uint16_t command, std::uint16_t value)

@@ -70,7 +70,5 @@ std::string bad_value_words(const drive::Tag& tag, AccessError error);
 
 /// "invalid tag", "read only" ...
 std::string_view text(AccessError error) noexcept;
-/// The error code that Demand Data has for it; none for silence.
-std::optional<int> demand_code(AccessError error) noexcept;
 
 } // namespace dpslave::app

@@ -13,6 +13,10 @@
 
 namespace dpslave::dp {
 
+/// The error code of Demand Data for a failed access, 0 to 2; nothing where no code stands for it (success,
+/// silence, noise). Source: HA389815 ch. 7; for the finer reasons acceptance X-34.
+std::optional<std::uint16_t> demand_code(AccessError error) noexcept;
+
 /// The eight octets as words: command and tag, extended tag, reserved, value or error code.
 using DemandRegisters = std::array<std::uint16_t, 4>;
 
