@@ -15,10 +15,10 @@ die() {
 # What a bare Debian needs to build the programs.
 build_packages=(
     g++ cmake ninja-build pkg-config
-    libspdlog-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libsystemd-dev
+    libspdlog-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libsystemd-dev libmodbus-dev
 )
 # What the tests need beside that.
-test_packages=(libgtest-dev libgmock-dev binutils)
+test_packages=(libgtest-dev libgmock-dev binutils python3 python3-pymodbus python3-serial python3-serial-asyncio)
 
 # Installs those of the named packages that are missing; asks nothing, and touches apt only when it must.
 install_missing() {

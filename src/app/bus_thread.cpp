@@ -23,13 +23,13 @@ fdl::StationSettings station_settings(const Config& config)
     return settings;
 }
 
-/// Calls `visit(address)` for every bit that is set, without looking at the others one by one.
+/// Calls `visit(n)` for every bit n that is set, without looking at the others one by one.
 template <class Visit>
-void for_each_address(const std::bitset<128>& addresses, Visit visit)
+void for_each(const std::bitset<128>& bits_set, Visit visit)
 {
     constexpr std::bitset<128> kLow{~0ULL};
     for (unsigned half = 0; half < 2; ++half) {
-        std::uint64_t bits = ((addresses >> (half * 64)) & kLow).to_ullong();
+        std::uint64_t bits = ((bits_set >> (half * 64)) & kLow).to_ullong();
         while (bits != 0) {
             visit(half * 64 + static_cast<unsigned>(std::countr_zero(bits)));
             bits &= bits - 1;
@@ -49,12 +49,23 @@ io::TtySettings bus_tty_settings(const Config& config)
 
 BusStation::BusStation(const StationConfig& config, StationLink& link)
     : link_(link), slave_(*config.personality, config.address)
-{}
+{
+    orders_.address = config.address;
+}
 
 void BusStation::fetch()
 {
     if (link_.inputs.fresh()) slave_.set_inputs(link_.inputs.latest());
     if (link_.demand_answer.fresh()) slave_.set_demand_answer(link_.demand_answer.latest());
+    take_orders();
+}
+
+bool BusStation::take_orders()
+{
+    if (!link_.bus_orders.fresh()) return false;
+    orders_ = link_.bus_orders.latest();
+    slave_.set_ext_diag(orders_.ext_diag, orders_.ext_diag_fault);
+    return true;
 }
 
 fdl::Answer BusStation::srd(const fdl::Indication& request, fdl::ReplyData& reply)
@@ -95,12 +106,9 @@ BusThread::BusThread(const Config& config, io::Tty tty, std::vector<std::unique_
                      BusLink& link)
     : config_(config), tty_(std::move(tty)), station_(station_settings(config)), link_(link)
 {
-    for (std::size_t i = 0; i < config.stations.size(); ++i) {
-        const StationConfig& one = config.stations[i];
-        stations_.push_back(std::make_unique<BusStation>(one, *stations[i]));
-        by_address_[one.address] = stations_.back().get();
-        station_.attach(one.address, *stations_.back(), one.personality->max_tsdr);
-    }
+    for (std::size_t i = 0; i < config.stations.size(); ++i)
+        stations_.push_back(std::make_unique<BusStation>(config.stations[i], *stations[i]));
+    address_.resize(stations_.size());
 }
 
 void BusThread::run(std::stop_token stop, io::EventFd& wake)
@@ -108,10 +116,10 @@ void BusThread::run(std::stop_token stop, io::EventFd& wake)
     epoll_.add(wake.fd(), EPOLLIN, kWakeKey);
     epoll_.add(ticker_.fd(), EPOLLIN, kTickKey);
     watch_port();
-    for (const auto& one : stations_) one->slave().start(io::monotonic_now());
-    for (unsigned i = 0; i < by_address_.size(); ++i) unseen_.set(i, by_address_[i] != nullptr);
+    for (std::size_t i = 0; i < stations_.size(); ++i) unseen_.set(i);
 
     while (!stop.stop_requested()) {
+        if (orders_due_) obey_orders();
         const Instant next_show = unseen_.any() ? next_snapshot_ : kNever;
         look(octets_before(std::min(station_.next_deadline(), next_show)));
         if (station_.next_deadline() - io::monotonic_now() < kSpin) wait_for_window();
@@ -139,7 +147,10 @@ bool BusThread::octets_before(Instant when)
     bool octets = false;
     for (const epoll_event& event : epoll_.wait(ready, wait)) {
         if (event.data.u64 == kTtyKey) octets = true;
-        if (event.data.u64 == kTickKey) ticker_.clear();
+        if (event.data.u64 == kTickKey) {
+            ticker_.clear();
+            orders_due_ = true;
+        }
     }
     return octets;
 }
@@ -190,12 +201,55 @@ void BusThread::send()
 /// Outputs, orders and events of the stations that were spoken to.
 void BusThread::hand_on()
 {
-    const auto addresses = station_.take_touched() | waiting_;
-    if (addresses.none()) return;
-    for_each_address(addresses, [this](unsigned address) {
-        waiting_.set(address, !by_address_[address]->hand_on());
-        unseen_.set(address);
+    const auto addresses = station_.take_touched();
+    if (addresses.none() && waiting_.none()) return;
+    for_each(addresses, [this](unsigned address) {
+        if (!at_[address])
+            return; // it was taken off right after it was spoken to, and has said its last word
+        waiting_.set(*at_[address]);
+        unseen_.set(*at_[address]);
     });
+    for_each(waiting_, [this](unsigned station) { waiting_.set(station, !stations_[station]->hand_on()); });
+}
+
+/// Puts stations on the bus, takes them off, and gives them another address, as the main thread wants it.
+/// Between two telegrams and not inside one: layer 2 may be in the middle of a call to the station.
+void BusThread::obey_orders()
+{
+    orders_due_ = false;
+    for (std::size_t i = 0; i < stations_.size(); ++i) {
+        BusStation& one = *stations_[i];
+        if (one.take_orders()) unseen_.set(i); // a new diagnosis is shown although nobody asks for it
+        const BusOrders& wanted = one.orders();
+        if (address_[i] && (!wanted.enabled || *address_[i] != wanted.address)) take_off(i);
+    }
+    for (std::size_t i = 0; i < stations_.size(); ++i) // an address that another one leaves is free by now
+        if (!address_[i] && stations_[i]->orders().enabled) put_on(i);
+}
+
+void BusThread::take_off(std::size_t station)
+{
+    BusStation& one = *stations_[station];
+    one.slave().stop(io::monotonic_now());
+    waiting_.set(station, !one.hand_on());
+    unseen_.set(station);
+    station_.detach(*address_[station]);
+    at_[*address_[station]].reset();
+    address_[station].reset();
+}
+
+void BusThread::put_on(std::size_t station)
+{
+    BusStation& one = *stations_[station];
+    const std::uint8_t address = one.orders().address;
+    if (at_[address]) return; // still somebody else's: with the next tick
+    one.slave().set_address(address);
+    if (!station_.attach(address, one, config_.stations[station].personality->max_tsdr)) return;
+    one.slave().start(io::monotonic_now());
+    at_[address] = static_cast<std::uint8_t>(station);
+    address_[station] = address;
+    waiting_.set(station, !one.hand_on());
+    unseen_.set(station);
 }
 
 /// Snapshots for the main thread, one station a round at most: what a telegram costs does not grow with their
@@ -208,7 +262,7 @@ void BusThread::show(Instant now)
     do turn_ = (turn_ + 1) % 128;
     while (!unseen_.test(turn_));
     unseen_.reset(turn_);
-    by_address_[turn_]->publish_snapshot();
+    stations_[turn_]->publish_snapshot();
 }
 
 void BusThread::show_bus(Instant now)

@@ -72,14 +72,29 @@ std::optional<LineFormat> format_of(std::string_view text)
 void read_protocol(Table& table, LineConfig& line)
 {
     table.require("protocol", R"(protocol = "ei-ascii")");
-    if (const auto protocol =
-            table.choice<std::string>("protocol", {{"ei-ascii", "ei-ascii"}, {"modbus-rtu", "modbus-rtu"}})) {
+    if (const auto protocol = table.choice<std::string>(
+            "protocol", {{"ei-ascii", std::string{kEiAscii}}, {"modbus-rtu", std::string{kModbusRtu}}}))
         line.protocol = *protocol;
-        if (line.protocol != "ei-ascii")
-            table.refuse("protocol",
-                         "\"modbus-rtu\" is not part of this release: reach the drive by EI-ASCII and set "
-                         "protocol = \"ei-ascii\".");
-    }
+    if (line.protocol != kModbusRtu) return;
+    line.format = {.data_bits = 8, .parity = 'N', .stop_bits = 1};
+    line.timeout = kModbusTimeout;
+}
+
+void read_format(Table& table, LineConfig& line)
+{
+    const auto text = table.text("format");
+    if (!text) return;
+    const auto format = format_of(*text);
+    if (!format)
+        table.refuse("format", "format \"" + *text +
+                                   "\": write data bits 7 or 8, parity N, E or O, stop bits 1 or 2, "
+                                   "as in \"7E1\".");
+    else if (line.protocol == kModbusRtu && format->data_bits != 8)
+        table.refuse("format", "format \"" + *text +
+                                   "\": Modbus RTU has 8 data bits; write \"8N1\", \"8E1\" or \"8O1\", as "
+                                   "the instrument is set.");
+    else
+        line.format = *format;
 }
 
 ReadLine read_line(Table& table)
@@ -94,14 +109,7 @@ ReadLine read_line(Table& table)
     line.port_line = table.place_of("port").line;
     read_protocol(table, line);
     if (const auto baud = table.integer("baud", 300, 921'600)) line.baud = static_cast<std::uint32_t>(*baud);
-    if (const auto text = table.text("format")) {
-        if (const auto format = format_of(*text))
-            line.format = *format;
-        else
-            table.refuse("format", "format \"" + *text +
-                                       "\": write data bits 7 or 8, parity N, E or O, stop bits 1 or 2, "
-                                       "as in \"7E1\".");
-    }
+    read_format(table, line);
     if (const auto timeout = table.integer("timeout_ms", 10, 10'000))
         line.timeout = std::chrono::milliseconds{*timeout};
     if (const auto retries = table.integer("retries", 0, 10)) line.retries = static_cast<int>(*retries);

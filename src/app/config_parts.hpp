@@ -53,6 +53,12 @@ std::vector<StationConfig> read_stations(profile::Document& document, const BusC
                                          const std::vector<ReadLine>& lines, Shelf& shelf,
                                          profile::Faults& warnings);
 
+/// The keys of a station that only some device types have: [station.tec], [station.diagnosis], ext_diag_bit,
+/// resolution, display_decimals; and what follows from them: the tag table in use, and the tags that are
+/// watched. To be called when profile, address, line and tag table are known, as far as they are.
+void read_device_keys(profile::Document& document, profile::Table& table, StationConfig& station,
+                      profile::Faults& warnings);
+
 /// Values of one kind that must not stand in the file twice.
 class Unlike {
 public:

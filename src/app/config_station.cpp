@@ -25,6 +25,16 @@ std::optional<drive::UnitAddress> ei_unit(std::string_view text)
     return drive::UnitAddress{static_cast<std::uint8_t>(both >> 4), static_cast<std::uint8_t>(both & 15)};
 }
 
+/// Modbus: a slave address in decimal.
+std::optional<drive::UnitAddress> modbus_unit(std::string_view text)
+{
+    std::uint8_t address = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), address);
+    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    if (address < 1 || address > 247) return std::nullopt;
+    return drive::UnitAddress{.group = 0, .unit = address};
+}
+
 class StationReader {
 public:
     StationReader(Document& document, const BusConfig& bus, const std::vector<ReadLine>& lines, Shelf& shelf,
@@ -47,7 +57,7 @@ public:
         read_personality(table, station);
         read_tags(table, station);
         read_leds(table, station);
-        refuse_foreign_keys(table, station);
+        read_device_keys(document_, table, station, warnings_);
         return station;
     }
 
@@ -103,19 +113,24 @@ private:
                                   ? R"(line = "p3", the name of a [[line]])"
                                   : "line = " + in_quotes(lines_.front().line.name));
         if (const auto name = table.text("line")) find_line(table, station, *name);
-        table.require("unit", R"(unit = "00", group and unit id of the drive)");
+        table.require("unit", R"(unit = "00", group and unit id of the drive, or its Modbus address)");
         const auto unit = table.text("unit");
         if (!unit) return;
         station.unit_text = *unit;
-        const auto parsed = ei_unit(*unit);
+        if (!line_known_ || lines_[station.line].line.protocol.empty()) return; // said there already
+        const bool modbus = lines_[station.line].line.protocol == kModbusRtu;
+        const auto parsed = modbus ? modbus_unit(*unit) : ei_unit(*unit);
         if (!parsed) {
-            table.refuse("unit", "unit " + in_quotes(*unit) +
-                                     ": write two hexadecimal digits, the group and the unit id of the "
-                                     "drive, as in \"00\".");
+            table.refuse("unit",
+                         "unit " + in_quotes(*unit) +
+                             (modbus ? ": write the Modbus address of the instrument, \"1\" to \"247\". The "
+                                       "instrument itself also takes 248 to 254, which Modbus reserves: "
+                                       "give it a lower one."
+                                     : ": write two hexadecimal digits, the group and the unit id of the "
+                                       "drive, as in \"00\"."));
             return;
         }
         station.unit = *parsed;
-        if (!line_known_) return;
         const std::string& line = lines_[station.line].line.name;
         drives_.check(table, "unit",
                       std::to_string(station.line) + '/' + std::to_string(parsed->group * 16 + parsed->unit),
@@ -154,7 +169,7 @@ private:
         }
         warn_of_rate(table, station);
         const std::string& protocol = lines_[station.line].line.protocol;
-        if (!station.profile || protocol != "ei-ascii") return; // another protocol is refused at the line
+        if (!station.profile || protocol.empty()) return; // none that is legal: said at the line
         const auto& legal = station.profile->protocols;
         if (std::find(legal.begin(), legal.end(), protocol) == legal.end())
             table.refuse("line", "line " + in_quotes(name) + " speaks " + protocol +
@@ -167,13 +182,19 @@ private:
         if (const auto seconds = table.real("output_refresh_s", 0, 86'400))
             station.output_refresh =
                 std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>{*seconds});
-        using drive::OutputLoss;
-        const auto loss =
-            table.choice<OutputLoss>("output_loss", {{"zero", OutputLoss::zero}, {"hold", OutputLoss::hold}});
-        if (loss)
-            station.output_loss = *loss;
-        else if (station.profile)
-            station.output_loss = station.profile->output_loss;
+        enum class Loss : std::uint8_t { zero, hold };
+        const auto loss = table.choice<Loss>("output_loss", {{"zero", Loss::zero}, {"hold", Loss::hold}});
+        if (station.profile) station.zero_after = station.profile->zero_after;
+        if (table.has("output_loss") && station.profile && station.profile->has_tec)
+            table.refuse(
+                "output_loss",
+                "a device of profile " + in_quotes(station.profile->name) +
+                    " has a TEC OPTION function block, whose RIDE THROUGH alone says what becomes of "
+                    "the outputs: remove 'output_loss' and set ride_through in [station.tec].");
+        else if (loss == Loss::zero)
+            station.zero_after = std::chrono::nanoseconds{0};
+        else if (loss == Loss::hold)
+            station.zero_after.reset();
     }
 
     /// The profile's, with what this station and this bus say otherwise.
@@ -182,21 +203,28 @@ private:
         const auto ident = table.integer("ident", 1, 0xFFFF);
         Table demand = table.table("demand");
         const auto error_base = demand.integer("error_base", 0, 1);
-        if (demand.has("extended_reply"))
-            demand.refuse("extended_reply",
-                          "this profile has no extended commands of Demand Data: remove 'extended_reply'.");
+        using Reply = dp::ExtendedReply;
+        const auto extended =
+            demand.choice<Reply>("extended_reply", {{"table", Reply::table}, {"example", Reply::example}});
         if (!station.profile) return;
 
         dp::Personality personality = station.profile->personality;
         if (!ident && !table.has("ident") && !station.profile->ident)
-            document_.fault(table.place(),
-                            "'ident' is missing in [[station]]: profile " + in_quotes(station.profile->name) +
-                                " leaves it open; add ident = 0x.... as the master's GSD has it.");
+            document_.fault(
+                table.place(),
+                "'ident' is missing in [[station]]: profile " + in_quotes(station.profile->name) +
+                    " leaves it open, for no source states it; add ident = 0x.... with the number that key "
+                    "Ident_Number has in the GSD of the plant's PLC project.");
         if (ident) personality.ident = static_cast<std::uint16_t>(*ident);
         if (error_base && personality.demand == dp::DemandForm::none)
             demand.refuse("error_base", "profile " + in_quotes(station.profile->name) +
                                             " has no Demand Data: remove 'error_base'.");
         if (error_base) personality.demand_error_base = static_cast<std::uint16_t>(*error_base);
+        if (demand.has("extended_reply") && personality.demand != dp::DemandForm::extended)
+            demand.refuse("extended_reply", "profile " + in_quotes(station.profile->name) +
+                                                " has no extended commands of Demand Data: remove "
+                                                "'extended_reply'.");
+        if (extended) personality.extended_reply = *extended;
 
         Table bus = document_.root().table("bus");
         const bool rate_named = bus.has("baud") && !bus.is_text("baud");
@@ -227,7 +255,7 @@ private:
 
     void warn_of_tags_without_mnemonic(const StationConfig& station)
     {
-        if (!line_known_ || lines_[station.line].line.protocol != "ei-ascii") return;
+        if (!line_known_ || lines_[station.line].line.protocol != kEiAscii) return;
         std::string list;
         std::size_t count = 0;
         constexpr std::size_t shown = 8;
@@ -286,21 +314,6 @@ private:
             return plain || refuse("behind led: stands the name of a folder in <sysfs>/class/leds.");
         }
         return refuse("write \"gpio:N\" for a GPIO of sysfs or \"led:NAME\" for an LED of the LED class.");
-    }
-
-    /// Keys that belong to device types which have what this one has not.
-    static void refuse_foreign_keys(Table& table, const StationConfig& station)
-    {
-        const std::string device =
-            station.profile ? "a device of profile " + in_quotes(station.profile->name) : "this device";
-        if (table.has("tec"))
-            table.refuse("tec", device + " has no TEC OPTION function block: remove [station.tec].");
-        if (table.has("diagnosis"))
-            table.refuse("diagnosis", device + " has no extended diagnosis: remove [station.diagnosis].");
-        if (table.has("resolution"))
-            table.refuse("resolution", device + " has one resolution only: remove 'resolution'.");
-        if (table.has("ext_diag_bit"))
-            table.refuse("ext_diag_bit", device + " has no extended diagnosis: remove 'ext_diag_bit'.");
     }
 
     void warn(Place at, std::string what)

@@ -10,6 +10,7 @@
 #include "dpslave/drive/ei_ascii_client.hpp"
 #include "dpslave/io/realtime.hpp"
 #include "dpslave/io/signals.hpp"
+#include "dpslave/modbus/modbus_rtu.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -23,7 +24,7 @@ namespace {
 
 /// One drive line: its port and its thread, in the order in which they may go.
 struct Line {
-    std::unique_ptr<TtyLine> tty;
+    std::unique_ptr<TtyLine> tty; ///< of EI-ASCII; a Modbus back-end has its port itself
     std::unique_ptr<DriveThread> work;
     io::EventFd wake;
     std::jthread thread;
@@ -39,15 +40,35 @@ io::TtySettings settings_of(const LineConfig& line)
     return settings;
 }
 
-std::unique_ptr<drive::Backend> make_backend(const Config& config, std::size_t index, drive::SerialLine& tty)
+using MadeBackend = Result<std::unique_ptr<drive::Backend>, std::string>;
+
+MadeBackend open_ei_ascii(const Config& config, std::size_t index, LineLink& link,
+                          std::unique_ptr<TtyLine>& tty)
 {
     const LineConfig& line = config.lines[index];
+    auto port = io::Tty::open(line.port, settings_of(line));
+    if (!port) return Failure{port.error()};
+    tty = std::make_unique<TtyLine>(line.port, settings_of(line), std::move(*port), link.port_open);
     std::vector<drive::EiUnit> units;
     for (const StationConfig& station : config.stations)
         if (station.line == index)
             units.push_back({.address = station.unit, .mnemonics = station.profile->mnemonics});
-    return std::make_unique<drive::EiAsciiClient>(
-        tty, drive::EiTiming{.baud = line.baud, .timeout = line.timeout}, std::move(units));
+    return std::unique_ptr<drive::Backend>(std::make_unique<drive::EiAsciiClient>(
+        *tty, drive::EiTiming{.baud = line.baud, .timeout = line.timeout}, std::move(units)));
+}
+
+MadeBackend open_modbus(const LineConfig& line, LineLink& link)
+{
+    modbus::RtuSettings settings;
+    settings.port = line.port;
+    settings.baud = line.baud;
+    settings.data_bits = line.format.data_bits;
+    settings.parity = line.format.parity;
+    settings.stop_bits = line.format.stop_bits;
+    settings.timeout = line.timeout;
+    auto opened = modbus::ModbusRtu::open(settings, link.port_open);
+    if (!opened) return Failure{opened.error()};
+    return std::unique_ptr<drive::Backend>(std::move(*opened));
 }
 
 /// Tells a thread to end and waits for it.
@@ -69,16 +90,14 @@ bool open_lines(const Config& config, Links& links, std::vector<Line>& lines)
 {
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const LineConfig& line = config.lines[i];
-        auto tty = io::Tty::open(line.port, settings_of(line));
-        if (!tty) {
-            spdlog::error("{}[[line]] \"{}\": {}", place(config, line.port_line), line.name, tty.error());
+        LineLink& link = *links.lines[i];
+        auto backend = line.protocol == kModbusRtu ? open_modbus(line, link)
+                                                   : open_ei_ascii(config, i, link, lines[i].tty);
+        if (!backend) {
+            spdlog::error("{}[[line]] \"{}\": {}", place(config, line.port_line), line.name, backend.error());
             return false;
         }
-        LineLink& link = *links.lines[i];
-        lines[i].tty =
-            std::make_unique<TtyLine>(line.port, settings_of(line), std::move(*tty), link.port_open);
-        lines[i].work = std::make_unique<DriveThread>(config, i, make_backend(config, i, *lines[i].tty),
-                                                      links.stations, link);
+        lines[i].work = std::make_unique<DriveThread>(config, i, std::move(*backend), links.stations, link);
     }
     return true;
 }

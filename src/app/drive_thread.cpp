@@ -22,7 +22,11 @@ std::vector<drive::UnitSettings> unit_settings(const Config& config, std::size_t
         unit.tags = station.tags.get();
         unit.tags_only_from_table = station.profile->tags_only_from_table;
         unit.output_refresh = station.output_refresh;
-        unit.output_loss = station.output_loss;
+        unit.zero_after = station.zero_after;
+        // Modbus instruments keep what they are told in a memory that wears: only what differs is written.
+        unit.compare_outputs = config.lines[line].protocol == kModbusRtu;
+        unit.never_written = station.profile->never_written;
+        unit.watched = station.watched;
         unit.retries = config.lines[line].retries;
         units.push_back(unit);
     }
@@ -43,6 +47,7 @@ DriveThread::DriveThread(const Config& config, std::size_t line, std::unique_ptr
             units_.push_back({.config = &config.stations[i],
                               .station = static_cast<std::uint32_t>(i),
                               .link = stations[i].get(),
+                              .zero_after_ms = to_ms(config.stations[i].zero_after),
                               .ended = 0,
                               .has_layout = false,
                               .was_known = false,
@@ -68,6 +73,10 @@ void DriveThread::fetch()
         // First the outputs, then the end of layouts (links.hpp says why), which is said to the poller first.
         const OutputImage* outputs = unit.link->outputs.fresh() ? &unit.link->outputs.latest() : nullptr;
         const Generation ended = unit.link->ended.load(std::memory_order_acquire);
+        // Before the end of a layout: the time that counts for it may just have been set.
+        const std::int64_t zero_after_ms = unit.link->zero_after_ms.load(std::memory_order_relaxed);
+        if (zero_after_ms != unit.zero_after_ms) poller_.set_zero_after(i, from_ms(zero_after_ms));
+        unit.zero_after_ms = zero_after_ms;
         if (ended != unit.ended) poller_.left_data_exchange(i, {.generation = ended});
         unit.ended = ended;
         if (outputs != nullptr) {
@@ -94,16 +103,18 @@ void DriveThread::carry_out(const drive::Transaction& transaction)
             outcome.words = words;
             break;
         }
-        case Kind::write: outcome.error = backend_->write(address, *transaction.tag, transaction.word); break;
+        case Kind::write:
+            outcome.error = backend_->write(address, *transaction.tag, transaction.words);
+            break;
         case Kind::probe:
             outcome.error = backend_->probe(address) ? AccessError::none : AccessError::no_answer;
             break;
     }
     if (transaction.tag != nullptr && transaction.count == 1) {
         if (outcome.error == AccessError::none)
-            forget_trouble(unit, transaction.tag->number);
+            forget_trouble(unit, transaction);
         else if (outcome.error != AccessError::no_answer)
-            remember_trouble(unit, transaction.tag->number, backend_->last_trouble());
+            remember_trouble(unit, transaction, backend_->last_trouble());
     }
     poller_.done(outcome, io::monotonic_now());
 }
@@ -138,14 +149,17 @@ void DriveThread::say_link_changes()
 }
 
 /// Said once in the log, shown by `dpctl diag` until the access works.
-void DriveThread::remember_trouble(const Unit& unit, std::uint16_t tag, const std::string& text)
+void DriveThread::remember_trouble(const Unit& unit, const drive::Transaction& access,
+                                   const std::string& text)
 {
-    const auto line = "tag " + std::to_string(tag) + ": " + text;
+    const std::uint16_t tag = access.tag->number;
+    const bool is_write = access.kind == drive::Transaction::Kind::write;
+    const auto line = (is_write ? "write of tag " : "tag ") + std::to_string(tag) + ": " + text;
     for (std::size_t k = 0; k < troubles_.count; ++k) {
         Trouble& known = troubles_.troubles[k];
-        if (known.station != unit.station || known.tag != tag) continue;
+        if (known.station != unit.station || known.tag != tag || known.is_write != is_write) continue;
         if (line.compare(0, known.text.size() - 1, known.text.data()) == 0) return;
-        forget_trouble(unit, tag);
+        forget_trouble(unit, access);
         break;
     }
     spdlog::warn("{}: {}", unit.config->name, line);
@@ -154,16 +168,17 @@ void DriveThread::remember_trouble(const Unit& unit, std::uint16_t tag, const st
         --troubles_.count;
     }
     Trouble& trouble = troubles_.troubles[troubles_.count++];
-    trouble = {.station = unit.station, .tag = tag, .text = {}};
+    trouble = {.station = unit.station, .tag = tag, .is_write = is_write, .text = {}};
     line.copy(trouble.text.data(), trouble.text.size() - 1);
     link_.troubles.publish(troubles_);
 }
 
-void DriveThread::forget_trouble(const Unit& unit, std::uint16_t tag)
+void DriveThread::forget_trouble(const Unit& unit, const drive::Transaction& access)
 {
+    const bool is_write = access.kind == drive::Transaction::Kind::write;
     const auto end = troubles_.troubles.begin() + troubles_.count;
     const auto found = std::find_if(troubles_.troubles.begin(), end, [&](const Trouble& one) {
-        return one.station == unit.station && one.tag == tag;
+        return one.station == unit.station && one.tag == access.tag->number && one.is_write == is_write;
     });
     if (found == end) return;
     std::copy(found + 1, end, found);
@@ -190,6 +205,7 @@ void DriveThread::farewell()
 {
     const Instant end = io::monotonic_now() + kFarewell;
     fetch();
+    poller_.ride_no_longer(); // nobody is there any more to zero the outputs later
     while (poller_.safe_state_pending() && io::monotonic_now() < end) {
         if (const auto transaction = poller_.next(io::monotonic_now()))
             carry_out(*transaction);

@@ -42,11 +42,13 @@ control::Handlers MainThread::handlers()
              return Done{{{"groups", counters_json(view_)}}};
          }},
         {"GetLeds", each(&MainThread::leds_of)},
+        {"GetTec", [this](const Json& parameters, const control::Caller&) { return on_tec(parameters); }},
         {"Watch", [this](const Json& parameters, const control::Caller&) { return on_watch(parameters); }},
         {"ReadTag",
          [this](const Json& parameters, const control::Caller&) { return on_tag(parameters, false); }},
         {"WriteTag",
          [this](const Json& parameters, const control::Caller&) { return on_tag(parameters, true); }},
+        {"SetTec", [this](const Json& parameters, const control::Caller&) { return on_set_tec(parameters); }},
     };
 }
 
@@ -92,9 +94,8 @@ Json MainThread::info_of(std::size_t station)
 {
     std::optional<std::uint8_t> pending;
     const auto found = in_file_.find(config_.stations[station].name);
-    if (found != in_file_.end() && found->second != config_.stations[station].address)
-        pending = found->second;
-    return info_json(view_.stations[station], pending);
+    if (found != in_file_.end() && found->second != view_.stations[station].address) pending = found->second;
+    return info_json(view_.stations[station], pending, devices_[station].notes());
 }
 
 Json MainThread::io_of(std::size_t station)
@@ -136,7 +137,7 @@ MainThread::Choice MainThread::choose(const Json& parameters, bool one_is_needed
     }
     const std::string wanted = parameters["station"].get<std::string>();
     for (std::size_t i = 0; i < config_.stations.size(); ++i)
-        if (wanted == config_.stations[i].name || wanted == std::to_string(config_.stations[i].address))
+        if (wanted == config_.stations[i].name || wanted == std::to_string(view_.stations[i].address))
             return {.station = i, .error = {}};
     return {.station = {},
             .error = Error{"NoSuchStation", {{"station", wanted}, {"known", known_stations()}}}};
@@ -161,7 +162,7 @@ std::string MainThread::fingerprint(std::optional<std::size_t> station) const
     for (std::size_t i = 0; i < view_.stations.size(); ++i) {
         if (station && *station != i) continue;
         const StationView& one = view_.stations[i];
-        all += fmt::format("{}/{}/{}/{}/{}:", static_cast<int>(one.bus.state), one.bus.master,
+        all += fmt::format("{}/{}/{}/{}/{}/{}:", one.address, static_cast<int>(one.bus.state), one.bus.master,
                            one.drive.known, one.drive.answers, one.line_open);
         for (std::size_t k = 0; k < one.bus.layout.count; ++k)
             all += fmt::format("{}.{}.{}.{};", one.bus.layout.parameters[k].tag, one.bus.inputs[k],

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpslave/app/main_thread.hpp"
 
+#include "dpslave/app/self_test.hpp"
 #include "dpslave/app/version.hpp"
 #include "dpslave/io/clock.hpp"
 
@@ -26,6 +27,18 @@ std::optional<gid_t> group_id(const std::string& name)
     return found != nullptr ? std::optional(found->gr_gid) : std::nullopt;
 }
 
+/// Runs the self-test and says in the log what has failed. True: passed.
+bool tests_itself(Instant earlier)
+{
+    constexpr int patience = 1'000'000; // readings of a clock that may be a coarse one
+    Instant later = io::monotonic_now();
+    for (int i = 0; i < patience && later <= earlier; ++i) later = io::monotonic_now();
+    const auto failures = self_test(kKnownTelegram, earlier, later);
+    for (const std::string& failure : failures) spdlog::error("self-test: {}", failure);
+    if (!failures.empty()) spdlog::error("the self-test has failed: every station stays silent on the bus");
+    return failures.empty();
+}
+
 } // namespace
 
 MainThread::MainThread(const Config& config, std::filesystem::path profiles, Links& links, Lamps& lamps,
@@ -37,11 +50,20 @@ MainThread::MainThread(const Config& config, std::filesystem::path profiles, Lin
       signals_(signals),
       started_(io::monotonic_now())
 {
+    const bool self_test_passed = tests_itself(started_);
     view_.config = &config_;
     view_.stations.resize(config_.stations.size());
     for (std::size_t i = 0; i < config_.stations.size(); ++i) {
         view_.stations[i].config = &config_.stations[i];
         view_.stations[i].line = &config_.lines[config_.stations[i].line];
+        devices_.emplace_back(config_.stations[i], self_test_passed);
+        if (config_.stations[i].profile->diagnosis != profile::DiagForm::none)
+            usual_tick_ = kTickWithDiagnosis;
+        // Before the other threads begin: a station that is not to be on the bus never gets there.
+        ordered_.push_back(devices_[i].bus_orders());
+        links_.stations[i]->bus_orders.publish(ordered_[i]);
+        links_.stations[i]->zero_after_ms.store(devices_[i].zero_after_ms(), std::memory_order_relaxed);
+        view_.stations[i].address = devices_[i].address();
     }
 }
 
@@ -75,7 +97,7 @@ bool MainThread::run()
         if (links_.bus.failed.load(std::memory_order_relaxed)) return false;
         if (now >= next_tick) {
             tick(now);
-            next_tick = now + (asked_.empty() ? kTick : kTickWhileAsked);
+            next_tick = now + tick_length();
         }
         lamps_.show(now);
 
@@ -89,16 +111,22 @@ bool MainThread::run()
             if (event.data.u64 == kServerKey) {
                 refresh();
                 server_->on_ready();
-                next_tick = std::min(next_tick, now + (asked_.empty() ? kTick : kTickWhileAsked));
+                next_tick = std::min(next_tick, now + tick_length());
             }
         }
     }
+}
+
+std::chrono::milliseconds MainThread::tick_length() const
+{
+    return asked_.empty() ? usual_tick_ : kTickWhileAsked;
 }
 
 void MainThread::tick(Instant now)
 {
     refresh();
     log_events();
+    log_devices();
     show_lamps(now);
     answer_asked();
     push_watchers(now);
@@ -132,8 +160,8 @@ void MainThread::refresh()
         StationView& station = view_.stations[i];
         StationLink& link = *links_.stations[i];
         LineLink& line = *links_.lines[config_.stations[i].line];
-        station.bus = link.bus_snapshot.latest();
-        station.drive = link.drive_snapshot.latest();
+        if (link.bus_snapshot.fresh()) station.bus = link.bus_snapshot.latest();
+        if (link.drive_snapshot.fresh()) station.drive = link.drive_snapshot.latest();
         station.line_open = line.port_open.load(std::memory_order_relaxed);
         view_.lost_events += link.events.refused();
         station.troubles.clear();
@@ -141,7 +169,29 @@ void MainThread::refresh()
         for (std::size_t k = 0; k < troubles.count; ++k)
             if (troubles.troubles[k].station == i)
                 station.troubles.emplace_back(troubles.troubles[k].text.data());
+        follow_device(i);
     }
+}
+
+/// What the device makes of what is the case now goes to the bus and to the drive line, if it is news.
+void MainThread::follow_device(std::size_t station)
+{
+    DeviceState& device = devices_[station];
+    StationLink& link = *links_.stations[station];
+    device.look(view_.stations[station], view_.bus);
+    view_.stations[station].address = device.address();
+    link.zero_after_ms.store(device.zero_after_ms(), std::memory_order_relaxed);
+    const BusOrders orders = device.bus_orders();
+    if (orders == ordered_[station]) return;
+    ordered_[station] = orders;
+    link.bus_orders.publish(orders);
+}
+
+void MainThread::log_devices()
+{
+    for (DeviceState& device : devices_)
+        for (const Sentence& news : device.take_news())
+            spdlog::log(news.is_warning ? spdlog::level::warn : spdlog::level::info, "{}", news.text);
 }
 
 void MainThread::log_events()
@@ -166,13 +216,7 @@ void MainThread::log_events()
 
 void MainThread::show_lamps(Instant now)
 {
-    for (std::size_t i = 0; i < view_.stations.size(); ++i) {
-        const StationView& station = view_.stations[i];
-        lamps_.set(i,
-                   {.running = station.bus.state != dp::State::power_on,
-                    .data_exchange = station.bus.state == dp::State::data_exch,
-                    .drive_answers = station.line_open && (!station.drive.known || station.drive.answers)});
-    }
+    for (std::size_t i = 0; i < devices_.size(); ++i) lamps_.set(i, devices_[i].condition());
     lamps_.show(now);
 }
 

@@ -66,28 +66,51 @@ json drive_json(const StationView& station)
             {"last_trouble", station.troubles.empty() ? json(nullptr) : json(station.troubles.back())}};
 }
 
-/// The four registers of Demand Data in words.
-std::string demand_words(const std::array<std::uint16_t, 4>& request,
+/// The four registers of Demand Data in words: commands 1 and 2 have the tag in register 1, 3 and 4 in
+/// register 2 (2408f/2404f handbook ch. 7).
+std::string demand_words(const StationConfig& station, const std::array<std::uint16_t, 4>& request,
                          const std::array<std::uint16_t, 4>& reply)
 {
     const unsigned command = request[0] >> 12;
-    const unsigned tag = request[0] & 0x07FF;
     if (command == 0) return "no command";
-    const std::string asked = command == 1   ? fmt::format("read tag {}", tag)
-                              : command == 2 ? fmt::format("write {} to tag {}", request[3], tag)
-                                             : fmt::format("command {} with tag {}", command, tag);
+    const bool extended =
+        station.personality->demand == dp::DemandForm::extended && (command == 3 || command == 4);
+    const auto tag = static_cast<std::uint16_t>(extended ? request[1] : request[0] & 0x07FF);
+    const bool reads = command == 1 || (extended && command == 3);
+    const bool writes = command == 2 || (extended && command == 4);
+    const auto value = [&](std::uint16_t word) { return shown_value(*station.tags, tag, word); };
+    const std::string asked = reads    ? fmt::format("read tag {}", tag)
+                              : writes ? fmt::format("write {} to tag {}", value(request[3]), tag)
+                                       : fmt::format("command {} with tag {}", command, tag);
+    const std::string none_yet = asked + ": not answered yet";
     const unsigned answer = reply[0] >> 12;
-    const unsigned echo = reply[0] & 0x07FF;
-    if (answer == 0 || echo != tag) return asked + ": not answered yet";
-    if (answer == 1 && command == 2 && reply[3] != request[3]) return asked + ": not answered yet";
-    if (answer == 1) return fmt::format("{}: done, value {}", asked, reply[3]);
-    return fmt::format("{}: rejected with error code {}", asked, reply[3]);
+    const unsigned echo = extended ? reply[1] : reply[0] & 0x07FF;
+    if (answer == 0 || echo != tag) return none_yet;
+    // 7; or more, where the tag of worked example 2 runs into the command: 7000 + 2088 = 9088.
+    if (answer >= 7) return fmt::format("{}: rejected with error code {}", asked, reply[3]);
+    if (writes && reply[3] != request[3]) return none_yet;
+    return fmt::format("{}: done, value {}", asked, value(reply[3]));
 }
 
-std::string pattern_words(const led::Pattern& pattern)
+/// " or one of Run, Hold": what stands for a value of this tag, as far as it can be listed.
+std::string names_of_values(const drive::Tag& tag)
 {
-    if (pattern.period.count() == 0) return pattern.on.count() > 0 ? "on" : "off";
-    return fmt::format("flashing {:g} Hz", 1000.0 / static_cast<double>(pattern.period.count()));
+    constexpr std::size_t most = 12;
+    std::string names;
+    std::size_t count = 0;
+    for (const drive::Label& label : tag.labels) {
+        if (label.is_bit) continue;
+        if (++count > most) return names + " ...";
+        names += (names.empty() ? " or one of " : ", ") + label.text;
+    }
+    return names;
+}
+
+/// As a controller shows it in its Comms list (C-007).
+json comms_status(const StationView& station)
+{
+    if (station.config->profile->leds != led::Language::controller) return nullptr;
+    return station.bus.state == dp::State::data_exch ? "run" : "rdY";
 }
 
 } // namespace
@@ -132,7 +155,7 @@ json station_json(const StationView& station)
 {
     const dp::Snapshot& bus = station.bus;
     return {{"name", station.config->name},
-            {"address", station.config->address},
+            {"address", station.address},
             {"profile", station.config->profile->name},
             {"device", station.config->profile->device},
             {"state", dp::text(bus.state)},
@@ -159,7 +182,8 @@ json stations_json(const View& view)
     return all;
 }
 
-json info_json(const StationView& station, std::optional<std::uint8_t> pending)
+json info_json(const StationView& station, std::optional<std::uint8_t> pending,
+               const std::vector<std::string>& notes)
 {
     const StationConfig& config = *station.config;
     const profile::Profile& profile = *config.profile;
@@ -172,29 +196,36 @@ json info_json(const StationView& station, std::optional<std::uint8_t> pending)
         max_tsdr.push_back(personality.max_tsdr[i].count);
     }
     const std::size_t demand_octets = personality.demand == dp::DemandForm::none ? 0 : 8;
-    const std::size_t most_octets = demand_octets + 2 * personality.max_parameters;
-    return {{"name", config.name},
-            {"profile", profile.name},
-            {"device", profile.device},
-            {"order_code", profile.order_code},
-            {"firmware", profile.firmware},
-            {"manual", profile.manual},
-            {"ident", personality.ident},
-            {"address_active", config.address},
-            {"address_pending", pending ? json(*pending) : json(nullptr)},
-            {"address_min", profile.min_address},
-            {"address_max", profile.max_address},
-            {"max_parameters", personality.max_parameters},
-            {"max_input_octets", most_octets},
-            {"max_output_octets", most_octets},
-            {"max_diag_octets", personality.max_diag_length},
-            {"demand_data", personality.demand != dp::DemandForm::none},
-            {"sync", personality.sync},
-            {"freeze", personality.freeze},
-            {"bauds", bauds},
-            {"max_tsdr", max_tsdr},
-            {"tag_table", config.tag_file},
-            {"tags_in_table", config.tags->all().size()}};
+    std::size_t most_octets = demand_octets + 2 * personality.max_parameters;
+    if (personality.max_words != 0) most_octets = std::min(most_octets, 2 * personality.max_words);
+    return {
+        {"name", config.name},
+        {"profile", profile.name},
+        {"device", profile.device},
+        {"order_code", profile.order_code},
+        {"firmware", profile.firmware},
+        {"manual", profile.manual},
+        {"ident", personality.ident},
+        {"address_active", station.address},
+        {"address_pending", pending ? json(*pending) : json(nullptr)},
+        {"address_min", profile.min_address},
+        {"address_max", profile.max_address},
+        {"max_parameters", personality.max_parameters},
+        {"max_input_octets", most_octets},
+        {"max_output_octets", most_octets},
+        {"max_diag_octets", personality.max_diag_length},
+        {"demand_data", personality.demand != dp::DemandForm::none},
+        {"sync", personality.sync},
+        {"freeze", personality.freeze},
+        {"bauds", bauds},
+        {"max_tsdr", max_tsdr},
+        {"tag_table", config.tag_file},
+        {"tags_in_table", config.tags->all().size()},
+        {"option_software", profile.option_software.empty() ? json(nullptr) : json(profile.option_software)},
+        {"comms_status", comms_status(station)},
+        {"resolution", profile.selectable_resolution ? json(config.integer_resolution ? "integer" : "full")
+                                                     : json(nullptr)},
+        {"notes", notes}};
 }
 
 json words_json(const StationView& station, Instant now)
@@ -234,8 +265,8 @@ json io_json(const StationView& station, Instant now)
     if (bus.demand_data)
         demand = {{"request", bus.demand_request},
                   {"reply", bus.demand_reply},
-                  {"words", demand_words(bus.demand_request, bus.demand_reply)}};
-    return {{"name", station.config->name},      {"address", station.config->address},
+                  {"words", demand_words(*station.config, bus.demand_request, bus.demand_reply)}};
+    return {{"name", station.config->name},      {"address", station.address},
             {"state", dp::text(bus.state)},      {"may_write", bus.may_write},
             {"words", words_json(station, now)}, {"demand", demand}};
 }
@@ -263,7 +294,7 @@ json leds_json(const StationConfig& station, const led::Condition& condition, In
         leds.push_back({{"name", lamp.name},
                         {"sink", wired == station.leds.end() ? "none" : wired->sink},
                         {"lit", led::lit(lamp.pattern, now)},
-                        {"pattern", pattern_words(lamp.pattern)}});
+                        {"pattern", led::words(station.profile->leds, lamp.pattern)}});
     }
     return {
         {"name", station.name}, {"meaning", led::meaning(station.profile->leds, condition)}, {"leds", leds}};
@@ -281,9 +312,10 @@ std::string bad_value_words(const drive::Tag& tag, AccessError error)
         case AccessError::unsupported_type:
             return fmt::format("{} is a {}, which is not transported", tag.name, drive::text(tag.type));
         default:
-            return fmt::format("takes a {}{}", drive::text(tag.type),
+            return fmt::format("takes a {}{}{}", drive::text(tag.type),
                                tag.decimals > 0 ? fmt::format(" with up to {} decimals", tag.decimals)
-                                                : std::string{});
+                                                : std::string{},
+                               names_of_values(tag));
     }
 }
 
@@ -305,7 +337,7 @@ json diagnosis_json(const StationView& station)
         trouble.push_back("the drive does not answer: its inputs are held and marked stale");
     for (const std::string& one : station.troubles) trouble.push_back(one);
 
-    json result = diagnosis_octets_json(station.bus.diagnosis.bytes());
+    json result = diagnosis_octets_json(*station.config, station.bus.diagnosis.bytes());
     result["name"] = station.config->name;
     result["hex"] = hex(station.bus.diagnosis.bytes());
     result["refusal"] = refusal;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Diagnosis, refusals and events in words.
 #include "dpslave/app/report.hpp"
+#include "dpslave/dp/diagnosis_bits.hpp"
 
 #include <fmt/format.h>
 
@@ -10,33 +11,7 @@ using nlohmann::json;
 
 namespace {
 
-struct DiagBit {
-    std::size_t offset;
-    std::uint8_t mask;
-    std::string_view name;
-    std::string_view meaning;
-};
-
-/// Wire reference 5.1. Bits that only a master sets are named as well: a capture may be decoded some day.
-constexpr DiagBit kDiagBits[] = {
-    {0, 0x01, "Station_Non_Existent", "set by the master: no answer from the slave"},
-    {0, 0x02, "Station_Not_Ready", "not ready for data exchange"},
-    {0, 0x04, "Cfg_Fault", "the last Chk_Cfg did not match"},
-    {0, 0x08, "Ext_Diag", "the extended diagnosis reports a fault"},
-    {0, 0x10, "Not_Supported", "Sync or Freeze was asked for and is not supported"},
-    {0, 0x20, "Invalid_Slave_Response", "set by the master: implausible reply"},
-    {0, 0x40, "Prm_Fault", "the last Set_Prm was wrong"},
-    {0, 0x80, "Master_Lock", "set by the master: parameterised by another master"},
-    {1, 0x01, "Prm_Req", "must be parameterised"},
-    {1, 0x02, "Stat_Diag", "starting: inputs are not valid yet, the master goes on reading the diagnosis"},
-    {1, 0x08, "WD_On", "watchdog on"},
-    {1, 0x10, "Freeze_Mode", "inputs are frozen"},
-    {1, 0x20, "Sync_Mode", "outputs are held"},
-    {1, 0x80, "Deactivated", "set by the master: the slave is inactive"},
-    {2, 0x80, "Ext_Diag_Overflow", "more diagnosis than fits"},
-};
-
-std::string octet_meaning(std::size_t offset, Bytes diagnosis)
+std::string octet_meaning(const StationConfig& station, std::size_t offset, Bytes diagnosis)
 {
     switch (offset) {
         case 0: return "Station_status_1";
@@ -47,7 +22,7 @@ std::string octet_meaning(std::size_t offset, Bytes diagnosis)
                                         : fmt::format("Master_Add: owned by master {}", diagnosis[3]);
         case 4: return "Ident_Number, high octet";
         case 5: return fmt::format("Ident_Number, low octet: 0x{:04X}", be16(diagnosis, 4));
-        default: return "extended diagnosis";
+        default: return extended_meaning(station, offset, diagnosis);
     }
 }
 
@@ -86,16 +61,16 @@ bool is_cfg(dp::Refusal why)
 
 } // namespace
 
-json diagnosis_octets_json(Bytes diagnosis)
+json diagnosis_octets_json(const StationConfig& station, Bytes diagnosis)
 {
     json octets = json::array();
     for (std::size_t i = 0; i < diagnosis.size(); ++i)
         octets.push_back({{"octet", i + 1},
                           {"offset", i},
                           {"value", diagnosis[i]},
-                          {"meaning", octet_meaning(i, diagnosis)}});
+                          {"meaning", octet_meaning(station, i, diagnosis)}});
     json bits = json::array();
-    for (const DiagBit& bit : kDiagBits)
+    for (const dp::DiagnosisBit& bit : dp::kDiagnosisBits)
         if (bit.offset < diagnosis.size() && (diagnosis[bit.offset] & bit.mask) != 0)
             bits.push_back(fmt::format("{}: {}", bit.name, bit.meaning));
     return {{"octets", octets}, {"bits", bits}};

@@ -47,6 +47,14 @@ RefusalDetail check_chk_cfg(const Personality& personality, std::span<const std:
     const std::size_t first = taken.demand ? 1 : 0;
     if (taken.demand) taken.in_length = taken.out_length = kDemandOctets;
 
+    // Demand Data is in both lengths: its 8 words count as well.
+    const auto fits = [&](const Identifier& one) {
+        const std::size_t more = (one.reads ? 1u : 0u) + (one.writes ? 1u : 0u);
+        const std::size_t words = (taken.in_length + taken.out_length) / 2 + more;
+        return personality.max_words == 0 || words <= personality.max_words;
+    };
+    if (!fits({})) return refuse(Refusal::cfg_too_long, 1, 0, cfg.size());
+
     const std::size_t most = std::min(personality.max_parameters, kMaxParameters);
     const std::size_t count = cfg.size() - first;
     const bool has_tags = personality.prm.list != TagList::none;
@@ -55,7 +63,8 @@ RefusalDetail check_chk_cfg(const Personality& personality, std::span<const std:
         const Identifier* identifier = find(personality, cfg[first + i]);
         if (identifier == nullptr)
             return refuse(Refusal::cfg_identifier, octet, a_legal_one(personality), cfg[first + i]);
-        if (i == most) return refuse(Refusal::cfg_too_long, octet, first + most, cfg.size());
+        if (i == most || !fits(*identifier))
+            return refuse(Refusal::cfg_too_long, octet, first + i, cfg.size());
         // Without tags the place is the number. With tags an identifier beyond the list is refused by the
         // counts below.
         add(taken, has_tags && i < tags.size() ? tags[i] : static_cast<std::uint16_t>(i + 1), *identifier);

@@ -22,6 +22,11 @@ constexpr bool is_extended(std::uint8_t command)
     return command == kExtendedRead || command == kExtendedWrite;
 }
 
+constexpr std::uint16_t first_word(std::uint8_t command, std::uint16_t tag)
+{
+    return static_cast<std::uint16_t>((command << 12) + tag);
+}
+
 // Error codes, before the personality's base.
 constexpr std::uint16_t kInvalidTag = 0;
 constexpr std::uint16_t kReadOnly = 1;
@@ -83,13 +88,12 @@ void DemandData::request(const DemandRegisters& registers)
     const Wanted wanted = wanted_by(registers);
     if (wanted == wanted_) return; // a standing read goes on, a write was executed once
     wanted_ = wanted;
-    const bool extended = personality_->demand == DemandForm::extended && is_extended(wanted.command);
     if (wanted.command == kNoCommand) {
         withdraw();
         reply_ = {};
     } else if (wanted.command == kRead || wanted.command == kWrite) {
         give(wanted.command == kRead ? DemandOrder::Kind::read : DemandOrder::Kind::write);
-    } else if (extended && wanted.tag_field == 0 && wanted.extended_tag <= kMaxExtendedTag) {
+    } else if (is_extended_form() && wanted.tag_field == 0 && wanted.extended_tag <= kMaxExtendedTag) {
         give(wanted.command == kExtendedRead ? DemandOrder::Kind::read : DemandOrder::Kind::write);
     } else {
         withdraw();
@@ -129,25 +133,50 @@ void DemandData::answer(const DemandAnswer& answer)
 {
     if (standing_.kind == DemandOrder::Kind::cancel || answer.number != standing_.number) return;
     if (answer.error == AccessError::none)
-        reply_with(kRead, answer.value);
+        accept(answer.value);
     else if (const auto code = demand_code(answer.error))
         reject(*code);
     // else no code stands for it: the previous answer stays
 }
 
-void DemandData::reply_with(std::uint16_t command, std::uint16_t value)
+bool DemandData::is_extended_form() const
 {
-    const bool extended = personality_->demand == DemandForm::extended && is_extended(wanted_.command);
-    const auto echo = extended ? std::uint16_t{0} : wanted_.tag_field;
-    reply_ = {static_cast<std::uint16_t>((command << 12) | echo),
-              extended ? wanted_.extended_tag : std::uint16_t{0}, std::uint16_t{0}, value};
+    return personality_->demand == DemandForm::extended && is_extended(wanted_.command);
+}
+
+/// The standard commands are answered alike in both forms: worked example 1 is as the table.
+bool DemandData::as_example() const
+{
+    return is_extended_form() && personality_->extended_reply == ExtendedReply::example;
+}
+
+/// Worked example 2 has the request's own 3000 come back where the table has 1000. The handbook shows no
+/// write; it calls the download the inverse of the upload, so the 4000 of a write comes back in the same way.
+void DemandData::accept(std::uint16_t value)
+{
+    reply_with(first_word(as_example() ? wanted_.command : std::uint8_t{kRead}, tag_echo()), value);
 }
 
 void DemandData::reject(std::uint16_t code)
 {
+    // Worked example 2 adds the whole tag to 7000, also where it runs into the command: 37000 for 8328. A tag
+    // that is none would run out of the word: it is answered as in the table.
+    const bool adds_tag = as_example() && wanted_.extended_tag <= kMaxExtendedTag;
     const DemandRegisters before = reply_;
-    reply_with(kReject, static_cast<std::uint16_t>(code + personality_->demand_error_base));
+    reply_with(first_word(kReject, adds_tag ? wanted_.extended_tag : tag_echo()),
+               static_cast<std::uint16_t>(code + personality_->demand_error_base));
     if (reply_ != before) ++rejected_; // a standing read that is refused at each refresh counts once
+}
+
+std::uint16_t DemandData::tag_echo() const
+{
+    return is_extended_form() ? std::uint16_t{0} : wanted_.tag_field;
+}
+
+void DemandData::reply_with(std::uint16_t first, std::uint16_t value)
+{
+    const std::uint16_t extended_tag = is_extended_form() ? wanted_.extended_tag : std::uint16_t{0};
+    reply_ = {first, extended_tag, std::uint16_t{0}, value};
 }
 
 } // namespace dpslave::dp

@@ -29,7 +29,16 @@ constexpr std::uint8_t kMasterSap = 62;
 
 Slave::Slave(const Personality& personality, std::uint8_t address)
     : personality_(personality), address_(address), demand_(personality)
-{}
+{
+    take_ext_diag({}, false); // no event: it is what the device says when there is nothing to say
+}
+
+bool Slave::set_address(std::uint8_t address)
+{
+    if (state_ != State::power_on) return false;
+    address_ = address;
+    return true;
+}
 
 void Slave::start(Instant now)
 {
@@ -184,10 +193,21 @@ void Slave::set_demand_answer(const DemandAnswer& answer)
 
 bool Slave::set_ext_diag(Bytes blocks, bool fault)
 {
-    const std::size_t room = std::max(personality_.max_diag_length, kStandardDiagnosis) - kStandardDiagnosis;
-    const auto outcome = ext_diag_.set(blocks, fault, room);
+    const auto outcome = take_ext_diag(blocks, fault);
     if (outcome.changed) act(Trigger::diagnosis_changed, Instant{});
     return outcome.well_formed;
+}
+
+ExtendedDiagnosis::Outcome Slave::take_ext_diag(Bytes blocks, bool fault)
+{
+    const std::size_t room = std::max(personality_.max_diag_length, kStandardDiagnosis) - kStandardDiagnosis;
+    std::array<std::uint8_t, kLongestBlock> zeros{};
+    if (blocks.empty() && personality_.diag_octets != 0) {
+        const std::size_t length = std::min<std::size_t>(personality_.diag_octets + 1u, zeros.size());
+        zeros[0] = static_cast<std::uint8_t>(length); // bits 7 and 6 clear: device-related
+        blocks = Bytes{zeros}.first(length);
+    }
+    return ext_diag_.set(blocks, fault, room);
 }
 
 std::optional<OutputImage> Slave::take_outputs()

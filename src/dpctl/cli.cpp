@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli.hpp"
 
+#include "gsd.hpp"
+#include "json_forms.hpp"
 #include "subcommands.hpp"
 
 #include <CLI/CLI.hpp>
@@ -12,35 +14,91 @@
 namespace dpslave::dpctl {
 namespace {
 
-/// What stands behind the name of a subcommand.
-enum class Takes { nothing, station, tag, tag_and_value };
+/// What a subcommand needs, and so which options and exit codes it has.
+enum class Needs { daemon, daemon_to_judge, files };
+
+constexpr const char* exits_of(Needs needs)
+{
+    switch (needs) {
+        case Needs::daemon: return "0 fine, 1 refused, faulty or not so, 2 usage, 3 no daemon.";
+        case Needs::daemon_to_judge: return "0 all is well, 1 something was found, 2 usage, 3 no daemon.";
+        case Needs::files: break;
+    }
+    return "0 fine, 1 not found or faulty, 2 usage; no daemon is needed.";
+}
 
 struct Subcommand {
     const char* name;
     const char* help;
-    const char* method; ///< of org.dpslaved.Control, whose reply --json prints
-    Takes takes;
+    const char* json; ///< what --json prints: the method whose reply it is, or the form of the object
+    Needs needs;
+    const char* examples; ///< a line each; may be empty
+    void (*arguments)(CLI::App&, Options&);
     int (*run)(const Options&, Terminal&);
 };
 
+void no_arguments(CLI::App&, Options&);
+void station_argument(CLI::App&, Options&);
+void tag_argument(CLI::App&, Options&);
+void tag_and_value_arguments(CLI::App&, Options&);
+void tec_arguments(CLI::App&, Options&);
+void doctor_arguments(CLI::App&, Options&);
+void query_arguments(CLI::App&, Options&);
+void number_arguments(CLI::App&, Options&);
+void octet_arguments(CLI::App&, Options&);
+
 constexpr std::array kSubcommands = std::to_array<Subcommand>({
-    {"status", "The bus and each station in one line", "GetStatus", Takes::nothing, do_status},
-    {"stations", "All about each station's state and its drive link", "ListStations", Takes::nothing,
-     do_stations},
-    {"info", "What is emulated: device, order code, ident, limits, address", "GetInfo", Takes::station,
-     do_info},
-    {"io", "Inputs and outputs by tag: raw, scaled, state and age", "GetIo", Takes::station, do_io},
-    {"diag", "The diagnosis decoded, and the last refused telegram explained", "GetDiagnosis", Takes::station,
-     do_diag},
-    {"counters", "What happened how often", "GetCounters", Takes::nothing, do_counters},
-    {"read", "Reads a tag from the drive now", "ReadTag", Takes::tag, do_read},
-    {"write", "Writes a tag of the drive now (root and the operator group)", "WriteTag", Takes::tag_and_value,
-     do_write},
-    {"leds", "What the lamps show, and what that means", "GetLeds", Takes::station, do_leds},
-    {"watch", "Shows changes until Ctrl-C", "Watch", Takes::station, do_watch},
-    {"version", "Versions of dpctl and of the daemon", "GetVersion", Takes::nothing, do_version},
+    {"status", "The bus and each station in one line", "GetStatus", Needs::daemon, "", no_arguments,
+     do_status},
+    {"stations", "All about each station's state and its drive link", "ListStations", Needs::daemon, "",
+     no_arguments, do_stations},
+    {"info", "What is emulated: device, order code, ident, limits, address", "GetInfo", Needs::daemon, "",
+     station_argument, do_info},
+    {"io", "Inputs and outputs by tag: raw, scaled, state and age", "GetIo", Needs::daemon, "",
+     station_argument, do_io},
+    {"diag", "The diagnosis decoded, and the last refused telegram explained", "GetDiagnosis", Needs::daemon,
+     "", station_argument, do_diag},
+    {"doctor", "Names the likely cause of a fault and the next step", kDoctorJson, Needs::daemon_to_judge,
+     "dpctl doctor            every station\n"
+     "dpctl doctor unwinder   this one\n"
+     "dpctl doctor --all      all rules, for lamps and symptoms that you see; needs no daemon",
+     doctor_arguments, do_doctor},
+    {"counters", "What happened how often", "GetCounters", Needs::daemon, "", no_arguments, do_counters},
+    {"read", "Reads a tag from the drive now", "ReadTag", Needs::daemon, "", tag_argument, do_read},
+    {"write", "Writes a tag of the drive now (root and the operator group)", "WriteTag", Needs::daemon,
+     "dpctl write 56 -12.5 --station unwinder", tag_and_value_arguments, do_write},
+    {"tec", "The TEC OPTION function block of a technology box: shows it, sets its inputs",
+     "GetTec or SetTec", Needs::daemon,
+     "dpctl tec                            the function block of every technology box\n"
+     "dpctl tec set TYPE \"PROFIBUS DP\"     sets an input until the next start (root and the operator "
+     "group)\n"
+     "dpctl tec set RIDE_THROUGH -1 --station unwinder",
+     tec_arguments, do_tec},
+    {"leds", "What the lamps show, and what that means", "GetLeds", Needs::daemon, "", station_argument,
+     do_leds},
+    {"watch", "Shows changes until Ctrl-C", "Watch", Needs::daemon, "", station_argument, do_watch},
+    {"version", "Versions of dpctl and of the daemon", "GetVersion", Needs::daemon, "", no_arguments,
+     do_version},
     {"is-exchanging", "For scripts: 0 when all stations, or this one, are in Data_Exch, 1 when not",
-     "ListStations", Takes::station, do_is_exchanging},
+     "ListStations", Needs::daemon, "", station_argument, do_is_exchanging},
+    {"tag", "Looks a parameter of a drive up in the tag tables, by number or by words", kTagJson,
+     Needs::files,
+     "dpctl tag                            the tables that are shipped\n"
+     "dpctl tag 270\n"
+     "dpctl tag autotune\n"
+     "dpctl tag program 1 segment 4 type   the address of a word of a program\n"
+     "dpctl tag speed --profile 590plus",
+     query_arguments, do_tag},
+    {"hex", "Numbers of 16 bits in decimal and hexadecimal, with the octets for User_Prm_Data", kHexJson,
+     Needs::files,
+     "dpctl hex 288 0x120\n"
+     "dpctl hex -300.00       with two decimals, as it goes over the bus: 8AD0\n"
+     "dpctl hex 0-559         the table of the manuals",
+     number_arguments, do_hex},
+    {"decode", "A PROFIBUS telegram or a diagnosis in words", kDecodeJson, Needs::files,
+     "dpctl decode 68 05 05 68 85 82 6D 3C 3E EE 16\n"
+     "dpctl decode 00 0C 00 01 16 49 04 01 6A B5 --profile 605",
+     octet_arguments, do_decode},
 });
 
 constexpr const char* kFooter =
@@ -50,15 +108,40 @@ constexpr const char* kFooter =
     "Their description is the Varlink interface org.dpslaved.Control: see org.dpslaved.Control.varlink in\n"
     "/usr/share/dpslaved, or ask the daemon: varlinkctl introspect /run/dpslaved/control.sock "
     "org.dpslaved.Control\n"
+    "What needs no daemon (tag, hex, decode) or judges its replies (doctor) says the form of its --json in "
+    "its\n"
+    "own --help.\n"
     "Exit codes:\n"
     "  0  fine\n"
-    "  1  refused by the daemon or the drive, a faulty answer, or not so (is-exchanging)\n"
+    "  1  refused by the daemon or the drive, a faulty answer or input, not found, or not so (is-exchanging, "
+    "doctor)\n"
     "  2  usage\n"
     "  3  no daemon";
 
+/// "--json prints ...", the examples, the exit codes.
+std::string footer_of(const Subcommand& subcommand)
+{
+    std::string footer;
+    if (*subcommand.examples != '\0') {
+        footer = std::string{"Examples:\n"} + subcommand.examples;
+        for (std::size_t at = 0; (at = footer.find('\n', at)) != std::string::npos; at += 3)
+            footer.insert(at + 1, "  ");
+        footer += '\n';
+    }
+    const std::string json = subcommand.json;
+    footer += "--json prints " +
+              (json.front() == '{' ? json : "the reply of " + json + " (org.dpslaved.Control.varlink)");
+    return footer + ". Exit codes: " + exits_of(subcommand.needs);
+}
+
+void add_json(CLI::App& app, Options& options)
+{
+    app.add_flag("--json", options.json, "Print JSON");
+}
+
 void add_common(CLI::App& app, Options& options)
 {
-    app.add_flag("--json", options.json, "Print the parameters of the reply as JSON");
+    add_json(app, options);
     app.add_option("--socket", options.socket, "The daemon's control socket")
         ->type_name("PATH")
         ->capture_default_str();
@@ -68,22 +151,92 @@ void add_common(CLI::App& app, Options& options)
         ->capture_default_str();
 }
 
-void add_arguments(CLI::App& app, Takes takes, Options& options)
+void no_arguments(CLI::App&, Options&) {}
+
+void station_argument(CLI::App& app, Options& options)
 {
-    constexpr const char* kStation = "Name or address; without it: all";
-    if (takes == Takes::station) app.add_option("STATION", options.station, kStation)->type_name("");
-    if (takes != Takes::tag && takes != Takes::tag_and_value) return;
+    app.add_option("STATION", options.station, "Name or address; without it: all")->type_name("");
+}
+
+void station_option(CLI::App& app, Options& options)
+{
+    app.add_option("--station", options.station, "Name or address; needed when there are several")
+        ->type_name("STATION");
+}
+
+void tag_argument(CLI::App& app, Options& options)
+{
     app.add_option("TAG", options.tag, "Tag of the drive, decimal, 0 to 65535")
         ->required()
         ->type_name("")
         ->check(CLI::Range(0, 65535).description(""));
-    if (takes == Takes::tag_and_value)
-        app.add_option("VALUE", options.value,
-                       "As the drive shows it: -12.5, 0x00FF for a WORD, a name of an ENUM")
-            ->required()
-            ->type_name("");
-    app.add_option("--station", options.station, "Name or address; needed when there are several")
-        ->type_name("STATION");
+    station_option(app, options);
+}
+
+void tag_and_value_arguments(CLI::App& app, Options& options)
+{
+    tag_argument(app, options);
+    app.add_option("VALUE", options.value,
+                   "As the drive shows it: -12.5, 0x00FF for a WORD, a name of an ENUM")
+        ->required()
+        ->type_name("");
+}
+
+void tec_arguments(CLI::App& app, Options& options)
+{
+    station_argument(app, options);
+    CLI::App& set = *app.add_subcommand("set", "Sets an input until the next start");
+    set.add_option("NAME", options.parameter, "Name of the input: TYPE, ADDRESS, RIDE_THROUGH ...")
+        ->required()
+        ->type_name("");
+    set.add_option("VALUE", options.value, "A number (12, -1, 0x6AB5), of TYPE also a name")
+        ->required()
+        ->type_name("");
+    station_option(set, options);
+    add_common(set, options);
+    set.callback([&options] { options.set = true; });
+}
+
+void doctor_arguments(CLI::App& app, Options& options)
+{
+    station_argument(app, options);
+    app.add_flag("--all", options.all, "Print every rule: lamps and symptoms, causes, steps");
+}
+
+void profile_options(CLI::App& app, Options& options, const char* what_profile_does)
+{
+    app.add_option("--profile", options.profile, what_profile_does)->type_name("NAME");
+    app.add_option("--profiles", options.profiles,
+                   "Folder of the device profiles; the tag tables lie in ../tags")
+        ->type_name("DIR")
+        ->capture_default_str();
+}
+
+void query_arguments(CLI::App& app, Options& options)
+{
+    app.add_option("WHAT", options.words,
+                   "A tag number (270, 0x10E), or words of its name; a number belongs to the word before it")
+        ->type_name("");
+    app.add_flag("--all", options.all, "Also names that say more than WHAT");
+    auto* table = app.add_option("--table", options.table, "Look into this CSV file only")->type_name("FILE");
+    profile_options(app, options, "Look into the table of this profile only");
+    table->excludes("--profile");
+}
+
+void number_arguments(CLI::App& app, Options& options)
+{
+    app.add_option("NUMBER", options.words,
+                   "Decimal (288, -300.00), hexadecimal (0x120, >120, 120h) or a range (0-559)")
+        ->required()
+        ->type_name("");
+}
+
+void octet_arguments(CLI::App& app, Options& options)
+{
+    app.add_option("HEX", options.words, "Octets: 10 05 02 49 50 16, with or without blanks")
+        ->required()
+        ->type_name("");
+    profile_options(app, options, "Take tags, modules and the extended diagnosis for those of this device");
 }
 
 /// CLI11 takes -12.5 as a number, but -.5 as an option.
@@ -103,16 +256,15 @@ int run(const std::vector<std::string>& arguments, Terminal& terminal)
     app.footer(kFooter);
     app.require_subcommand(1);
     add_common(app, options);
-    const Subcommand* chosen = nullptr;
+    Action chosen;
     for (const Subcommand& subcommand : kSubcommands) {
         CLI::App& own = *app.add_subcommand(subcommand.name, subcommand.help);
-        own.footer(std::string{"--json prints the reply of "} + subcommand.method +
-                   " (org.dpslaved.Control.varlink). Exit codes: 0 fine, 1 refused, faulty or not so, 2 "
-                   "usage, 3 no daemon.");
-        add_common(own, options);
-        add_arguments(own, subcommand.takes, options);
-        own.callback([&chosen, &subcommand] { chosen = &subcommand; });
+        own.footer(footer_of(subcommand));
+        subcommand.needs == Needs::files ? add_json(own, options) : add_common(own, options);
+        subcommand.arguments(own, options);
+        own.callback([&chosen, &subcommand] { chosen = subcommand.run; });
     }
+    add_gsd(app, chosen);
     try {
         std::vector<std::string> reversed(arguments.rbegin(), arguments.rend()); // the order CLI11 wants
         std::transform(reversed.begin(), reversed.end(), reversed.begin(), with_leading_zero);
@@ -120,7 +272,7 @@ int run(const std::vector<std::string>& arguments, Terminal& terminal)
     } catch (const CLI::ParseError& error) {
         return app.exit(error, terminal.out, terminal.err) == 0 ? kFine : kUsage;
     }
-    return chosen->run(options, terminal);
+    return chosen(options, terminal);
 }
 
 } // namespace dpslave::dpctl

@@ -40,6 +40,17 @@ std::string bad_value(const Json& p)
     return fmt::format("tag {}: the value '{}' does not fit: {}", number(p, "tag"), text(p, "value"),
                        text(p, "reason"));
 }
+std::string no_tec_option(const Json& p)
+{
+    return fmt::format(
+        "the device of station '{}' has no TEC OPTION function block; technology boxes have one",
+        text(p, "station"));
+}
+std::string bad_tec_value(const Json& p)
+{
+    return fmt::format("{} cannot be set to '{}': {}", text(p, "parameter"), text(p, "value"),
+                       text(p, "reason"));
+}
 std::string busy(const Json&)
 {
     return "the daemon has too many callers or orders at once; try again";
@@ -71,6 +82,8 @@ constexpr std::array kSentences = std::to_array<Row>({
     {"org.dpslaved.Control.NotPermitted", not_permitted},
     {"org.dpslaved.Control.DriveRefused", drive_refused},
     {"org.dpslaved.Control.BadValue", bad_value},
+    {"org.dpslaved.Control.NoTecOption", no_tec_option},
+    {"org.dpslaved.Control.BadTecValue", bad_tec_value},
     {"org.dpslaved.Control.Busy", busy},
     {"org.varlink.service.InvalidParameter", invalid_parameter},
     {"org.varlink.service.MethodNotFound", method_not_found},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ask.hpp"
+#include "doctor.hpp"
 #include "render.hpp"
 #include "subcommands.hpp"
 #include "words.hpp"
@@ -14,11 +15,6 @@ int plain(const Options& options, Terminal& terminal, std::string_view method, c
 {
     return show(options, terminal, method, parameters,
                 [&](const Json& reply) { return render(reply, terminal.colour); });
-}
-
-bool is_meant(const Json& station, const std::string& wanted)
-{
-    return wanted.empty() || text(station, "name") == wanted || number(station, "address") == wanted;
 }
 
 } // namespace

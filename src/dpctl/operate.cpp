@@ -22,4 +22,15 @@ int do_write(const Options& options, Terminal& terminal)
                 [](const Json& reply) { return render_tag(reply, "is now"); });
 }
 
+int do_tec(const Options& options, Terminal& terminal)
+{
+    Json parameters = station_parameter(options);
+    if (options.set) {
+        parameters["parameter"] = options.parameter;
+        parameters["value"] = options.value;
+    }
+    return show(options, terminal, options.set ? "SetTec" : "GetTec", parameters,
+                [&](const Json& reply) { return render_tec(reply, terminal.colour); });
+}
+
 } // namespace dpslave::dpctl

@@ -25,6 +25,13 @@ std::string limits(const Json& info)
                        number(info, "max_output_octets"), number(info, "max_diag_octets"));
 }
 
+/// The two words of a controller's Comms list (2408f/2404f handbook ch. 4).
+std::string comms_status(const std::string& shown)
+{
+    if (shown == "rdY") return "rdY (ready to run)";
+    return shown == "run" ? "run (comms running)" : shown;
+}
+
 /// "9.6 kbit/s: 60 T_bit" a line.
 std::string rates(const Json& info)
 {
@@ -50,11 +57,17 @@ std::string render_info(const Json& reply, std::string_view version)
         block.add("emulates", text(info, "device"));
         block.add("order code", text(info, "order_code"));
         block.add("OPTION VERSION", std::string{version});
+        if (const std::string software = text(info, "option_software", ""); !software.empty())
+            block.add("option software", software);
         block.add("host firmware", text(info, "firmware"));
         block.add("manual", text(info, "manual"));
         block.add("profile", text(info, "profile"));
         block.add("Ident_Number", fmt::format("0x{:04X}", integer(info, "ident").value_or(0)));
         block.add("address", address(info));
+        if (const std::string status = text(info, "comms_status", ""); !status.empty())
+            block.add("comms status", comms_status(status));
+        if (const std::string resolution = text(info, "resolution", ""); !resolution.empty())
+            block.add("resolution", resolution);
         block.add("legal addresses",
                   fmt::format("{} to {}", number(info, "address_min"), number(info, "address_max")));
         block.add("at most", limits(info));
@@ -63,6 +76,8 @@ std::string render_info(const Json& reply, std::string_view version)
         block.add("rates", rates(info));
         block.add("tag table", fmt::format("{}, {}", text(info, "tag_table"),
                                            plural(integer(info, "tags_in_table").value_or(0), "tag")));
+        if (const std::string notes = joined(list(info, "notes"), "\n"); !notes.empty())
+            block.add("notes", notes);
         out += (out.empty() ? "" : "\n") + text(info, "name") + '\n' + block.str();
     }
     return out;

@@ -5,7 +5,9 @@
 #include "terminal.hpp"
 
 #include <chrono>
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace dpslave::dpctl {
 
@@ -15,13 +17,26 @@ struct Options {
     bool json = false;
     std::string station; ///< name or address; empty = not said
     int tag = 0;
+    std::string parameter; ///< of the TEC OPTION function block
     std::string value;
+    bool set = false; ///< `tec set`
+    bool all = false; ///< `tag`: also names that say more than the query; `doctor`: every rule
+
+    // Of the subcommands that need no daemon.
+    std::vector<std::string> words; ///< query, numbers or octets
+    std::string profiles =
+        DPSLAVE_DATA_FOLDER "/profiles"; ///< the tag tables lie in ../tags (given by CMake)
+    std::string profile;                 ///< empty = not said
+    std::string table;                   ///< a CSV file; empty = not said
 
     std::chrono::milliseconds timeout() const
     {
         return std::chrono::milliseconds{static_cast<std::chrono::milliseconds::rep>(timeout_s * 1000)};
     }
 };
+
+/// What the command line chose.
+using Action = std::function<int(const Options&, Terminal&)>;
 
 // look.cpp
 int do_status(const Options&, Terminal&);
@@ -37,8 +52,17 @@ int do_is_exchanging(const Options&, Terminal&);
 // operate.cpp
 int do_read(const Options&, Terminal&);
 int do_write(const Options&, Terminal&);
+int do_tec(const Options&, Terminal&);
 
 // watch.cpp
 int do_watch(const Options&, Terminal&);
+
+// doctor.cpp
+int do_doctor(const Options&, Terminal&);
+
+// tag.cpp, hex.cpp, decode.cpp: without a daemon
+int do_tag(const Options&, Terminal&);
+int do_hex(const Options&, Terminal&);
+int do_decode(const Options&, Terminal&);
 
 } // namespace dpslave::dpctl

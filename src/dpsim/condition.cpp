@@ -20,13 +20,6 @@ std::size_t process_start(const MasterSettings& settings)
     return has_demand(settings) ? kDemandOctets : 0;
 }
 
-DemandWords demand_of(Bytes eight)
-{
-    const std::uint16_t first = be16(eight, 0);
-    return {static_cast<std::uint8_t>(first >> 12), static_cast<std::uint16_t>(first & 0x07FF),
-            be16(eight, 6)};
-}
-
 bool is_relation(std::string_view word)
 {
     constexpr std::array<std::string_view, 7> kRelations{"=", "==", "!=", "<", ">", "<=", ">="};
@@ -51,7 +44,7 @@ Words separated(const Words& words)
 {
     const auto kind = [](char c) {
         if (c == '=' || c == '<' || c == '>' || c == '!') return 1;
-        return 0;
+        return c == '&' ? 2 : 0;
     };
     Words out;
     for (const std::string& word : words) {
@@ -76,32 +69,55 @@ Words separated(const Words& words)
     return out;
 }
 
-Result<Condition, std::string> word_condition(const Words& w)
+/// "& MASK" at this place goes from the words into the condition; false if it is no mask.
+bool take_mask(Words& w, std::size_t at, Condition& c)
+{
+    if (w.size() <= at || w[at] != "&") return true;
+    const auto mask = w.size() > at + 1 ? number_of(w[at + 1]) : std::nullopt;
+    if (!mask || *mask < 1 || *mask > 0xFFFF) return false;
+    c.mask = static_cast<std::uint16_t>(*mask);
+    w.erase(w.begin() + static_cast<std::ptrdiff_t>(at), w.begin() + static_cast<std::ptrdiff_t>(at) + 2);
+    return true;
+}
+
+Result<Condition, std::string> word_condition(Words w)
 {
     Condition c{.subject = w[0] == "in" ? Condition::Subject::input : Condition::Subject::output};
+    const bool masked = take_mask(w, 2, c);
     const auto index = w.size() == 4 ? number_of(w[1]) : std::nullopt;
     const auto value = w.size() == 4 ? number_of(w[3]) : std::nullopt;
-    if (!index || *index < 1 || !value || !is_relation(w[2]))
-        return Failure{fmt::format("write it as: {} 1 = 1250 (or != < > <= >=)", w[0])};
+    if (!masked || !index || *index < 1 || !value || !is_relation(w[2]))
+        return Failure{fmt::format("write it as: {0} 1 = 1250 (or != < > <= >=), {0} 1 & 0x1000 = 0", w[0])};
     c.index = static_cast<std::size_t>(*index);
     c.relation = w[2];
     c.value = *value;
     return c;
 }
 
-Result<Condition, std::string> demand_condition(const Words& w)
+Result<Condition, std::string> demand_condition(Words w)
 {
     Condition c{.subject = Condition::Subject::demand_none};
     if (w.size() == 2 && w[1] == "none") return c;
-    const auto value = w.size() == 3 ? number_of(w[2]) : std::nullopt;
-    if (value && w[1] == "reject") {
+    const Failure help{
+        std::string{"write it as: demand = 1250, demand reject 1, demand none or demand reg 1 = 4366"}};
+    std::size_t at = 1;
+    if (w.size() > 2 && w[1] == "reg") {
+        const auto index = number_of(w[2]);
+        if (!index || *index < 1 || *index > 4) return help;
+        c.subject = Condition::Subject::demand_register;
+        c.index = static_cast<std::size_t>(*index);
+        at = 3;
+    } else if (w.size() == 3 && w[1] == "reject") {
         c.subject = Condition::Subject::demand_reject;
-    } else if (value && is_relation(w[1])) {
-        c.subject = Condition::Subject::demand_value;
-        c.relation = w[1];
     } else {
-        return Failure{std::string{"write it as: demand = 1250, demand reject 1 or demand none"}};
+        c.subject = Condition::Subject::demand_value;
     }
+    if (c.subject != Condition::Subject::demand_reject) {
+        if (!take_mask(w, at, c) || w.size() <= at || !is_relation(w[at])) return help;
+        c.relation = w[at];
+    }
+    const auto value = w.size() == at + 2 ? number_of(w[at + 1]) : std::nullopt;
+    if (!value) return help;
     c.value = *value;
     return c;
 }
@@ -109,7 +125,8 @@ Result<Condition, std::string> demand_condition(const Words& w)
 Result<Condition, std::string> octets_condition(Condition c, Words w)
 {
     std::string text;
-    for (std::size_t i = 1; i < w.size(); ++i) text += w[i];
+    const std::size_t first = c.subject == Condition::Subject::extended_diagnosis ? 2 : 1;
+    for (std::size_t i = first; i < w.size(); ++i) text += w[i];
     auto octets = octets_of(text);
     if (!octets || octets->empty())
         return Failure{fmt::format("'{}' is neither a known finding nor octets in hexadecimal", text)};
@@ -122,19 +139,31 @@ Verdict judge_word(const Condition& c, std::string_view name, std::optional<std:
     if (!word)
         return {false, any ? fmt::format("there is no {} {}", name, c.index)
                            : std::string{"there are no inputs at present"}};
-    return {relates(*word, c.relation, c.value), fmt::format("{} {} is {}", name, c.index, show_word(*word))};
+    return {relates(static_cast<std::uint16_t>(*word & c.mask), c.relation, c.value),
+            fmt::format("{} {} is {}", name, c.index, show_word(*word))};
 }
 
-Verdict judge_demand(const Condition& c, const Master& master)
+Verdict judge_register(const Condition& c, const Master& master)
+{
+    const auto registers = demand_inputs(master);
+    if (!registers) return {false, "there is no Demand Data answer"};
+    return {relates(static_cast<std::uint16_t>((*registers)[c.index - 1] & c.mask), c.relation, c.value),
+            "the Demand Data registers are " + show_registers(*registers)};
+}
+
+Verdict judge_demand(const Condition& c, Master& master)
 {
     const auto answer = demand_answer(master);
     if (!answer) return {false, "there is no Demand Data answer"};
     const std::string seen = "Demand Data answers " + show_demand(*answer);
     switch (c.subject) {
-        case Condition::Subject::demand_none: return {answer->command == 0, seen};
+        case Condition::Subject::demand_none: return {answer->command == DemandCommand::none, seen};
         case Condition::Subject::demand_reject:
-            return {answer->command == 7 && answer->value == c.value, seen};
-        default: return {answer->command == 1 && relates(answer->value, c.relation, c.value), seen};
+            return {answer->command == DemandCommand::reject && answer->value == c.value, seen};
+        default:
+            return {answer->command == DemandCommand::read &&
+                        relates(static_cast<std::uint16_t>(answer->value & c.mask), c.relation, c.value),
+                    seen};
     }
 }
 
@@ -144,52 +173,14 @@ Verdict judge_diagnosis(const Condition& c, const Master& master)
     const Diagnosis& d = *master.diagnosis();
     const std::string seen = "the diagnosis is " + hex(d.octets);
     if (!c.name.empty()) return {finding(d, c.name).value_or(false) != c.negated, seen};
+    if (c.subject == Condition::Subject::extended_diagnosis)
+        return {std::equal(c.octets.begin(), c.octets.end(), d.octets.begin() + 6, d.octets.end()), seen};
     return {d.octets.size() >= c.octets.size() &&
                 std::equal(c.octets.begin(), c.octets.end(), d.octets.begin()),
             seen};
 }
 
 } // namespace
-
-bool has_demand(const MasterSettings& settings)
-{
-    return !settings.cfg.empty() && settings.cfg[0] == 0x73;
-}
-
-std::optional<DemandWords> demand_answer(const Master& master)
-{
-    if (!has_demand(master.settings()) || master.inputs().size() < kDemandOctets) return std::nullopt;
-    return demand_of(master.inputs());
-}
-
-DemandWords demand_request(Master& master)
-{
-    return demand_of(master.outputs());
-}
-
-void set_demand_request(Master& master, DemandWords words)
-{
-    const auto first = static_cast<std::uint16_t>(words.command << 12 | (words.tag & 0x07FF));
-    Octets& out = master.outputs();
-    out[0] = high(first);
-    out[1] = low(first);
-    std::fill(out.begin() + 2, out.begin() + 6, std::uint8_t{0});
-    out[6] = high(words.value);
-    out[7] = low(words.value);
-}
-
-std::string show_demand(const DemandWords& answer)
-{
-    constexpr std::array<std::string_view, 3> kErrors{"invalid tag number", "read-only parameter",
-                                                      "value out of range"};
-    if (answer.command == 0) return "no command";
-    if (answer.command == 7)
-        return fmt::format("tag {} rejected, {}: {}", answer.tag, answer.value,
-                           answer.value < kErrors.size() ? kErrors[answer.value]
-                                                         : "a code that the manual does not know");
-    if (answer.command == 1) return fmt::format("tag {} = {}", answer.tag, show_word(answer.value));
-    return fmt::format("command {} with tag {}, which is no answer", answer.command, answer.tag);
-}
 
 std::size_t input_words(const Master& m)
 {
@@ -239,6 +230,10 @@ Result<Condition, std::string> parse_condition(const std::vector<std::string>& w
     }
     if (w[0] == "diag" && w.size() >= 2) {
         Condition c{.subject = Condition::Subject::diagnosis, .negated = negated};
+        if (w[1] == "ext") {
+            c.subject = Condition::Subject::extended_diagnosis;
+            return octets_condition(std::move(c), w);
+        }
         if (!finding(Diagnosis{Octets(6, 0)}, w[1])) return octets_condition(std::move(c), w);
         c.name = w[1];
         return c;
@@ -264,7 +259,9 @@ Verdict judge(const Condition& c, Master& master, Bytes last_reply)
         case Condition::Subject::demand_value:
         case Condition::Subject::demand_reject:
         case Condition::Subject::demand_none: return judge_demand(c, master);
-        case Condition::Subject::diagnosis: return judge_diagnosis(c, master);
+        case Condition::Subject::demand_register: return judge_register(c, master);
+        case Condition::Subject::diagnosis:
+        case Condition::Subject::extended_diagnosis: return judge_diagnosis(c, master);
         case Condition::Subject::reply: break;
     }
     return {std::equal(c.octets.begin(), c.octets.end(), last_reply.begin(), last_reply.end()),

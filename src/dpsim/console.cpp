@@ -14,7 +14,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kStartTime = 10s; ///< for the whole start-up, at 9600 and with retries
-constexpr auto kDemandTime = 5s; ///< two retries of a silent drive take less
 constexpr auto kAnswerTime = 5s;
 
 double seconds(std::chrono::nanoseconds t)
@@ -51,8 +50,16 @@ const std::vector<Console::Command>& Console::commands()
         {"out", "out [N = VALUE]", "sets a process output word, or shows all", &Console::do_out},
         {"wait", "wait TIME [for CONDITION]", "waits, at most so long, for a condition", &Console::do_wait},
         {"expect", "expect CONDITION", "fails if the condition does not hold now", &Console::do_expect},
-        {"demand", "demand read TAG | write TAG VALUE | none", "Demand Data; waits for the answer",
-         &Console::do_demand},
+        {"demand", "demand read TAG | write TAG VALUE | none",
+         "Demand Data, tags to 2047; waits for the answer", &Console::do_demand},
+        {"", "demand read-ext TAG | write-ext TAG VALUE", "the same with the extended commands 3 and 4",
+         nullptr},
+        {"", "demand raw R1 [R2 R3 R4]", "sets the four registers as they are; does not wait", nullptr},
+        {"", "demand upload TAG COUNT", "reads a block with command 3, value by value, and keeps it",
+         nullptr},
+        {"", "demand download TAG [VALUE ...]", "writes these values with command 4, else what is kept",
+         nullptr},
+        {"", "demand", "the four registers in both directions", nullptr},
         {"diag", "diag", "reads Slave_Diag and explains it", &Console::do_diag},
         {"get-cfg", "get-cfg", "reads the configuration that the slave holds", &Console::do_get_cfg},
         {"sync", "sync | unsync | freeze | unfreeze [GROUPS]", "Global_Control; GROUPS is a mask, 0 = all",
@@ -83,11 +90,14 @@ std::vector<std::string> Console::help()
         if (!c.usage.empty()) lines.push_back(fmt::format("  {:<44} {}", c.usage, c.help));
     lines.push_back(fmt::format("  {:<44} {}", "try COMMAND", "carries on even if the command fails"));
     lines.emplace_back("TIME: 2s, 500ms. VALUE: 1250, -300, 0x04E2. '#' begins a comment.");
-    lines.emplace_back("CONDITION: in N = V (also != < > <= >=), out N = V, state [not] data-exchange, "
-                       "demand = V, demand reject E,");
-    lines.emplace_back("  demand none, diag [not] NAME, diag HEX, reply HEX, reply none. NAME: prm-fault "
-                       "cfg-fault not-ready");
-    lines.emplace_back("  prm-required stat-diag ext-diag not-supported watchdog sync freeze overflow");
+    lines.emplace_back("CONDITION: in N = V (also != < > <= >=), out N = V, in N & MASK = V, state [not] "
+                       "data-exchange,");
+    lines.emplace_back(
+        "  demand = V, demand reject E, demand none, demand reg 1..4 [& MASK] = V, diag [not] NAME, "
+        "diag HEX, diag ext HEX,");
+    lines.emplace_back("  reply HEX, reply none. NAME: prm-fault cfg-fault not-ready prm-required stat-diag "
+                       "ext-diag not-supported");
+    lines.emplace_back("  watchdog sync freeze overflow. diag ext is all that follows octet 6.");
     return lines;
 }
 
@@ -145,6 +155,10 @@ void Console::take(const MasterEvent& event, Instant now)
             return;
         case MasterEvent::Kind::lost: stamp(now, event.words); return;
         case MasterEvent::Kind::complaint: stamp(now, "not as the standard has it: " + event.words); return;
+        case MasterEvent::Kind::diagnosis:
+            stamp(now, "diagnosis");
+            for (const std::string& line : explain(*master_.diagnosis())) say("  " + line);
+            return;
         case MasterEvent::Kind::answer:
             if (!wait_ || wait_->what != For::answer || wait_->service != event.answer->service) return;
             last_reply_ = event.answer->octets;
@@ -201,28 +215,9 @@ void Console::check_wait(Instant now)
             if (late) fail("not in time, " + verdict.seen);
             return;
         }
-        case For::demand_idle: {
-            const auto answer = demand_answer(master_);
-            if (answer && answer->command == 0) {
-                set_demand_request(master_, wait_->demand);
-                wait_->what = For::demand_answer;
-            } else if (late) {
-                fail("the slave does not answer 'no command'");
-            }
-            return;
-        }
-        case For::demand_answer: {
-            const auto answer = demand_answer(master_);
-            const bool ours =
-                answer && (answer->command == 1 || answer->command == 7) && answer->tag == wait_->demand.tag;
-            if (ours) {
-                say(show_demand(*answer));
-                done();
-            } else if (late) {
-                fail("no answer from the drive in time");
-            }
-            return;
-        }
+        case For::demand_idle:
+        case For::demand_answer:
+        case For::demand_block: return check_demand(now);
     }
 }
 
@@ -296,29 +291,6 @@ void Console::do_out(const Words& words, Instant /*now*/)
         return fail("a word is -32768 to 65535, written as: out 1 = 500");
     if (!set_output_word(master_, condition->index, static_cast<std::uint16_t>(condition->value & 0xFFFF)))
         return fail(fmt::format("there are {} output words, counted from 1", output_words(master_)));
-}
-
-void Console::do_demand(const Words& words, Instant now)
-{
-    if (!has_demand(master_.settings()))
-        return fail("Cfg_Data does not begin with 73: there is no Demand Data");
-    const auto tag = words.size() > 2 ? number_of(words[2]) : std::optional<std::int64_t>{0};
-    const auto value = words.size() > 3 ? number_of(words[3]) : std::optional<std::int64_t>{0};
-    const bool good = (words.size() == 2 && words[1] == "none") ||
-                      (words.size() == 3 && words[1] == "read") || (words.size() == 4 && words[1] == "write");
-    if (!good || !tag || *tag < 0 || *tag > 2047 || !value || *value < -32768 || *value > 65535)
-        return fail("write it as: demand read 55, demand write 56 1000 or demand none; tags 0 to 2047");
-    if (master_.state() != MasterState::data_exchange) return fail("the station is not in data exchange");
-    // Command 0 first: the answer to it separates the old answer from the new one, even with the same tag.
-    const DemandWords order{static_cast<std::uint8_t>(words[1] == "none"   ? 0
-                                                      : words[1] == "read" ? 1
-                                                                           : 2),
-                            static_cast<std::uint16_t>(*tag), static_cast<std::uint16_t>(*value & 0xFFFF)};
-    set_demand_request(master_, {});
-    const Instant until = now + kDemandTime;
-    if (order.command != 0) return await({.what = For::demand_idle, .until = until, .demand = order});
-    await(
-        {.what = For::condition, .until = until, .condition = {.subject = Condition::Subject::demand_none}});
 }
 
 void Console::do_diag(const Words& /*words*/, Instant now)

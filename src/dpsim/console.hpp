@@ -28,14 +28,29 @@ public:
 
 private:
     using Words = std::vector<std::string>;
-    enum class For : std::uint8_t { start, answer, time, condition, demand_idle, demand_answer };
+    enum class For : std::uint8_t {
+        start,
+        answer,
+        time,
+        condition,
+        demand_idle,
+        demand_answer,
+        demand_block
+    };
     struct Wait {
         For what = For::time;
         Instant until = kNever;
         Condition condition{};
         DemandWords demand{};                  ///< the order that is meant
+        bool is_block = false;                 ///< it begins a transfer
         Service service = Service::slave_diag; ///< whose answer
         std::uint64_t cycles = 0;              ///< how many there had been
+    };
+    /// Values that go one by one through Demand Data, as worked example 2 of the 2408f/2404f handbook has it.
+    struct Transfer {
+        bool down = false;       ///< to the slave
+        std::uint16_t first = 0; ///< tag
+        std::size_t done = 0, count = 0;
     };
     struct Command;
     static const std::vector<Command>& commands();
@@ -47,6 +62,10 @@ private:
     void do_in(const Words& words, Instant now);
     void do_out(const Words& words, Instant now);
     void do_demand(const Words& words, Instant now);
+    void show_demand_registers();
+    void demand_order(const Words& words, Instant now);
+    void demand_raw(const Words& words);
+    void demand_transfer(const Words& words, Instant now);
     void do_diag(const Words& words, Instant now);
     void do_get_cfg(const Words& words, Instant now);
     void do_global(const Words& words, Instant now);
@@ -61,6 +80,10 @@ private:
     void take(const MasterEvent& event, Instant now);
     void take_answer(const Answer& answer);
     void check_wait(Instant now);
+    void check_demand(Instant now);
+    void check_transfer(const DemandWords& answer, Instant now);
+    DemandWords transfer_order() const;
+    void say_block_line(std::size_t end);
     void start_refused(const std::string& why);
     void ask(Order order, Instant now);
     void await(Wait wait) { wait_ = std::move(wait); }
@@ -76,6 +99,8 @@ private:
     bool forgiving_ = false; ///< "try": a failure is told, but does not count
     bool quit_ = false, failed_ = false;
     Octets last_reply_;
+    Transfer transfer_;
+    std::vector<std::uint16_t> block_; ///< what was uploaded last, or is being downloaded
     std::vector<std::string> lines_;
 };
 

@@ -30,6 +30,56 @@ constexpr std::array kFindings{
     Finding{"overflow", 3, 0x80, "Ext_Diag_Overflow: there is more diagnosis than fits"},
 };
 
+/// Trip codes of the drives behind a technology box (HA463561U002); 31 = a 590+ has tripped.
+constexpr std::array kTrips =
+    std::to_array<std::pair<unsigned, std::string_view>>({{0, "no trip"},
+                                                          {1, "link overvolts"},
+                                                          {2, "link undervolts"},
+                                                          {3, "link overcurrent"},
+                                                          {4, "heatsink temperature"},
+                                                          {5, "external trip"},
+                                                          {6, "input 1 break"},
+                                                          {7, "input 2 break"},
+                                                          {8, "motor stalled"},
+                                                          {9, "I*t"},
+                                                          {10, "brake resistor"},
+                                                          {11, "brake switch"},
+                                                          {12, "operator station"},
+                                                          {13, "lost communications"},
+                                                          {17, "motor temperature"},
+                                                          {18, "current limit"},
+                                                          {20, "24 V failure"},
+                                                          {21, "low speed current"},
+                                                          {31, "tripped"}});
+
+/// Bits of the summary output status word of a 2408f/2404f, from bit 0 (handbook chapter 4).
+constexpr std::array<std::string_view, 16> kStatusBits{"alarm 1",         "alarm 2",
+                                                       "alarm 3",         "alarm 4",
+                                                       "manual mode",     "sensor break",
+                                                       "loop break",      "heater fail",
+                                                       "tune active",     "program complete",
+                                                       "PV out of range", "DC module fault",
+                                                       "segment sync",    "remote input break",
+                                                       "IP1 fault",       "bit 15"};
+
+std::string trip_words(Bytes data)
+{
+    const auto* const known =
+        std::find_if(kTrips.begin(), kTrips.end(), [&](const auto& trip) { return trip.first == data[0]; });
+    return fmt::format("  of a technology box: trip code {} ({}), EXT DIAGNOSTIC {:04X}", data[0],
+                       known == kTrips.end() ? "in no table" : known->second, be16(data, 1));
+}
+
+std::string status_words(Bytes data)
+{
+    const std::uint16_t word = be16(data, 0);
+    std::string names;
+    for (unsigned bit = 0; bit < kStatusBits.size(); ++bit)
+        if ((word >> bit & 1) != 0) names += (names.empty() ? "" : ", ") + std::string{kStatusBits[bit]};
+    return fmt::format("  of a 2408f/2404f: summary output status {:04X}, {}", word,
+                       names.empty() ? "no bit" : names);
+}
+
 std::string identifier_block(Bytes block)
 {
     std::string list;
@@ -58,6 +108,8 @@ void explain_extended(Bytes rest, std::vector<std::string>& lines)
         }
         const Bytes block = rest.first(length);
         if (form == 0) lines.push_back("device-related diagnosis: " + hex(block.subspan(1)));
+        if (form == 0 && length == 4) lines.push_back(trip_words(block.subspan(1)));
+        if (form == 0 && length == 3) lines.push_back(status_words(block.subspan(1)));
         if (form == 1) lines.push_back(identifier_block(block));
         if (form == 2) lines.push_back(channel_block(block));
         if (form == 3) lines.push_back(fmt::format("revision {}", block[0] & 0x3F));

@@ -25,6 +25,7 @@ std::string_view identity(Model model)
     switch (model) {
         case Model::dc590: return ">0590";
         case Model::ac584s: return ">0584";
+        case Model::ac: return ">0690";
         case Model::dc620: break;
     }
     return ">0620";
@@ -37,32 +38,11 @@ bool is_printable(std::uint8_t octet)
 
 } // namespace
 
-SimValue Parameter::at(Instant now) const
-{
-    if (!motion) return value;
-    const double ratio =
-        static_cast<double>((now - motion->began).count()) / static_cast<double>(motion->takes.count());
-    double part = std::clamp(ratio, 0.0, 1.0);
-    if (motion->back_and_forth && ratio > 0) {
-        const double turn = ratio - 2.0 * static_cast<double>(static_cast<std::int64_t>(ratio / 2.0));
-        part = turn <= 1.0 ? turn : 2.0 - turn;
-    }
-    const double counts = motion->from + (motion->to - motion->from) * part;
-    return {static_cast<std::int32_t>(counts < 0 ? counts - 0.5 : counts + 0.5), {}};
-}
-
-Parameter* DriveUnit::find(std::uint16_t tag)
-{
-    const auto found = std::find_if(parameters.begin(), parameters.end(),
-                                    [&](const Parameter& p) { return p.tag.number == tag; });
-    return found == parameters.end() ? nullptr : &*found;
-}
-
 Parameter* DriveUnit::find_mnemonic(std::string_view mnemonic)
 {
-    const auto found = std::find_if(parameters.begin(), parameters.end(),
+    const auto found = std::find_if(parameters_.begin(), parameters_.end(),
                                     [&](const Parameter& p) { return p.mnemonic == mnemonic; });
-    return found == parameters.end() || mnemonic.empty() ? nullptr : &*found;
+    return found == parameters_.end() || mnemonic.empty() ? nullptr : &*found;
 }
 
 bool DriveLine::add_unit(std::string_view address, const std::vector<SimTag>& tags)
@@ -71,20 +51,21 @@ bool DriveLine::add_unit(std::string_view address, const std::vector<SimTag>& ta
     if (address.size() != 2 || address[0] < '0' || address[0] > '7' ||
         kUnits.find(address[1]) == std::string_view::npos)
         return false;
-    if (std::any_of(units_.begin(), units_.end(), [&](const DriveUnit& u) { return u.address == address; }))
+    if (std::any_of(units_.begin(), units_.end(), [&](const DriveUnit& u) { return u.address() == address; }))
         return false;
-    DriveUnit unit{.address = std::string{address}};
+    std::vector<Parameter> parameters;
     for (const SimTag& tag : tags)
-        unit.parameters.push_back(
-            {tag, tag.mnemonic.empty() ? mnemonic_of(tag.number) : tag.mnemonic, tag.start, std::nullopt});
-    units_.push_back(std::move(unit));
+        parameters.push_back({tag, tag.mnemonic.empty() ? mnemonic_of(model_, tag.number) : tag.mnemonic,
+                              tag.start, std::nullopt});
+    units_.emplace_back(std::string{address}, std::move(parameters));
     return true;
 }
 
-std::optional<Octets> DriveLine::take_reply(Instant now)
+std::vector<Device*> DriveLine::devices()
 {
-    if (!reply_ || now < reply_->due) return std::nullopt;
-    return std::exchange(reply_, std::nullopt)->octets;
+    std::vector<Device*> all;
+    for (DriveUnit& unit : units_) all.push_back(&unit);
+    return all;
 }
 
 void DriveLine::on_bytes(Bytes octets, Instant now)
@@ -104,7 +85,7 @@ void DriveLine::on_octet(std::uint8_t octet, Instant now)
         phase_ = Phase::address;
         text_.clear();
         polled_.clear();
-        reply_.reset();
+        drop_reply();
         return;
     }
     switch (phase_) {
@@ -163,7 +144,7 @@ void DriveLine::addressed()
 {
     phase_ = Phase::idle;
     for (std::size_t i = 0; i < units_.size(); ++i) {
-        const std::string& address = units_[i].address;
+        const std::string& address = units_[i].address();
         if (text_[0] != address[0] || text_[1] != address[0] || text_[2] != address[1] ||
             text_[3] != address[1])
             continue;
@@ -190,14 +171,14 @@ void DriveLine::poll(std::string_view mnemonic, Instant now)
         unit.error = parameter == nullptr ? Ee::invalid_mnemonic : Ee::write_only;
         ++unit.refusals;
         phase_ = Phase::idle;
-        return reply({kEot}, now);
+        return answer({kEot}, now);
     } else {
         data = drive_text(model_, parameter->tag, parameter->at(now));
     }
     ++unit.reads;
     polled_ = mnemonic;
     phase_ = Phase::connected;
-    reply(reply_frame(polled_, data), now);
+    answer(reply_frame(polled_, data), now);
 }
 
 /// ACK after a reply: the next parameter that can be read, by tag number; EOT behind the last.
@@ -205,13 +186,13 @@ void DriveLine::poll_next(Instant now)
 {
     DriveUnit& unit = units_[current_];
     const Parameter* const last = unit.find_mnemonic(polled_);
-    for (const Parameter& next : unit.parameters) {
+    for (const Parameter& next : unit.parameters()) {
         const bool beyond = last == nullptr || next.tag.number > last->tag.number;
         if (beyond && next.tag.access != TagAccess::write_only && !next.mnemonic.empty())
             return poll(next.mnemonic, now);
     }
     phase_ = Phase::idle;
-    reply({kEot}, now);
+    answer({kEot}, now);
 }
 
 void DriveLine::selected(std::uint8_t check, Instant now)
@@ -235,9 +216,9 @@ void DriveLine::selected(std::uint8_t check, Instant now)
     if (error != Ee::none) {
         unit.error = error;
         ++unit.refusals;
-        log(fmt::format("write '{}' refused, EE >{:04X}", text_, static_cast<unsigned>(error)));
+        tell(fmt::format("write '{}' refused, EE >{:04X}", text_, static_cast<unsigned>(error)));
     }
-    reply({error == Ee::none ? kAck : kNak}, now);
+    answer({error == Ee::none ? kAck : kNak}, now);
 }
 
 Ee DriveLine::write(std::string_view mnemonic, std::string_view data)
@@ -253,27 +234,20 @@ Ee DriveLine::write(std::string_view mnemonic, std::string_view data)
     if (parameter->tag.access == TagAccess::read_only) return Ee::read_only;
     auto value = drive_value(model_, parameter->tag, data);
     if (!value) return value.error();
-    parameter->value = std::move(*value);
-    parameter->motion.reset();
+    parameter->put(std::move(*value));
     ++unit.writes;
-    log(fmt::format("tag {} written {}", parameter->tag.number, displayed(parameter->tag, parameter->value)));
+    tell(
+        fmt::format("tag {} written {}", parameter->tag.number, displayed(parameter->tag, parameter->value)));
     return Ee::none;
 }
 
-void DriveLine::reply(Octets octets, Instant now)
+void DriveLine::answer(Octets octets, Instant now)
 {
     const DriveFaults& faults = units_[current_].faults;
     if (faults.bad_bcc && octets.size() > 1) octets.back() = static_cast<std::uint8_t>(octets.back() ^ 0x01);
     if (faults.garbage)
         for (std::uint8_t& octet : octets) octet = static_cast<std::uint8_t>(random_() & 0x7F);
-    reply_ = Reply{std::move(octets), now + turnaround_ + faults.slow};
-}
-
-void DriveLine::log(std::string_view words)
-{
-    if (!logging_) return;
-    const std::string who = units_.size() > 1 ? "unit " + units_[current_].address + ": " : std::string{};
-    log_.push_back(who + std::string{words});
+    reply(std::move(octets), now + turnaround_ + faults.slow);
 }
 
 } // namespace dpslave::sim

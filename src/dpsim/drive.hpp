@@ -1,33 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/// One or more EI-ASCII drives in memory on one serial line. Pure: octets and times go in, replies with their
-/// due times and log lines come out (EI-ASCII reference, section 1).
+/// One or more EI-ASCII drives in memory on one serial line (EI-ASCII reference, section 1).
 #pragma once
 
+#include "dpsim/device.hpp"
 #include "dpsim/ei_ascii.hpp"
-
-#include "dpslave/base/units.hpp"
 
 #include <random>
 
 namespace dpslave::sim {
-
-/// A value that moves by itself.
-struct Motion {
-    std::int32_t from = 0; ///< counts
-    std::int32_t to = 0;
-    Instant began{};
-    std::chrono::nanoseconds takes{1};
-    bool back_and_forth = false; ///< false: stays at `to`
-};
-
-struct Parameter {
-    SimTag tag;
-    std::string mnemonic; ///< empty: cannot be reached over the line
-    SimValue value;
-    std::optional<Motion> motion;
-
-    SimValue at(Instant now) const;
-};
 
 /// What a drive does wrong on request.
 struct DriveFaults {
@@ -38,18 +18,18 @@ struct DriveFaults {
     std::chrono::nanoseconds slow{0}; ///< on top of the turnaround
 };
 
-struct DriveUnit {
-    std::string address;                 ///< group and unit id, "00"
-    std::vector<Parameter> parameters{}; ///< ascending by tag
+/// One drive; its address is group and unit id, "00".
+class DriveUnit : public Device {
+public:
+    using Device::Device;
+    Parameter* find_mnemonic(std::string_view mnemonic);
+
     Ee error = Ee::none;
     DriveFaults faults{};
     std::uint64_t reads = 0, writes = 0, refusals = 0, bad_messages = 0;
-
-    Parameter* find(std::uint16_t tag);
-    Parameter* find_mnemonic(std::string_view mnemonic);
 };
 
-class DriveLine {
+class DriveLine : public DeviceLine {
 public:
     /// `turnaround`: from the last octet of a message to the first of the reply. `seed`: of the garbage.
     DriveLine(Model model, std::chrono::nanoseconds turnaround, unsigned seed = 1)
@@ -59,22 +39,13 @@ public:
     /// A drive with this group (0-7) and unit id (0-9, A-F); false if the address is none or taken.
     bool add_unit(std::string_view address, const std::vector<SimTag>& tags);
 
-    void on_bytes(Bytes octets, Instant now);
-    std::optional<Octets> take_reply(Instant now);
-    Instant next_deadline() const { return reply_ ? reply_->due : kNever; }
-    std::vector<std::string> take_log() { return std::exchange(log_, {}); }
+    void on_bytes(Bytes octets, Instant now) override;
+    std::vector<Device*> devices() override;
 
-    Model model() const { return model_; }
     std::vector<DriveUnit>& units() { return units_; }
-    void set_logging(bool on) { logging_ = on; }
 
 private:
     enum class Phase : std::uint8_t { idle, address, body, select, check, connected };
-    struct Reply {
-        Octets octets;
-        Instant due;
-    };
-
     void on_octet(std::uint8_t octet, Instant now);
     void collect(std::uint8_t octet);
     void malformed();
@@ -83,8 +54,8 @@ private:
     void poll_next(Instant now);
     void selected(std::uint8_t check, Instant now);
     Ee write(std::string_view mnemonic, std::string_view data);
-    void reply(Octets octets, Instant now);
-    void log(std::string_view words);
+    void answer(Octets octets, Instant now);
+    void tell(std::string_view words) { log(units_[current_], words); }
 
     Model model_;
     std::chrono::nanoseconds turnaround_;
@@ -95,9 +66,6 @@ private:
     std::string text_;
     std::string polled_; ///< mnemonic of the last answered poll; empty = NAK and ACK mean nothing
     Instant heard_{};
-    std::optional<Reply> reply_;
-    bool logging_ = false;
-    std::vector<std::string> log_;
 };
 
 } // namespace dpslave::sim

@@ -1,94 +1,146 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpsim/drive_commands.hpp"
 #include "dpsim/edge.hpp"
+#include "dpsim/instrument_commands.hpp"
 #include "dpsim/programs.hpp"
+#include "dpsim/values.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
 namespace dpslave::sim {
 namespace {
 
-/// The example table: of $DPSLAVED_DATA, else of the source tree that this program was built in, else the
-/// installed one.
-std::string example_table()
+/// A table that comes with dpslaved: of $DPSLAVED_DATA, else of the source tree that this program was built
+/// in, else the installed one.
+std::string shipped_table(const std::string& name)
 {
     namespace fs = std::filesystem;
     std::vector<fs::path> places;
     if (const char* const data = std::getenv("DPSLAVED_DATA"))
-        places.emplace_back(fs::path{data} / "tags/example.csv");
+        places.emplace_back(fs::path{data} / "tags" / name);
     std::error_code error;
     const fs::path self = fs::read_symlink("/proc/self/exe", error);
-    if (!error) places.emplace_back(self.parent_path() / "../../../config/tags/example.csv");
-    places.emplace_back("/usr/share/dpslaved/tags/example.csv");
+    if (!error) places.emplace_back(self.parent_path() / "../../../config/tags" / name);
+    places.emplace_back(fs::path{"/usr/share/dpslaved/tags"} / name);
     for (const fs::path& place : places)
         if (fs::is_regular_file(place, error)) return place.lexically_normal().string();
     return places.back().string();
 }
 
-int serve(DriveLine& drive, DriveCommands& commands, int port, const Signals& signals)
+int serve(DeviceLine& line, DeviceCommands& commands, int port, const Signals& signals)
 {
     LineReader input{STDIN_FILENO};
     const bool typed = ::isatty(STDIN_FILENO) == 1;
     while (!readable(signals.fd())) {
-        wait_readable({signals.fd(), port, input.fd()}, drive.next_deadline());
+        wait_readable({signals.fd(), port, input.fd()}, line.next_deadline());
         const auto octets = read_some(port);
         if (!octets) {
             print_error("the line is gone");
             return kNoPort;
         }
-        if (!octets->empty()) drive.on_bytes(*octets, monotonic_now());
-        if (const auto reply = drive.take_reply(monotonic_now()))
+        if (!octets->empty()) line.on_bytes(*octets, monotonic_now());
+        if (const auto reply = line.take_reply(monotonic_now()))
             write_all(port, *reply, std::chrono::milliseconds{100});
         if (readable(input.fd())) input.read();
-        while (const auto line = input.take())
-            for (const std::string& said : commands.command(*line, monotonic_now())) print_line(said);
-        for (const std::string& line : drive.take_log()) print_line(line);
+        while (const auto typed_line = input.take())
+            for (const std::string& said : commands.command(*typed_line, monotonic_now())) print_line(said);
+        for (const std::string& told : line.take_log()) print_line(told);
         if (commands.quit() || (input.closed() && typed)) break;
     }
     return kFine;
 }
 
-} // namespace
-
-int run_drive(const DriveOptions& options)
+/// Everything about the device is known: the faults it begins with, its port, its life.
+int run(DeviceLine& line, DeviceCommands& commands, const DriveOptions& options, Format format,
+        std::size_t tags)
 {
-    const auto model = model_of(options.model);
-    if (!model) {
-        print_error(fmt::format("there is no model '{}': 590, 584s or 620", options.model));
-        return kUsage;
-    }
-    const auto tags = load_tags(options.tags.empty() ? example_table() : options.tags);
-    if (!tags) {
-        print_error(tags.error());
-        return kUsage;
-    }
-    DriveLine drive{*model, std::chrono::nanoseconds{static_cast<std::int64_t>(options.turnaround_ms * 1e6)}};
-    for (const std::string& unit : options.units)
-        if (!drive.add_unit(unit, *tags)) {
-            print_error(fmt::format(
-                "--unit {}: a group 0-7 and a unit id 0-9 or A-F, each address once, for example 00", unit));
-            return kUsage;
-        }
-    drive.set_logging(options.log);
-    DriveCommands commands{drive};
+    line.set_logging(options.log);
     for (const std::string& fault : options.faults)
         for (const std::string& wrong : commands.command(fault, monotonic_now())) {
             print_error(fmt::format("--fault {}: {}", fault, wrong));
             return kUsage;
         }
     const Signals signals;
-    auto port = open_tty(options.port, options.baud, Format::bits7_even);
+    auto port = open_tty(options.port, options.baud, format);
     if (!port) {
         print_error(port.error());
         return kNoPort;
     }
     be_prompt();
-    print_line(fmt::format("ready {}, model {}, {} parameters", options.port, options.model, tags->size()));
-    return serve(drive, commands, port->get(), signals);
+    print_line(fmt::format("ready {}, model {}, {} parameters", options.port, options.model, tags));
+    return serve(line, commands, port->get(), signals);
+}
+
+std::chrono::nanoseconds turnaround_of(const DriveOptions& options)
+{
+    return std::chrono::nanoseconds{static_cast<std::int64_t>(options.turnaround_ms * 1e6)};
+}
+
+/// Modbus RTU begins a reply after 3.5 characters of silence, 1.75 ms at 19200 and above.
+std::chrono::nanoseconds modbus_turnaround(const DriveOptions& options)
+{
+    const auto silence = options.baud > 19'200
+                             ? std::chrono::nanoseconds{1'750'000}
+                             : std::chrono::nanoseconds{std::int64_t{38'500'000'000} / options.baud};
+    return std::max(turnaround_of(options), silence);
+}
+
+int run_ei_ascii(const DriveOptions& options, Model model, const std::vector<SimTag>& tags)
+{
+    DriveLine line{model, turnaround_of(options)};
+    for (const std::string& unit : options.units)
+        if (!line.add_unit(unit, tags)) {
+            print_error(fmt::format(
+                "--unit {}: a group 0-7 and a unit id 0-9 or A-F, each address once, for example 00", unit));
+            return kUsage;
+        }
+    DriveCommands commands{line};
+    return run(line, commands, options, Format::bits7_even, tags.size());
+}
+
+int run_modbus(const DriveOptions& options, std::uint16_t ident, const std::vector<SimTag>& tags)
+{
+    ModbusLine line{modbus_turnaround(options)};
+    std::size_t registers = 0;
+    for (const std::string& text : options.units) {
+        const auto unit = number_of(text);
+        const bool is_address = unit && *unit >= 1 && *unit <= 254;
+        if (!is_address || !line.add({static_cast<std::uint8_t>(*unit), ident, tags, options.programs})) {
+            print_error(fmt::format("--unit {}: an address from 1 to 254, each once", text));
+            return kUsage;
+        }
+        registers = line.instruments().back().parameters().size();
+    }
+    InstrumentCommands commands{line};
+    return run(line, commands, options, options.parity ? Format::bits8_even : Format::bits8, registers);
+}
+
+} // namespace
+
+int run_drive(const DriveOptions& chosen)
+{
+    DriveOptions options = chosen;
+    const auto model = model_of(options.model);
+    const auto ident = instrument_ident(options.model);
+    if (!model && !ident) {
+        print_error(fmt::format(
+            "there is no model '{}': 590, 584s, 620, 590plus, 584sv, 605, 690plus, 2408f or 2404f",
+            options.model));
+        return kUsage;
+    }
+    if (options.units.empty()) options.units = {model ? "00" : "1"};
+    if (options.tags.empty()) options.tags = shipped_table(model ? "example.csv" : "2400.csv");
+    const auto tags = load_tags(options.tags);
+    if (!tags) {
+        print_error(tags.error());
+        return kUsage;
+    }
+    return model ? run_ei_ascii(options, *model, *tags) : run_modbus(options, *ident, *tags);
 }
 
 } // namespace dpslave::sim

@@ -37,7 +37,8 @@ bool make_raw(int fd, std::uint32_t baud, Format format)
 {
     termios2 t{};
     t.c_iflag = INPCK; // a character with wrong parity is read as NUL and spoils its message
-    t.c_cflag = BOTHER | CREAD | CLOCAL | PARENB | (format == Format::bits7_even ? CS7 : CS8);
+    t.c_cflag = BOTHER | CREAD | CLOCAL | (format == Format::bits8 ? 0U : PARENB) |
+                (format == Format::bits7_even ? CS7 : CS8);
     t.c_ispeed = t.c_ospeed = baud;
     t.c_cc[VMIN] = 1; // without octets read() says EAGAIN, so that 0 can mean that the line is gone
     return ::ioctl(fd, TCSETSF2, &t) == 0;

@@ -33,7 +33,7 @@ void sleep_until(Instant when);
 void be_prompt();
 
 /// Character format of a tty. A pty takes only the speed.
-enum class Format : std::uint8_t { bits8_even, bits7_even };
+enum class Format : std::uint8_t { bits8_even, bits7_even, bits8 }; ///< 8E1, 7E1, 8N1
 
 /// Opens a tty raw, without echo, at any speed, reading without waiting; what waited in it is thrown away.
 Result<Fd, std::string> open_tty(const std::string& path, std::uint32_t baud, Format format);

@@ -50,7 +50,7 @@ std::optional<std::int32_t> counts_of(std::string_view data, unsigned decimals)
 
 bool sends_decimal_enum(Model model)
 {
-    return model == Model::ac584s;
+    return model == Model::ac584s || model == Model::ac;
 }
 bool takes_decimal_enum(Model model)
 {
@@ -75,9 +75,10 @@ std::optional<std::int32_t> number_of_data(Model model, const SimTag& tag, std::
 
 std::optional<Model> model_of(std::string_view name)
 {
-    if (name == "590") return Model::dc590;
+    if (name == "590" || name == "590plus") return Model::dc590;
     if (name == "584s") return Model::ac584s;
     if (name == "620") return Model::dc620;
+    if (name == "584sv" || name == "605" || name == "690plus") return Model::ac;
     return std::nullopt;
 }
 
@@ -98,13 +99,17 @@ Octets reply_frame(std::string_view mnemonic, std::string_view data)
     return frame;
 }
 
-std::string mnemonic_of(std::uint16_t tag)
+std::string mnemonic_of(Model model, std::uint16_t tag)
 {
-    if (tag >= 1000 && tag <= 1127) return fmt::format("{:02X}", tag - 1000);
-    if (tag < 936) return {digit((tag + 360U) / 36), digit((tag + 360U) % 36)};
-    const unsigned beyond = tag - 936U;
-    if (beyond >= 26U * 26U) return {};
-    return {static_cast<char>('a' + beyond / 26), static_cast<char>('A' + beyond % 26)};
+    constexpr unsigned kLetters = 26;
+    const bool is_ac = model == Model::ac;
+    if (!is_ac && tag >= 1000 && tag <= 1127) return fmt::format("{:02X}", tag - 1000);
+    const unsigned first = is_ac ? tag : tag + 360U;
+    if (first < 36 * 36) return {digit(first / 36), digit(first % 36)};
+    const unsigned beyond = first - 36 * 36;
+    if (beyond >= kLetters * kLetters) return {};
+    const unsigned slow = beyond / kLetters, fast = beyond % kLetters; // the AC drives put the fast one first
+    return {static_cast<char>('a' + (is_ac ? fast : slow)), static_cast<char>('A' + (is_ac ? slow : fast))};
 }
 
 std::string drive_text(Model model, const SimTag& tag, const SimValue& value)

@@ -24,11 +24,13 @@ enum class Ee : std::uint16_t {
     out_of_range = 0x08C8,
 };
 
-/// What stands behind the option board.
+/// What stands behind the option board or the technology box.
 enum class Model : std::uint8_t {
-    dc590,  ///< "590": ENUM in hexadecimal
+    dc590,  ///< "590", "590plus": ENUM in hexadecimal
     ac584s, ///< "584s": ENUM decimal with a point, both forms taken
     dc620,  ///< "620": ENUM in hexadecimal, both forms taken (no table names one)
+    ac,     ///< "584sv", "605", "690plus": mnemonics of the AC drives, ENUM decimal with a point, both forms
+            ///< taken
 };
 std::optional<Model> model_of(std::string_view name);
 
@@ -38,9 +40,9 @@ std::uint8_t block_check(Bytes after_stx);
 /// STX, mnemonic, data, ETX, BCC.
 Octets reply_frame(std::string_view mnemonic, std::string_view data);
 
-/// The two characters that a drive of the 590+ rule gives tag 0..1611; PNO 0..127 are tags 1000..1127. Empty
-/// = none.
-std::string mnemonic_of(std::uint16_t tag);
+/// The two characters of a tag; empty = none. AC drives have a rule of their own; the others follow the 590+,
+/// whose PNO 0..127 are tags 1000..1127 (EI-ASCII reference, section 3).
+std::string mnemonic_of(Model model, std::uint16_t tag);
 
 /// A value as the drive sends it: "30.", "-0.5", ">1B0B", ">01".
 std::string drive_text(Model model, const SimTag& tag, const SimValue& value);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// dpsim: a paced serial line, an EI-ASCII drive and a DP master, for users without hardware and for the
-/// tests.
+/// dpsim: a paced serial line, an EI-ASCII drive or a Modbus instrument, and a DP master, for users without
+/// hardware and for the tests.
 #include "dpsim/console.hpp"
 #include "dpsim/drive_commands.hpp"
+#include "dpsim/instrument_commands.hpp"
+#include "dpsim/master_options.hpp"
 #include "dpsim/programs.hpp"
-#include "dpsim/values.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -43,31 +44,43 @@ void add_line(CLI::App& app, LineOptions& o)
 
 void add_drive(CLI::App& app, DriveOptions& o)
 {
-    CLI::App& drive = *app.add_subcommand("drive", "an EI-ASCII drive in memory");
-    drive.add_option("--model", o.model, "590, 584s or 620")->required();
+    CLI::App& drive =
+        *app.add_subcommand("drive", "a drive (EI-ASCII) or an instrument (Modbus RTU) in memory");
+    drive
+        .add_option("--model", o.model,
+                    "EI-ASCII: 590, 584s, 620, 590plus, 584sv, 605 or 690plus; Modbus RTU: 2408f or 2404f")
+        ->required();
     drive.add_option("--port", o.port, "tty or end of a simulated line")->required();
-    drive.add_option("--baud", o.baud, "bit/s (7E1)")->check(CLI::Range(50, 12'000'000));
-    drive.add_option("--unit", o.units, "group and unit id; several drives: --unit 00 01")
-        ->capture_default_str();
-    drive.add_option("--tags", o.tags, "tag table, else the example that is shipped");
-    drive.add_option("--turnaround", o.turnaround_ms, "milliseconds until a reply begins")
+    drive.add_option("--baud", o.baud, "bit/s (7E1; Modbus RTU 8N1)")
+        ->capture_default_str()
+        ->check(CLI::Range(50, 12'000'000));
+    drive.add_option(
+        "--unit", o.units,
+        "group and unit id, 00 if none is given; Modbus address, 1 if none is given; several: --unit 00 "
+        "01");
+    drive.add_option("--tags", o.tags,
+                     "tag table (columns as in dpslaved.toml), else the one that is shipped: example.csv, of "
+                     "instruments 2400.csv");
+    drive
+        .add_option("--turnaround", o.turnaround_ms,
+                    "milliseconds until a reply begins; Modbus RTU: at least 3.5 "
+                    "characters")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 10'000.0));
+    drive.add_option("--programs", o.programs, "programs in the store of an instrument: 0, 1 or 4")
+        ->capture_default_str()
+        ->check(CLI::IsMember({0, 1, 4}));
+    drive.add_flag("--parity", o.parity, "Modbus RTU with even parity (8E1)");
     drive.add_option("--fault", o.faults, "a fault from the start, as the command: --fault 'slow 50'");
     drive.add_flag("--log", o.log, "tell what is written, as 'log on'");
-    drive.footer("Commands on standard input:\n" + lines(DriveCommands::help()) +
-                 "Example: dpsim drive --model 590 --port /tmp/drive-end --log");
+    drive.footer(
+        "Commands on standard input, of a drive:\n" + lines(DriveCommands::all_help()) +
+        "Commands on standard input, of an instrument:\n" + lines(InstrumentCommands::all_help()) +
+        "An instrument answers functions 3, 4, 6, 7, 8 (sub code 0) and 16; register = tag, from 8000h on "
+        "IEEE singles at 8000h + 2 x tag.\n"
+        "Example: dpsim drive --model 590 --port /tmp/drive-end --log\n"
+        "         dpsim drive --model 2408f --port /tmp/drive-end --unit 1 --programs 4");
 }
-
-/// Options of the master that need a second look after CLI11 has read them.
-struct MasterTexts {
-    std::uint32_t baud = 187'500;
-    std::string ident, prm, tags, cfg;
-    std::uint32_t watchdog_ms = 1000, slot_ms = 20;
-    unsigned address = 2, slave = 5, min_tsdr = 11, group = 1;
-    double cycle_ms = 10;
-    bool no_watchdog = false, no_sync_freeze = false, sd3 = false;
-};
 
 void add_master(CLI::App& app, MasterOptions& o, MasterTexts& t)
 {
@@ -76,13 +89,28 @@ void add_master(CLI::App& app, MasterOptions& o, MasterTexts& t)
     master.add_option("--baud", t.baud, "9600, 19200, 45450, 93750, 187500, 500000 or 1500000")->required();
     master.add_option("--master", t.address, "own address")->capture_default_str()->check(CLI::Range(0, 125));
     master.add_option("--slave", t.slave, "address of the slave")->required()->check(CLI::Range(0, 126));
-    master.add_option("--ident", t.ident, "Ident_Number, 0x0533 if none is given");
-    auto* const prm = master.add_option("--prm", t.prm, "User_Prm_Data in hexadecimal");
     master
-        .add_option("--tags", t.tags,
-                    "tags for User_Prm_Data of the option board (24 octets); 'w' = written: 55,56w,288")
-        ->excludes(prm);
-    master.add_option("--cfg", t.cfg, "Cfg_Data in hexadecimal; else 73 and 50 or 60 for each of --tags");
+        .add_option("--family", t.family,
+                    "what the slave stands for: option-board (584S, 590, 620), technology-box (6053/6055) or "
+                    "controller (2408f/2404f, without Sync and Freeze)")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"option-board", "technology-box", "controller"}));
+    master.add_option("--ident", t.ident,
+                      "Ident_Number; 0x0533 of the option board, others have to be given");
+    auto* const prm = master.add_option("--prm", t.prm, "User_Prm_Data in hexadecimal, or none");
+    auto* const tags = master.add_option(
+        "--tags", t.tags,
+        "tags for User_Prm_Data in the form of the family (24 octets; three of DPV1, then the tags; the tags "
+        "alone); 'w' = written, 'rw' = both: 55,56w,288");
+    tags->excludes(prm);
+    master.add_option("--prm-length", t.prm_length, "zeros behind the --tags up to so many octets")
+        ->needs(tags)
+        ->check(CLI::Range(1, 237));
+    auto* const cfg = master.add_option(
+        "--cfg", t.cfg, "Cfg_Data in hexadecimal; else 73 and 50, 60 or 70 for each of --tags");
+    master.add_flag("--no-demand", t.no_demand, "with --tags: Cfg_Data without the 73 of Demand Data")
+        ->needs(tags)
+        ->excludes(cfg);
     auto* const wd = master.add_option("--watchdog", t.watchdog_ms, "milliseconds")
                          ->capture_default_str()
                          ->check(CLI::Range(10, 650'250));
@@ -111,80 +139,30 @@ void add_master(CLI::App& app, MasterOptions& o, MasterTexts& t)
         "Exit status: 0 fine, 1 an expectation failed or the slave cannot be reached, 2 usage, 3 no port.\n"
         "Example: printf 'start\\nwait 2s for in 1 = 1250\\n' | dpsim master --port /tmp/bus-master --baud "
         "187500 \\\n"
-        "           --slave 5 --tags 55,56w,288 --script -");
-}
-
-/// "55,56w,288" into User_Prm_Data and, if `cfg` is empty, Cfg_Data. Empty = good.
-std::string use_tags(const std::string& list, Octets& prm, Octets& cfg)
-{
-    Octets ids{0x73};
-    prm.clear();
-    std::string text = list;
-    for (char& c : text) c = c == ',' ? ' ' : c;
-    for (std::string word : words_of(text)) {
-        const bool written = word.ends_with('w');
-        if (written) word.pop_back();
-        const auto tag = number_of(word);
-        if (!tag || *tag < 1 || *tag > 0xFFFF) return fmt::format("--tags: '{}' is no tag number", word);
-        prm.push_back(high(static_cast<std::uint16_t>(*tag)));
-        prm.push_back(low(static_cast<std::uint16_t>(*tag)));
-        ids.push_back(written ? 0x60 : 0x50);
-    }
-    if (prm.size() > 24) return "--tags: 12 tags are the limit of the option board; --prm takes any octets";
-    prm.resize(24, 0);
-    if (cfg.empty()) cfg = ids;
-    return {};
-}
-
-/// Puts the texts into the settings. Empty = good, else a sentence.
-std::string complete(MasterSettings& s, const MasterTexts& t)
-{
-    const auto baud = baud_of(t.baud);
-    if (!baud)
-        return fmt::format("--baud {}: PROFIBUS has 9600, 19200, 45450, 93750, 187500, 500000 and 1500000",
-                           t.baud);
-    s.baud = *baud;
-    s.address = static_cast<std::uint8_t>(t.address);
-    s.slave = static_cast<std::uint8_t>(t.slave);
-    if (s.address == s.slave) return "--master and --slave are the same address";
-    if (!t.ident.empty()) {
-        const auto ident = number_of(t.ident);
-        if (!ident || *ident < 0 || *ident > 0xFFFF)
-            return fmt::format("--ident {}: a number up to 0xFFFF", t.ident);
-        s.ident = static_cast<std::uint16_t>(*ident);
-    }
-    const auto prm = octets_of(t.prm), cfg = octets_of(t.cfg);
-    if (!prm) return "--prm: " + prm.error();
-    if (!cfg) return "--cfg: " + cfg.error();
-    if (!t.prm.empty()) s.user_prm = *prm;
-    if (s.user_prm.size() > 237) return "--prm: 237 octets are the limit";
-    Octets ids = *cfg;
-    if (!t.tags.empty())
-        if (std::string wrong = use_tags(t.tags, s.user_prm, ids); !wrong.empty()) return wrong;
-    if (!ids.empty()) s.cfg = ids;
-    if (const auto lengths = cfg_lengths(s.cfg); !lengths) return "--cfg: " + lengths.error();
-    s.watchdog = std::chrono::milliseconds{t.no_watchdog ? 0 : t.watchdog_ms};
-    s.min_tsdr = static_cast<std::uint8_t>(t.min_tsdr);
-    s.group = static_cast<std::uint8_t>(t.group);
-    s.sync_freeze = !t.no_sync_freeze;
-    s.fixed = t.sd3 ? Fixed::when_eight : Fixed::never;
-    s.cycle = std::chrono::nanoseconds{static_cast<std::int64_t>(t.cycle_ms * 1e6)};
-    s.allowance = std::chrono::milliseconds{t.slot_ms};
-    return {};
+        "           --slave 5 --tags 55,56w,288 --script -\n"
+        "Autotune of a 2408f (worked example 1 of its handbook) as a script:\n"
+        "  start\n  demand raw 0\n  wait 5s for demand reg 1 = 0\n  demand raw 8462 0 0 1\n"
+        "  wait 5s for demand reg 1 = 4366\n  demand raw 4172\n  wait 5s for demand reg 1 = 4172\n"
+        "  wait 60s for demand reg 4 & 0x1000 = 0");
 }
 
 } // namespace
 
 int main(int argc, char** argv)
 {
-    CLI::App app{
-        "Simulators for dpslaved: a serial line, a drive and a PROFIBUS-DP master, all without hardware"};
+    CLI::App app{"Simulators for dpslaved: a serial line, a drive or instrument, and a PROFIBUS-DP master, "
+                 "all without "
+                 "hardware"};
     app.require_subcommand(1);
-    app.footer("Example, a whole bus on one machine (three terminals and the daemon):\n"
-               "  dpsim line --baud 187500 --a /tmp/bus-slave --b /tmp/bus-master\n"
-               "  dpsim line --baud 9600 --bits 10 --a /tmp/drive-near --b /tmp/drive-end\n"
-               "  dpsim drive --model 590 --port /tmp/drive-end\n"
-               "  dpsim master --port /tmp/bus-master --baud 187500 --slave 5 --tags 55,56w,288");
+    app.footer(
+        "Example, a whole bus on one machine (three terminals and the daemon):\n"
+        "  dpsim line --baud 187500 --a /tmp/bus-slave --b /tmp/bus-master\n"
+        "  dpsim line --baud 9600 --bits 10 --a /tmp/drive-near --b /tmp/drive-end\n"
+        "  dpsim drive --model 590 --port /tmp/drive-end\n"
+        "  dpsim master --port /tmp/bus-master --baud 187500 --slave 5 --tags 55,56w,288\n"
+        "With an instrument: dpsim drive --model 2408f --port /tmp/drive-end, and\n"
+        "  dpsim master --port /tmp/bus-master --baud 187500 --slave 5 --family controller --ident IDENT "
+        "--tags 1,5,3,75,24w");
     LineOptions line;
     DriveOptions drive;
     MasterOptions master;

@@ -87,6 +87,7 @@ struct MasterEvent {
         refused,   ///< start-up failed: the slave refuses; the master tries again later
         lost,      ///< no answer any more
         complaint, ///< the slave did what a slave must not do
+        diagnosis, ///< it was read in data exchange, and is another one than before
         answer,    ///< an order is done
     };
     Kind kind = Kind::state;
@@ -172,6 +173,7 @@ private:
     bool clear_ = false;
     bool diagnosis_due_ = false;
     std::optional<Diagnosis> diagnosis_;
+    Octets told_diagnosis_; ///< said once, not at every reading
 
     bool first_ = true; ///< the next counted request starts a sequence (FCB 1, FCV 0)
     bool fcb_ = false;  ///< of the next counted request

@@ -81,6 +81,10 @@ void Master::on_slave_diag(const Frame& frame, Instant now)
     if (!diagnosis) return complain(diagnosis.error());
     diagnosis_ = std::move(*diagnosis);
     if (pending_->one_shot && state_ != MasterState::data_exchange) return;
+    if (state_ == MasterState::data_exchange && told_diagnosis_ != diagnosis_->octets) {
+        told_diagnosis_ = diagnosis_->octets;
+        if (!pending_->one_shot) events_.push_back({MasterEvent::Kind::diagnosis, {}, std::nullopt});
+    }
     judge_start_up(*diagnosis_, now);
 }
 
@@ -171,6 +175,7 @@ void Master::enter(MasterState state)
     state_ = state;
     if (state == MasterState::data_exchange) {
         diagnosis_due_ = false;
+        told_diagnosis_.clear();
         last_refusal_.clear();
     }
     events_.push_back({MasterEvent::Kind::state, std::string{text(state)}, std::nullopt});

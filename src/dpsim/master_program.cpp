@@ -125,9 +125,10 @@ int run_master(const MasterOptions& options)
     be_prompt();
     const bool prompt = options.script.empty() && ::isatty(STDIN_FILENO) == 1;
     const std::string name = from_file ? options.script : prompt ? "" : "standard input";
-    print_line(fmt::format(
-        "master {} at {} bit/s on {}, slave {}, ident 0x{:04X}, Cfg_Data {}, User_Prm_Data {}", s.address,
-        static_cast<std::uint32_t>(s.baud), options.port, s.slave, s.ident, hex(s.cfg), hex(s.user_prm)));
+    print_line(
+        fmt::format("master {} at {} bit/s on {}, slave {}, ident 0x{:04X}, Cfg_Data {}, User_Prm_Data {}",
+                    s.address, static_cast<std::uint32_t>(s.baud), options.port, s.slave, s.ident, hex(s.cfg),
+                    s.user_prm.empty() ? "none" : hex(s.user_prm)));
     Master master{s};
     return Session{master, port->get(), from_file ? file.get() : STDIN_FILENO, name, prompt}.run(signals);
 }

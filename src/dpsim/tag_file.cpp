@@ -15,6 +15,9 @@ namespace {
 
 using Fields = std::vector<std::string>;
 
+/// As much as an instrument of the 2000 series can show, and more.
+constexpr std::int32_t kMostCounts = 9'999'999;
+
 /// Splits a line into its fields; quotes hide commas, a doubled quote is a quote. Nothing: a quote is not
 /// closed.
 std::optional<Fields> fields_of(std::string_view line)
@@ -63,7 +66,6 @@ std::optional<std::int32_t> decimal_counts(std::string_view text, unsigned decim
     digits.append(decimals - after, '0');
     std::int64_t counts = 0;
     for (const char c : digits) counts = counts * 10 + (c - '0');
-    if (counts > 65535) return std::nullopt;
     return static_cast<std::int32_t>(negative ? -counts : counts);
 }
 
@@ -147,11 +149,18 @@ std::string read_kind(const Row& row, SimTag& tag)
     if (kind == kKinds.end())
         return fmt::format("type '{}' is none of INT, REAL, WORD, BOOL, ENUM, STRING", type);
     tag.type = kind->second;
+    tag.has_type = !type.empty();
 
     const std::string decimals = row["decimals"];
-    const auto count = decimals.empty() ? std::optional<std::int32_t>{0} : plain_number(decimals, 4);
-    if (!count) return fmt::format("decimals '{}' is not 0 to 4", decimals);
-    if (tag.type == TagKind::number) tag.decimals = static_cast<unsigned>(*count);
+    tag.follows_display = decimals == "display" && tag.type == TagKind::number;
+    tag.is_real = type == "REAL" || tag.follows_display;
+    if (tag.type == TagKind::number && row["notes"].find("time type") != std::string::npos)
+        tag.ms_per_count = tag.name.find("in minutes") != std::string::npos ? 60'000 : 1'000;
+    const auto count = decimals.empty() || decimals == "display" ? std::optional<std::int32_t>{0}
+                                                                 : plain_number(decimals, 4);
+    if (!count) return fmt::format("decimals '{}' is not 0 to 4, nor display", decimals);
+    if (tag.type == TagKind::number)
+        tag.decimals = tag.follows_display ? kDisplayDecimals : static_cast<unsigned>(*count);
 
     const std::string access = row["access"];
     if (access == "ro")
@@ -179,18 +188,22 @@ std::string read_limits(const Row& row, SimTag& tag)
         case TagKind::enumeration: tag.max = 255; break;
         case TagKind::string: return {};
     }
-    const std::int32_t allowed_max = tag.type == TagKind::number ? 65535 : tag.max;
+    std::int32_t lowest = -32768, highest = tag.type == TagKind::number ? 65535 : tag.max;
+    if (tag.follows_display) { // a floating point value inside; the word is only one way to read it
+        tag.min = lowest = -kMostCounts;
+        tag.max = highest = kMostCounts;
+    }
     for (const auto& [column, limit] : {std::pair{"min", &tag.min}, std::pair{"max", &tag.max}}) {
         const std::string text = row[column];
         if (text.empty()) continue;
         const auto counts = counts_of_text(tag, text);
-        if (!counts || *counts < -32768 || *counts > allowed_max)
+        if (!counts || *counts < lowest || *counts > highest)
             return fmt::format("{} '{}' does not fit into the 16 bits of this type with {} decimals", column,
                                text, tag.decimals);
         *limit = *counts;
     }
     if (tag.min > tag.max) return fmt::format("min '{}' is above max '{}'", row["min"], row["max"]);
-    if (tag.max > 32767 && tag.min < 0)
+    if (!tag.follows_display && tag.max > 32767 && tag.min < 0)
         return "min below 0 and max above 32767 do not fit into one 16-bit word";
     return {};
 }
@@ -205,6 +218,7 @@ std::string read_start(const Row& row, SimTag& tag)
     const auto value = value_of_text(tag, text);
     if (!value) return fmt::format("start '{}' is no value of this tag within its limits", text);
     tag.start = *value;
+    tag.has_start = true;
     return {};
 }
 
@@ -219,11 +233,13 @@ std::string read_row(const Row& row, SimTag& tag)
     return {};
 }
 
-/// Sorted by tag; lines of one tag (a second name for it) give one parameter, the first line counts.
+/// Sorted by tag; lines of one tag (a second name for it) give one parameter: the first line that says its
+/// type counts, else the first.
 std::vector<SimTag> sorted(std::vector<SimTag> tags)
 {
-    std::stable_sort(tags.begin(), tags.end(),
-                     [](const SimTag& a, const SimTag& b) { return a.number < b.number; });
+    std::stable_sort(tags.begin(), tags.end(), [](const SimTag& a, const SimTag& b) {
+        return a.number != b.number ? a.number < b.number : a.has_type && !b.has_type;
+    });
     const auto last = std::unique(tags.begin(), tags.end(),
                                   [](const SimTag& a, const SimTag& b) { return a.number == b.number; });
     tags.erase(last, tags.end());
@@ -231,6 +247,17 @@ std::vector<SimTag> sorted(std::vector<SimTag> tags)
 }
 
 } // namespace
+
+std::int32_t rescaled(std::int32_t counts, unsigned from, unsigned to)
+{
+    std::int64_t value = counts;
+    for (; from < to; ++from) value *= 10;
+    std::int64_t divisor = 1;
+    for (; from > to; --from) divisor *= 10;
+    const std::int64_t half = divisor / 2;
+    value = (value < 0 ? value - half : value + half) / divisor;
+    return static_cast<std::int32_t>(std::clamp<std::int64_t>(value, INT32_MIN, INT32_MAX));
+}
 
 std::string displayed(const SimTag& tag, const SimValue& value)
 {

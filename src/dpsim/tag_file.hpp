@@ -21,6 +21,9 @@ enum class TagKind : std::uint8_t {
 }; ///< INT/REAL, WORD, BOOL, ENUM, STRING
 enum class TagAccess : std::uint8_t { read_write, read_only, write_only }; ///< an empty column counts as rw
 
+/// No instrument shows more (tag 525 of a 2400).
+inline constexpr unsigned kDisplayDecimals = 2;
+
 /// What a parameter holds: counts = displayed value x 10^decimals, or the text of a STRING.
 struct SimValue {
     std::int32_t counts = 0;
@@ -37,14 +40,25 @@ struct SimTag {
     std::uint16_t number = 0;
     std::string name{};
     TagKind type = TagKind::number;
+    bool has_type = false; ///< the column is not empty
+    bool is_real = false;  ///< REAL, or its decimals are those of the display: scaled
+    /// Milliseconds that one count of a time is (the notes say "time type"); 0 = it is none.
+    std::int32_t ms_per_count = 0;
     unsigned decimals = 0; ///< 0..4
-    std::int32_t min = 0;  ///< counts; what the type allows where the table says nothing
+    /// The column says "display": as many as the instrument shows. Until it says how many, there are
+    /// kDisplayDecimals.
+    bool follows_display = false;
+    std::int32_t min = 0; ///< counts; what the type allows where the table says nothing
     std::int32_t max = 0;
     TagAccess access = TagAccess::read_write;
     std::string mnemonic{}; ///< two characters; empty = by the rule of the family
     std::vector<SimLabel> labels{};
-    SimValue start{}; ///< column `start` (only dpsim knows it), else the nearest to 0 within the limits
+    bool has_start = false; ///< the table says where it starts
+    SimValue start{};       ///< column `start` (only dpsim knows it), else the nearest to 0 within the limits
 };
+
+/// Counts with another number of decimals; rounded to the nearest, ties away from zero.
+std::int32_t rescaled(std::int32_t counts, unsigned from, unsigned to);
 
 /// Displayed form: "12.50", "-0.05", ">1B0B", "2 (Jog)".
 std::string displayed(const SimTag& tag, const SimValue& value);

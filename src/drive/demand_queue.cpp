@@ -19,6 +19,7 @@ void DemandQueue::set(const DemandOrder& order, const Tag* row, AccessError verd
 {
     if (!entries_.empty() && entries_.back().order.kind == DemandOrder::Kind::read) entries_.pop_back();
     standing_.reset();
+    answers_.clear(); // of orders that no longer stand
     if (order.kind == DemandOrder::Kind::cancel) return;
     standing_ = order.number;
     if (verdict != AccessError::none) {
@@ -61,8 +62,10 @@ void DemandQueue::done(std::uint32_t number, AccessError error, std::uint16_t va
 {
     const auto at = std::find_if(entries_.begin(), entries_.end(),
                                  [number](const Entry& e) { return e.order.number == number; });
-    if (at == entries_.end()) return; // it no longer stands: what comes late is dropped
-    answer({number, error, error == AccessError::none ? value : std::uint16_t{0}});
+    if (at == entries_.end()) return;
+    // What comes late for an order that no longer stands is dropped: behind the answer to the one
+    // that stands it would take its place.
+    if (stands(*at)) answer({number, error, error == AccessError::none ? value : std::uint16_t{0}});
     at->answered = true;
     if (at->order.kind == DemandOrder::Kind::write) entries_.erase(at);
 }

@@ -36,6 +36,7 @@ public:
     std::uint64_t dropped() const { return dropped_; }
     /// Neither for no_answer nor for not_understood: then the order waits on.
     void done(std::uint32_t number, AccessError error, std::uint16_t value);
+    /// Answers to the order that stands, and to no other.
     std::optional<DemandAnswer> take_answer();
 
 private:

@@ -221,9 +221,14 @@ AccessError EiAsciiClient::take_unlisted(UnitAddress unit, const Tag& tag, const
     return AccessError::invalid_tag;
 }
 
-AccessError EiAsciiClient::write(UnitAddress unit, const Tag& tag, std::uint16_t word)
+AccessError EiAsciiClient::write(UnitAddress unit, const Tag& tag, std::span<const std::uint16_t> words)
 {
     trouble_.clear();
+    if (words.size() != 1) {
+        trouble_ = "EI-ASCII writes one tag at a time";
+        return AccessError::unsupported_type;
+    }
+    const std::uint16_t word = words[0];
     if (!tag.listed && words_.count(key(unit, tag.number)) == 0) {
         std::uint16_t present = 0;
         const AccessError error = read(unit, tag, {&present, 1});

@@ -4,18 +4,46 @@
 #include <algorithm>
 
 namespace dpslave::drive {
+namespace {
+
+constexpr unsigned kMaxRepeats = 6; ///< 64 s: beyond every limit
+
+/// A refusal of this word, or one for the time being: that the drive holds the word ends it. A tag that is
+/// read only stays so.
+bool ends_when_held(AccessError error)
+{
+    return error != AccessError::read_only && error != AccessError::invalid_tag &&
+           error != AccessError::unsupported_type;
+}
+
+} // namespace
 
 void OutputPlan::reset(std::vector<Item> items)
 {
     items_ = std::move(items);
+    by_tag_.clear();
+    for (std::size_t i = 0; i < items_.size(); ++i)
+        if (items_[i].asked) by_tag_.push_back(i);
+    std::sort(by_tag_.begin(), by_tag_.end(),
+              [this](auto a, auto b) { return items_[a].row->number < items_[b].row->number; });
+    batch_.clear();
+    failed_blocks_ = 0;
     may_write_ = false;
     stopped_ = false;
 }
 
 void OutputPlan::set(std::span<const std::uint16_t> words, bool may_write)
 {
+    const bool begins = may_write && !may_write_;
     may_write_ = may_write;
-    for (Item& item : items_) item.wanted = words[item.parameter];
+    for (Item& item : items_) {
+        item.wanted = words[item.parameter];
+        // A bus that flaps must not cost the memory of the drive a write each time: the first word of a
+        // layout is taken for what the drive holds until a read shows another one.
+        if (!begins || !rule_.compare || !item.readable || item.answered) continue;
+        item.answered = item.wanted;
+        item.supposed = true;
+    }
 }
 
 /// A changed word is due at once, kAtOnce. A tag that the drive does not have is dropped and tried
@@ -25,20 +53,69 @@ Instant OutputPlan::due_at(const Item& item) const
     if (!item.asked) return kNever;
     if (item.state == WordState::invalid_tag) return item.attempted_at + kInvalidRetry;
     if (item.answered != item.wanted) return kAtOnce;
-    return item.attempted_at + (item.not_understood ? std::min(refresh_, kInvalidRetry) : refresh_);
+    if (rule_.compare) return repeat_at(item);
+    const bool not_understood = item.error == AccessError::not_understood;
+    return item.attempted_at + (not_understood ? std::min(rule_.refresh, kInvalidRetry) : rule_.refresh);
 }
 
-std::optional<std::size_t> OutputPlan::next(Instant now) const
+/// Of a compared output whose word was answered. Never while the drive holds it.
+Instant OutputPlan::repeat_at(const Item& item) const
+{
+    if (item.held || (!item.refused && !item.differs)) return kNever;
+    if (!item.refused && item.repeats == 0) return kAtOnce; // overridden by somebody, or lost in a block
+    const auto pause = kFirstRepeat * (1U << std::min(item.repeats, kMaxRepeats));
+    return item.attempted_at + std::min(pause, item.refused ? kInvalidRetry : kRepeatNotKept);
+}
+
+bool OutputPlan::joins(const Item& item, Instant now) const
+{
+    return item.readable && !item.alone && !item.waits && !item.row->modbus_register &&
+           item.state != WordState::invalid_tag && item.round != round_ && due_at(item) <= now;
+}
+
+/// Fills the batch with the item and its neighbours by tag as far as they are due.
+void OutputPlan::join_neighbours(std::size_t index, Instant now)
+{
+    batch_.assign(1, index);
+    const std::size_t limit = std::min<std::size_t>(rule_.max_written, kMaxParameters);
+    const bool blocks = rule_.compare && failed_blocks_ < kMaxFailedBlocks;
+    if (!blocks || limit < 2 || !joins(items_[index], now)) return;
+    const auto here =
+        static_cast<std::size_t>(std::find(by_tag_.begin(), by_tag_.end(), index) - by_tag_.begin());
+    const auto adjoins = [&](std::size_t place) { // `place` and the one after it
+        return items_[by_tag_[place]].row->number + 1 == items_[by_tag_[place + 1]].row->number;
+    };
+    std::size_t first = here, last = here;
+    while (last - first + 1 < limit && first > 0 && adjoins(first - 1) &&
+           joins(items_[by_tag_[first - 1]], now))
+        --first;
+    while (last - first + 1 < limit && last + 1 < by_tag_.size() && adjoins(last) &&
+           joins(items_[by_tag_[last + 1]], now))
+        ++last;
+    batch_.assign(by_tag_.begin() + static_cast<std::ptrdiff_t>(first),
+                  by_tag_.begin() + static_cast<std::ptrdiff_t>(last + 1));
+}
+
+std::optional<OutputPlan::Write> OutputPlan::start(Instant now)
 {
     if (!writes_now()) return std::nullopt;
-    std::optional<std::size_t> refresh;
+    std::optional<std::size_t> chosen;
     for (std::size_t i = 0; i < items_.size(); ++i) {
         if (items_[i].round == round_) continue;
         const Instant due = due_at(items_[i]);
-        if (due == kAtOnce) return i;
-        if (due <= now && !refresh) refresh = i;
+        if (due > now || (chosen && due != kAtOnce)) continue;
+        chosen = i;
+        if (due == kAtOnce) break;
     }
-    return refresh;
+    if (!chosen) return std::nullopt;
+    join_neighbours(*chosen, now);
+    for (std::size_t i = 0; i < batch_.size(); ++i) {
+        Item& item = items_[batch_[i]];
+        words_[i] = item.wanted;
+        item.answered.reset(); // from here until the answer nobody knows what the drive holds
+        item.attempted_at = now;
+    }
+    return Write{items_[batch_.front()].row, std::span{words_}.first(batch_.size())};
 }
 
 Instant OutputPlan::next_due() const
@@ -46,78 +123,115 @@ Instant OutputPlan::next_due() const
     Instant at = kNever;
     if (writes_now())
         for (const Item& item : items_) at = std::min(at, due_at(item));
-    for (const Zero& zero : zeros_) at = std::min(at, zero.due);
     return at;
 }
 
-void OutputPlan::started(std::size_t index, Instant now)
+void OutputPlan::done(AccessError error, Instant now)
 {
-    Item& item = items_[index];
-    item.answered.reset(); // from here until the answer nobody knows what the drive holds
-    item.attempted_at = now;
+    if (writes_block() && error != AccessError::none) return block_failed();
+    if (writes_block()) failed_blocks_ = 0;
+    for (std::size_t i = 0; i < batch_.size(); ++i) answered(items_[batch_[i]], words_[i], error, now);
 }
 
-void OutputPlan::done(std::size_t index, std::uint16_t word, AccessError error, Instant now)
+void OutputPlan::answered(Item& item, std::uint16_t word, AccessError error, Instant now)
 {
-    Item& item = items_[index];
     item.answered = word;
+    item.answered_at = now;
     item.round = round_;
     item.state = state_of(error);
-    item.not_understood = error == AccessError::not_understood;
-    if (error != AccessError::none) return;
+    item.error = error;
+    item.refused = error != AccessError::none;
+    item.repeats = item.repeated == word ? std::min(item.repeats + 1, kMaxRepeats) : 0;
+    item.repeated = word;
+    item.held = item.differs = item.supposed = false;
+    item.unproven = writes_block();
+    item.alone = item.refused;
+    if (item.refused) return;
     item.written = word;
     item.updated_at = now;
 }
 
-void OutputPlan::drive_lost()
+void OutputPlan::not_answered(bool drive_lost)
 {
-    for (Item& item : items_)
-        if (item.asked && item.state != WordState::invalid_tag) item.state = WordState::stale;
+    if (drive_lost)
+        for (const std::size_t index : batch_) items_[index].waits = true;
+    if (writes_block()) block_failed();
 }
 
-/// It may have been without power: whatever it held, every present output is written again.
-void OutputPlan::drive_returned()
+/// Nothing of it is known to be written: `answered` is empty, so each is due at once.
+void OutputPlan::block_failed()
 {
-    for (Zero& zero : zeros_) zero.due = kAtOnce;
+    ++failed_blocks_;
+    for (const std::size_t index : batch_) items_[index].alone = true;
+}
+
+void OutputPlan::observed(const Tag* row, std::uint16_t word, Instant began)
+{
     for (Item& item : items_) {
-        if (!item.asked) continue;
-        item.answered.reset();
-        item.round = item.waits ? round_ + 1 : round_;
-        item.waits = false;
-        if (item.state == WordState::invalid_tag) item.state = WordState::stale;
+        if (item.row != row || !item.asked) continue;
+        item.readable = true;
+        if (word == item.wanted) {
+            if (item.answered != item.wanted || item.supposed) { // as good as an answer, which may never come
+                item.answered = item.written = word;
+                item.answered_at = item.updated_at = began;
+            }
+            item.held = true;
+            item.supposed = false;
+            item.differs = item.unproven = false;
+            item.repeats = 0;
+            item.repeated.reset();
+            if (item.refused && !ends_when_held(item.error)) continue;
+            item.refused = item.alone = false;
+            item.state = WordState::good;
+            item.error = AccessError::none;
+        } else if (item.answered != item.wanted) {
+            continue; // it is written anyway
+        } else if (item.supposed || began >= item.answered_at + kSettling) {
+            item.alone = item.alone || item.unproven;
+            item.held = item.unproven = item.supposed = false;
+            item.differs = true;
+            if (item.refused || item.repeats == 0) continue;
+            item.state = WordState::refused; // accepted again and again, and not kept
+            item.error = AccessError::not_understood;
+        }
     }
 }
 
-void OutputPlan::zero(const Tag* row)
+void OutputPlan::unreadable(const Tag* row)
 {
-    zeroed(row);
-    zeros_.push_back({row});
+    for (Item& item : items_) {
+        if (item.row != row || !item.asked) continue;
+        if (item.unproven || item.supposed) item.answered.reset(); // only a single write tells
+        item.readable = item.held = item.differs = item.unproven = item.supposed = false;
+    }
 }
 
-const Tag* OutputPlan::next_zero(Instant now)
+void OutputPlan::drive_lost()
 {
-    const auto written_anyway = [this](const Zero& zero) {
-        return std::any_of(items_.begin(), items_.end(),
-                           [&zero](const Item& i) { return i.row == zero.row; });
-    };
-    if (writes_now())
-        zeros_.erase(std::remove_if(zeros_.begin(), zeros_.end(), written_anyway), zeros_.end());
-    const auto at =
-        std::find_if(zeros_.begin(), zeros_.end(), [now](const Zero& zero) { return zero.due <= now; });
-    return at == zeros_.end() ? nullptr : at->row;
+    for (Item& item : items_) {
+        if (!item.asked || item.state == WordState::invalid_tag) continue;
+        item.state = WordState::stale;
+        item.error = AccessError::no_answer;
+    }
 }
 
-void OutputPlan::postpone_zero(const Tag* row, Instant now)
+/// It may have been without power: whatever it held, every present output is written again. Where outputs are
+/// compared the reads show which of them. What is known about blocks stays: it may have been lost on one.
+void OutputPlan::drive_returned()
 {
-    for (Zero& zero : zeros_)
-        if (zero.row == row) zero.due = now + kInvalidRetry;
-}
-
-void OutputPlan::zeroed(const Tag* row)
-{
-    zeros_.erase(
-        std::remove_if(zeros_.begin(), zeros_.end(), [row](const Zero& zero) { return zero.row == row; }),
-        zeros_.end());
+    for (Item& item : items_) {
+        if (!item.asked) continue;
+        item.supposed = item.readable && item.answered && !item.refused;
+        if (!item.supposed) item.answered.reset();
+        item.held = item.differs = item.unproven = item.refused = false;
+        item.repeats = 0;
+        item.repeated.reset();
+        item.round = item.waits ? round_ + 1 : round_;
+        item.waits = false;
+        if (item.state != WordState::invalid_tag) continue;
+        item.state = WordState::stale;
+        item.error = AccessError::no_answer;
+    }
 }
 
 } // namespace dpslave::drive

@@ -31,6 +31,16 @@ void Poller::set_demand(std::size_t unit, const DemandOrder& order)
     units_[unit]->set_demand(order);
 }
 
+void Poller::set_zero_after(std::size_t unit, ZeroAfter after)
+{
+    units_[unit]->set_zero_after(after);
+}
+
+void Poller::ride_no_longer()
+{
+    for (const auto& unit : units_) unit->ride_no_longer();
+}
+
 bool Poller::operate(const OperateOrder& order)
 {
     return order.unit < units_.size() && units_[order.unit]->operate(order);
@@ -39,6 +49,7 @@ bool Poller::operate(const OperateOrder& order)
 /// One transaction a turn, the drives in a circle: what one of them costs, the others do not pay.
 std::optional<Transaction> Poller::next(Instant now)
 {
+    for (const auto& unit : units_) unit->tell_time(now);
     if (doing_) return std::nullopt;
     for (std::size_t i = 0; i < units_.size(); ++i) {
         const std::size_t unit = (turn_ + i) % units_.size();

@@ -13,19 +13,21 @@ namespace {
 /// new order.
 constexpr int kOrdersPerRound = 2;
 constexpr std::size_t kMaxOperates = 16;
-/// Several dead drives on one line must not eat it: their probes come more and more seldom.
-constexpr int kMaxProbeFactor = 8;
 
 } // namespace
 
 Poller::Unit::Unit(const UnitSettings& settings, BlockRule rule, std::size_t index)
     : settings_(settings),
       index_(index),
-      tags_(settings.tags, settings.tags_only_from_table),
+      tags_(settings),
       reads_(rule),
-      outputs_(settings.output_refresh),
+      outputs_({settings.output_refresh, settings.compare_outputs, rule.max_written}),
+      safe_state_(settings.zero_after),
       probe_wait_(settings.probe_interval)
-{}
+{
+    reads_.reset(tags_.reads_of({}));
+    show();
+}
 
 bool Poller::Unit::has_ended(Generation generation) const
 {
@@ -42,6 +44,7 @@ void Poller::Unit::set_outputs(const OutputImage& image)
     outputs_.set(image_.words, image_.may_write);
     master_wrote_ = master_wrote_ || image_.may_write;
     if (has_ended(image_.layout.generation)) end_layout();
+    if (outputs_.writes_now() && !writing_) begin_writing();
     if (is_new) show();
 }
 
@@ -49,13 +52,13 @@ void Poller::Unit::new_layout(const OutputImage& image)
 {
     left_data_exchange(image_.layout.generation);
     ++serial_;
-    reads_.reset(tags_.inputs_of(image.layout));
+    reads_.reset(tags_.reads_of(image.layout));
     outputs_.reset(tags_.outputs_of(image.layout));
     if (lost_) {
         reads_.drive_lost();
         outputs_.drive_lost();
     }
-    master_wrote_ = zeroed_ = false;
+    master_wrote_ = writing_ = zeroed_ = false;
     inputs_not_understood_ = outputs_not_understood_ = 0;
     in_round_ = false;
     round_began_.reset();
@@ -64,18 +67,30 @@ void Poller::Unit::new_layout(const OutputImage& image)
     snapshot_.words = {};
     snapshot_.updated_at = {};
     snapshot_.states = {};
+    snapshot_.errors = {};
     inputs_changed_ = true;
 }
 
-/// Of the present layout nothing is written any more. Its outputs are zeroed once, and only if the master was
-/// in Data_Exchange with it: a drive that runs locally is left alone by start-ups that fail.
+/// What the present layout writes is left to it: a zero of the layout before would come after the newer word.
+void Poller::Unit::begin_writing()
+{
+    writing_ = true;
+    reads_.compare(settings_.compare_outputs);
+    for (const OutputPlan::Item& item : outputs_.items())
+        if (item.asked) safe_state_.remove(item.row);
+}
+
+/// Of the present layout nothing is written any more. Its outputs go to the safe state, and only if the
+/// master was in Data_Exchange with it: a drive that runs locally is left alone by start-ups that fail.
 void Poller::Unit::end_layout()
 {
     outputs_.stop();
-    if (!master_wrote_ || zeroed_ || settings_.output_loss != OutputLoss::zero) return;
+    reads_.compare(false);
+    writing_ = false;
+    if (!master_wrote_ || zeroed_) return;
     zeroed_ = true;
     for (const OutputPlan::Item& item : outputs_.items())
-        if (item.asked) outputs_.zero(item.row);
+        if (item.asked) safe_state_.add(item.row);
 }
 
 void Poller::Unit::left_data_exchange(Generation generation)
@@ -124,8 +139,8 @@ std::optional<Transaction> Poller::Unit::next(Instant now)
 /// What this round still has.
 std::optional<Transaction> Poller::Unit::asked(Instant now)
 {
-    if (const Tag* row = zero_waits_ ? nullptr : outputs_.next_zero(now))
-        return make(Purpose::safe_state, Transaction::Kind::write, row);
+    if (const Tag* row = zero_waits_ ? nullptr : safe_state_.next(now))
+        return make_write(Purpose::safe_state, row, 0);
     if (auto transaction = ordered()) return transaction;
     return cyclic(now);
 }
@@ -141,16 +156,16 @@ std::optional<Transaction> Poller::Unit::ordered()
         order_was_last_ = true;
         ++orders_in_round_;
         job_.order = entry->order.number;
-        const bool is_write = entry->order.kind == DemandOrder::Kind::write;
-        const auto kind = is_write ? Transaction::Kind::write : Transaction::Kind::read;
-        return make(Purpose::demand, kind, entry->row, is_write ? entry->order.value : std::uint16_t{0});
+        return entry->order.kind == DemandOrder::Kind::write
+                   ? make_write(Purpose::demand, entry->row, entry->order.value)
+                   : make_read(Purpose::demand, entry->row);
     }
     if (!operates_.empty()) {
         order_was_last_ = true;
         const WaitingOperate& waiting = operates_.front();
         job_.order = waiting.order.number;
-        const auto kind = waiting.order.is_write ? Transaction::Kind::write : Transaction::Kind::read;
-        return make(Purpose::operate, kind, waiting.row, waiting.order.word);
+        return waiting.order.is_write ? make_write(Purpose::operate, waiting.row, waiting.order.word)
+                                      : make_read(Purpose::operate, waiting.row);
     }
     return std::nullopt;
 }
@@ -160,20 +175,20 @@ std::optional<Transaction> Poller::Unit::ordered()
 std::optional<Transaction> Poller::Unit::cyclic(Instant now)
 {
     job_.layout = serial_;
+    job_.began = now;
     if (!round_began_) round_began_ = now;
-    if (const auto output = outputs_.next(now)) {
+    if (const auto write = outputs_.start(now)) {
         order_was_last_ = zero_waits_ = false;
-        outputs_.started(*output, now);
-        job_.output = *output;
-        const OutputPlan::Item& item = outputs_.items()[*output];
-        return make(Purpose::output, Transaction::Kind::write, item.row, item.wanted);
+        return make_write(Purpose::output, write->row, write->words);
     }
     if (const auto block = reads_.next(now)) {
         order_was_last_ = zero_waits_ = false;
-        in_round_ = true;
         job_.block = *block;
-        Transaction transaction =
-            make(Purpose::input, Transaction::Kind::read, reads_.items()[block->first].row);
+        const Purpose purpose = reads_.serves_input(*block)    ? Purpose::input
+                                : reads_.serves_output(*block) ? Purpose::output
+                                                               : Purpose::watch;
+        in_round_ = in_round_ || purpose != Purpose::watch;
+        Transaction transaction = make_read(purpose, reads_.items()[block->first].row);
         transaction.count = reads_.count_of(*block);
         return transaction;
     }
@@ -186,19 +201,35 @@ std::optional<Transaction> Poller::Unit::probe(Instant now)
 {
     const bool due = !ever_asked_ || (silences_ > 0 && !lost_) || now >= asked_at_ + probe_wait_;
     if (!due) return std::nullopt;
-    return make(Purpose::probe, Transaction::Kind::probe, nullptr);
+    Transaction transaction;
+    transaction.unit = index_;
+    return transaction;
 }
 
-Transaction Poller::Unit::make(Purpose purpose, Transaction::Kind kind, const Tag* row,
-                               std::uint16_t word) const
+Transaction Poller::Unit::make_read(Purpose purpose, const Tag* row) const
 {
     Transaction transaction;
-    transaction.kind = kind;
+    transaction.kind = Transaction::Kind::read;
     transaction.purpose = purpose;
     transaction.unit = index_;
     transaction.tag = row;
-    transaction.word = word;
     return transaction;
+}
+
+Transaction Poller::Unit::make_write(Purpose purpose, const Tag* row,
+                                     std::span<const std::uint16_t> words) const
+{
+    Transaction transaction = make_read(purpose, row);
+    transaction.kind = Transaction::Kind::write;
+    transaction.count = static_cast<std::uint16_t>(words.size());
+    transaction.words = words;
+    return transaction;
+}
+
+Transaction Poller::Unit::make_write(Purpose purpose, const Tag* row, std::uint16_t word)
+{
+    word_[0] = word;
+    return make_write(purpose, row, std::span<const std::uint16_t>{word_});
 }
 
 void Poller::Unit::begin_round(Instant now)
@@ -207,212 +238,16 @@ void Poller::Unit::begin_round(Instant now)
     round_began_ = now;
     in_round_ = false;
     orders_in_round_ = 0;
-    reads_.begin_round();
+    reads_.begin_round(now);
     outputs_.begin_round();
 }
 
 Instant Poller::Unit::next_deadline() const
 {
     const Instant next_probe = asked_at_ + probe_wait_;
-    if (lost_) return next_probe;
-    const bool something =
-        !ever_asked_ || silences_ > 0 || demand_.front() != nullptr || !operates_.empty() || !reads_.empty();
-    if (something) return kAtOnce;
-    return std::min({next_probe, outputs_.next_due(), reads_.next_retry()});
-}
-
-// ---- what became of it
-
-void Poller::Unit::done(const Transaction& transaction, const Outcome& outcome, Instant now)
-{
-    Outcome what = outcome;
-    if (transaction.kind == Transaction::Kind::read && what.error == AccessError::none &&
-        what.words.size() < transaction.count)
-        what.error = AccessError::no_answer; // half an answer is none
-    ever_asked_ = true;
-    asked_at_ = now;
-    count(transaction, what.error);
-    switch (transaction.purpose) {
-        case Purpose::input: done_input(what, now); break;
-        case Purpose::output: done_output(transaction, what.error, now); break;
-        case Purpose::safe_state: done_zero(transaction.tag, what.error, now); break;
-        case Purpose::demand: done_demand(transaction, what); break;
-        case Purpose::operate: done_operate(transaction, what); break;
-        case Purpose::probe: break;
-    }
-    link(what.error != AccessError::no_answer, now);
-    show();
-}
-
-void Poller::Unit::count(const Transaction& transaction, AccessError error)
-{
-    if (error == AccessError::no_answer)
-        ++snapshot_.silences;
-    else if (error != AccessError::none)
-        ++snapshot_.refusals;
-    else if (transaction.kind == Transaction::Kind::read)
-        ++snapshot_.reads;
-    else if (transaction.kind == Transaction::Kind::write)
-        ++snapshot_.writes;
-}
-
-/// What the drive did not understand is repeated like silence. When that does not help it is left to later:
-/// the drive is there, and the others go on.
-bool Poller::Unit::is_repeated(AccessError error, int& not_understood) const
-{
-    not_understood = error == AccessError::not_understood ? not_understood + 1 : 0;
-    if (not_understood <= settings_.retries) return not_understood > 0;
-    not_understood = 0;
-    return false;
-}
-
-void Poller::Unit::done_input(const Outcome& outcome, Instant now)
-{
-    if (job_.layout != serial_) return; // read for a layout that is gone
-    if (outcome.error == AccessError::no_answer) {
-        if (silences_ >= settings_.retries)
-            reads_.skip(job_.block); // lost on it: after the return another one goes first
-        return;
-    }
-    if (is_repeated(outcome.error, inputs_not_understood_)) return;
-    if (reads_.done(job_.block, outcome.error, outcome.words, now)) inputs_changed_ = true;
-}
-
-void Poller::Unit::done_output(const Transaction& transaction, AccessError error, Instant now)
-{
-    if (job_.layout != serial_) return;
-    if (error == AccessError::no_answer) {
-        if (silences_ >= settings_.retries) outputs_.lost_on(job_.output);
-        return;
-    }
-    if (is_repeated(error, outputs_not_understood_)) return;
-    outputs_.done(job_.output, transaction.word, error, now);
-}
-
-void Poller::Unit::done_zero(const Tag* row, AccessError error, Instant now)
-{
-    zero_waits_ = error == AccessError::no_answer || error == AccessError::not_understood;
-    if (error == AccessError::no_answer || is_repeated(error, zeros_not_understood_)) return;
-    if (error == AccessError::not_understood)
-        outputs_.postpone_zero(row, now);
-    else
-        outputs_.zeroed(row);
-}
-
-void Poller::Unit::done_demand(const Transaction& transaction, const Outcome& outcome)
-{
-    if (outcome.error == AccessError::no_answer) return;
-    if (outcome.error == AccessError::not_understood) {
-        demand_.not_understood(job_.order, settings_.retries);
-        return;
-    }
-    const bool has_word = outcome.error == AccessError::none && transaction.kind == Transaction::Kind::read;
-    demand_.done(job_.order, outcome.error, has_word ? outcome.words[0] : transaction.word);
-}
-
-void Poller::Unit::done_operate(const Transaction& transaction, const Outcome& outcome)
-{
-    WaitingOperate& waiting = operates_.front();
-    const bool may_pass =
-        outcome.error == AccessError::no_answer || outcome.error == AccessError::not_understood;
-    if (may_pass && ++waiting.attempts <= settings_.retries) return;
-    const bool has_word = outcome.error == AccessError::none && transaction.kind == Transaction::Kind::read;
-    operate_answers_.push_back(
-        {waiting.order.number, outcome.error, has_word ? outcome.words[0] : transaction.word});
-    operates_.pop_front();
-}
-
-void Poller::Unit::link(bool answered, Instant now)
-{
-    if (!answered) {
-        if (lost_)
-            probe_wait_ = std::min(2 * probe_wait_, kMaxProbeFactor * settings_.probe_interval);
-        else if (++silences_ > settings_.retries)
-            lose();
-        return;
-    }
-    silences_ = 0;
-    if (lost_) {
-        lost_ = false;
-        probe_wait_ = settings_.probe_interval;
-        reads_.drive_returned(now);
-        outputs_.drive_returned();
-        outputs_.begin_round(); // they go before the rest of the reads
-        round_began_.reset();
-        order_was_last_ = zero_waits_ = false;
-    }
-    if (!snapshot_.answers) inputs_changed_ = true;
-    snapshot_.known = true;
-    snapshot_.answers = true;
-}
-
-void Poller::Unit::lose()
-{
-    lost_ = true;
-    silences_ = 0;
-    in_round_ = false;
-    snapshot_.known = true;
-    snapshot_.answers = false;
-    ++snapshot_.losses;
-    inputs_changed_ = true;
-    reads_.drive_lost();
-    outputs_.drive_lost();
-    demand_.drop_superseded();
-    for (const WaitingOperate& waiting : operates_)
-        operate_answers_.push_back({waiting.order.number, AccessError::no_answer, 0});
-    operates_.clear();
-}
-
-// ---- what can be seen
-
-std::optional<InputImage> Poller::Unit::take_inputs()
-{
-    if (!inputs_changed_ || !snapshot_.known) return std::nullopt;
-    inputs_changed_ = false;
-    InputImage image;
-    image.generation = image_.layout.generation;
-    image.drive_answers = snapshot_.answers;
-    image.every_input_tried = reads_.every_item_tried();
-    const std::span<const Parameter> parameters = parameters_of(image_.layout);
-    for (std::size_t i = 0; i < parameters.size(); ++i) {
-        const Parameter& parameter = parameters[i];
-        if (!parameter.reads) continue;
-        if (const auto item = reads_.find(parameter.tag)) image.words[i] = reads_.items()[*item].word;
-    }
-    return image;
-}
-
-std::optional<OperateAnswer> Poller::Unit::take_operate_answer()
-{
-    if (operate_answers_.empty()) return std::nullopt;
-    const OperateAnswer first = operate_answers_.front();
-    operate_answers_.pop_front();
-    return first;
-}
-
-/// Of a parameter that is both read and written the refusal of a write is shown, else the read.
-void Poller::Unit::show()
-{
-    snapshot_.generation = image_.layout.generation;
-    snapshot_.orders_dropped = demand_.dropped();
-    for (const OutputPlan::Item& item : outputs_.items()) {
-        snapshot_.words[item.parameter] = item.written;
-        snapshot_.states[item.parameter] = item.state;
-        snapshot_.updated_at[item.parameter] = item.updated_at;
-    }
-    const std::span<const Parameter> parameters = parameters_of(image_.layout);
-    for (std::size_t i = 0; i < parameters.size(); ++i) {
-        const Parameter& parameter = parameters[i];
-        const auto found = parameter.reads ? reads_.find(parameter.tag) : std::nullopt;
-        if (!found) continue;
-        const ReadPlan::Item& item = reads_.items()[*found];
-        const WordState written = parameter.writes ? snapshot_.states[i] : WordState::untried;
-        const bool refused = written == WordState::read_only || written == WordState::out_of_range ||
-                             written == WordState::refused;
-        snapshot_.words[i] = item.word;
-        snapshot_.updated_at[i] = item.updated_at;
-        if (!refused) snapshot_.states[i] = item.state;
-    }
+    if (lost_) return safe_state_.untold() ? kAtOnce : next_probe;
+    if (!ever_asked_ || silences_ > 0 || demand_.front() != nullptr || !operates_.empty()) return kAtOnce;
+    return std::min({next_probe, outputs_.next_due(), safe_state_.next_due(), reads_.next_due()});
 }
 
 } // namespace dpslave::drive

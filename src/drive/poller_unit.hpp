@@ -5,10 +5,12 @@
 #include "demand_queue.hpp"
 #include "output_plan.hpp"
 #include "read_plan.hpp"
+#include "safe_state.hpp"
 #include "unit_tags.hpp"
 
 #include "dpslave/drive/poller.hpp"
 
+#include <array>
 #include <deque>
 
 namespace dpslave::drive {
@@ -22,6 +24,10 @@ public:
     void set_demand(const DemandOrder& order);
     bool operate(const OperateOrder& order);
 
+    void set_zero_after(ZeroAfter after) { safe_state_.set_zero_after(after); }
+    void ride_no_longer() { safe_state_.ride_no_longer(); }
+
+    void tell_time(Instant now) { safe_state_.tell_time(now); } ///< before next(), of this drive or another
     std::optional<Transaction> next(Instant now);
     void done(const Transaction& transaction, const Outcome& outcome, Instant now);
     Instant next_deadline() const;
@@ -29,7 +35,7 @@ public:
     std::optional<InputImage> take_inputs();
     std::optional<DemandAnswer> take_demand_answer() { return demand_.take_answer(); }
     std::optional<OperateAnswer> take_operate_answer();
-    bool safe_state_pending() const { return outputs_.zeros_wait(); }
+    bool safe_state_pending() const { return safe_state_.pending(); }
     const UnitSnapshot& snapshot() const { return snapshot_; }
 
 private:
@@ -42,32 +48,38 @@ private:
     struct Job {
         std::uint32_t layout = 0; ///< serial_ when it was given
         ReadPlan::Block block{};
-        std::size_t output = 0;
+        Instant began{};
         std::uint32_t order = 0;
     };
 
     bool has_ended(Generation generation) const;
 
     void new_layout(const OutputImage& image);
+    void begin_writing();
     void end_layout();
 
     std::optional<Transaction> asked(Instant now);
     std::optional<Transaction> ordered();
     std::optional<Transaction> cyclic(Instant now);
     std::optional<Transaction> probe(Instant now);
-    Transaction make(Purpose purpose, Transaction::Kind kind, const Tag* row, std::uint16_t word = 0) const;
+    Transaction make_read(Purpose purpose, const Tag* row) const;
+    Transaction make_write(Purpose purpose, const Tag* row, std::span<const std::uint16_t> words) const;
+    Transaction make_write(Purpose purpose, const Tag* row, std::uint16_t word);
     void begin_round(Instant now);
 
     bool is_repeated(AccessError error, int& not_understood) const;
     void link(bool answered, Instant now);
     void lose();
-    void done_output(const Transaction& transaction, AccessError error, Instant now);
-    void done_input(const Outcome& outcome, Instant now);
+    void done_read(const Outcome& outcome, Instant now);
+    void compare(const Outcome& outcome);
+    void done_output(AccessError error, Instant now);
     void done_zero(const Tag* row, AccessError error, Instant now);
     void done_demand(const Transaction& transaction, const Outcome& outcome);
     void done_operate(const Transaction& transaction, const Outcome& outcome);
     void count(const Transaction& transaction, AccessError error);
     void show();
+    void show_inputs();
+    void show_watched();
 
     UnitSettings settings_;
     std::size_t index_;
@@ -77,18 +89,21 @@ private:
     std::uint32_t serial_ = 0;  ///< counts layouts: a result for an older one is dropped
     Generation ended_ = 0;      ///< the newest that has ended
     bool master_wrote_ = false; ///< the present layout had may_write
+    bool writing_ = false;      ///< the outputs of the present layout are written
     bool zeroed_ = false;       ///< the outputs of the present layout were sent to their safe state
     ReadPlan reads_;
     OutputPlan outputs_;
+    SafeState safe_state_;
     DemandQueue demand_;
     std::deque<WaitingOperate> operates_;
     std::deque<OperateAnswer> operate_answers_;
     Job job_;
+    std::array<std::uint16_t, 1> word_{}; ///< of a single write under way
 
     int orders_in_round_ = 0;     ///< transactions of Demand Data in this round
     bool order_was_last_ = false; ///< of Demand Data or dpctl: now a cyclic one first
     bool zero_waits_ = false;     ///< the last zero was not answered: something else first
-    bool in_round_ = false;       ///< a cyclic read was given since the round began
+    bool in_round_ = false;       ///< something was read for the master since the round began
     std::optional<Instant> round_began_;
 
     int inputs_not_understood_ = 0; ///< in a row; the same for the others

@@ -33,7 +33,23 @@ void ReadPlan::reset(std::vector<Item> items)
 {
     items_ = std::move(items);
     position_ = 0;
+    begun_ = false;
+    compares_ = false;
+    cut_.reset();
     rebuild();
+}
+
+void ReadPlan::compare(bool outputs)
+{
+    if (compares_ == outputs) return;
+    compares_ = outputs;
+    cut_.reset();
+    rebuild();
+}
+
+bool ReadPlan::in_use(const Item& item) const
+{
+    return item.input || item.watched || (item.compared && compares_);
 }
 
 std::optional<std::size_t> ReadPlan::find(std::uint16_t tag) const
@@ -45,38 +61,68 @@ std::optional<std::size_t> ReadPlan::find(std::uint16_t tag) const
     return static_cast<std::size_t>(at - items_.begin());
 }
 
-/// Joins neighbours as far as the rule, the splits so far and the holes (excluded items) allow.
+/// Goes into the open block as far as rule and splits allow.
+bool ReadPlan::joins(const Item& item) const
+{
+    if (item.starts_block || item.after_hole) return false;
+    const Block block = blocks_.back();
+    const int gap = item.row->number - items_[block.last].row->number - 1;
+    const int span = item.row->number - items_[block.first].row->number + 1;
+    return gap <= rule_.max_gap && span <= rule_.max_tags;
+}
+
+/// Joins neighbours over what is not in use at present, but not over holes (excluded items).
 void ReadPlan::rebuild()
 {
     blocks_.clear();
+    calm_ = true;
     bool open = false;
     for (std::size_t i = 0; i < items_.size(); ++i) {
         const Item& item = items_[i];
-        if (excluded(item)) {
-            open = false;
-            continue;
-        }
-        if (open && !item.starts_block) {
-            Block& block = blocks_.back();
-            const int gap = item.row->number - items_[block.last].row->number - 1;
-            const int span = item.row->number - items_[block.first].row->number + 1;
-            if (gap <= rule_.max_gap && span <= rule_.max_tags) {
-                block.last = i;
-                continue;
-            }
-        }
-        blocks_.push_back({i, i});
-        open = true;
+        const bool apart = item.row->modbus_register.has_value();
+        open = open && !excluded(item) && !apart;
+        if (excluded(item) || !in_use(item)) continue;
+        calm_ = calm_ && !item.input && !(item.compared && compares_);
+        if (open && joins(item))
+            blocks_.back().last = i;
+        else
+            blocks_.push_back({i, i});
+        open = !apart;
     }
 }
 
-std::optional<ReadPlan::Block> ReadPlan::next(Instant now) const
+std::optional<ReadPlan::Block> ReadPlan::next(Instant now)
 {
-    for (const Block block : blocks_)
-        if (block.last >= position_) return block;
-    for (std::size_t i = 0; i < items_.size(); ++i)
-        if (items_[i].asked && excluded(items_[i]) && now >= items_[i].retry_at) return Block{i, i};
+    for (const Block block : blocks_) {
+        if (block.last < position_) continue;
+        if (!begun_) began_at_ = now;
+        begun_ = true;
+        return block;
+    }
+    for (std::size_t i = 0; i < items_.size(); ++i) {
+        const Item& item = items_[i];
+        if (in_use(item) && item.asked && excluded(item) && now >= item.retry_at) return Block{i, i};
+    }
     return std::nullopt;
+}
+
+void ReadPlan::begin_round(Instant now)
+{
+    if (calm_ && begun_ && now < began_at_ + kCalmRound) return;
+    position_ = 0;
+    begun_ = false;
+}
+
+Instant ReadPlan::next_due() const
+{
+    Instant at = kNever;
+    if (!blocks_.empty()) {
+        const bool waits = calm_ && begun_ && blocks_.back().last < position_;
+        at = waits ? began_at_ + kCalmRound : kAtOnce;
+    }
+    for (const Item& item : items_)
+        if (in_use(item) && item.asked && excluded(item)) at = std::min(at, item.retry_at);
+    return at;
 }
 
 std::uint16_t ReadPlan::count_of(Block block) const
@@ -84,23 +130,32 @@ std::uint16_t ReadPlan::count_of(Block block) const
     return static_cast<std::uint16_t>(items_[block.last].row->number - items_[block.first].row->number + 1);
 }
 
-Instant ReadPlan::next_retry() const
+bool ReadPlan::serves_input(Block block) const
 {
-    Instant at = kNever;
-    for (const Item& item : items_)
-        if (item.asked && excluded(item)) at = std::min(at, item.retry_at);
-    return at;
+    for (std::size_t i = block.first; i <= block.last; ++i)
+        if (items_[i].input) return true;
+    return false;
 }
 
-bool ReadPlan::every_item_tried() const
+bool ReadPlan::serves_output(Block block) const
 {
-    return std::all_of(items_.begin(), items_.end(), [](const Item& item) { return item.tried; });
+    for (std::size_t i = block.first; i <= block.last; ++i)
+        if (items_[i].compared && compares_) return true;
+    return false;
+}
+
+bool ReadPlan::every_input_tried() const
+{
+    return std::all_of(items_.begin(), items_.end(),
+                       [](const Item& item) { return !item.input || item.tried; });
 }
 
 bool ReadPlan::done(Block block, AccessError error, std::span<const std::uint16_t> words, Instant now)
 {
     if (error == AccessError::none && words.size() >= count_of(block)) return good(block, words, now);
     if (block.first != block.last) {
+        if (error == AccessError::not_understood && ++items_[block.first].busy <= kBusyRounds)
+            return busy(block);
         split(block);
         return false;
     }
@@ -114,23 +169,59 @@ bool ReadPlan::good(Block block, std::span<const std::uint16_t> words, Instant n
     for (std::size_t i = block.first; i <= block.last; ++i) {
         Item& item = items_[i];
         const auto word = words[static_cast<std::size_t>(item.row->number - items_[block.first].row->number)];
-        changed = changed || !item.tried || item.word != word || item.state != WordState::good;
+        changed =
+            changed || (item.input && (!item.tried || item.word != word || item.state != WordState::good));
         joins_again = joins_again || excluded(item);
         item.word = word;
         item.state = WordState::good;
+        item.error = AccessError::none;
         item.tried = true;
+        item.busy = 0;
         item.updated_at = now;
     }
     position_ = std::max(position_, block.last + 1);
+    look_at_cut(block);
     if (joins_again) rebuild();
     return changed;
 }
 
-/// Cut in the middle; what is then still refused is cut again, until the hole lies between two blocks.
+/// Cut in the middle; what is then still refused is cut again.
 void ReadPlan::split(Block block)
 {
-    items_[(block.first + block.last) / 2 + 1].starts_block = true;
+    cut_ = Cut{block, (block.first + block.last) / 2 + 1, false};
+    items_[cut_->at].starts_block = true;
     rebuild();
+}
+
+/// Both halves are given and the whole is not: the hole is between them.
+void ReadPlan::look_at_cut(Block good)
+{
+    if (!cut_) return;
+    if (good.first <= cut_->block.first && good.last + 1 == cut_->at) cut_->first_half_is_good = true;
+    if (!cut_->first_half_is_good || good.first != cut_->at || good.last < cut_->block.last) return;
+    items_[cut_->at].after_hole = true;
+    mend();
+}
+
+/// The hole is found: the cuts made on the way to it are no longer needed.
+void ReadPlan::mend()
+{
+    for (Item& item : items_) item.starts_block = false;
+    cut_.reset();
+    rebuild();
+}
+
+/// A cut would not help: the block waits for the next round, its words are held as they were.
+bool ReadPlan::busy(Block block)
+{
+    bool changed = false;
+    for (std::size_t i = block.first; i <= block.last; ++i) {
+        changed = changed || (items_[i].input && !items_[i].tried);
+        items_[i].error = AccessError::not_understood;
+        items_[i].tried = true;
+    }
+    position_ = std::max(position_, block.last + 1);
+    return changed;
 }
 
 bool ReadPlan::bad(std::size_t index, AccessError error, Instant now)
@@ -142,17 +233,17 @@ bool ReadPlan::bad(std::size_t index, AccessError error, Instant now)
     // nothing is known, so it reads 0.
     const bool held = state == WordState::out_of_range || error == AccessError::not_understood;
     const std::uint16_t word = held ? item.word : std::uint16_t{0};
-    const bool changed = !item.tried || item.state != state || item.word != word;
+    const bool changed = item.input && (!item.tried || item.state != state || item.word != word);
     item.state = state;
+    item.error = error;
     item.word = word;
     item.tried = true;
     item.retry_at = now + kInvalidRetry;
     position_ = std::max(position_, index + 1);
-    if (excluded(item) && !was_excluded) {
-        // The hole is found: the cuts made on the way to it are no longer needed.
-        for (Item& other : items_) other.starts_block = false;
-    }
-    if (excluded(item) != was_excluded) rebuild();
+    if (excluded(item) && !was_excluded)
+        mend();
+    else if (excluded(item) != was_excluded)
+        rebuild();
     return changed;
 }
 
@@ -166,7 +257,9 @@ void ReadPlan::drive_lost()
 {
     for (Item& item : items_) {
         item.tried = true; // with this result: nobody answers
-        if (!excluded(item)) item.state = WordState::stale;
+        if (excluded(item)) continue;
+        item.state = WordState::stale;
+        item.error = AccessError::no_answer;
     }
 }
 
@@ -174,8 +267,9 @@ void ReadPlan::drive_returned(Instant now)
 {
     for (Item& item : items_) {
         item.retry_at = now;
-        item.starts_block = false;
+        item.starts_block = item.after_hole = false;
     }
+    cut_.reset();
     rebuild();
 }
 

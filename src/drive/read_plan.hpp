@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The cyclic reads of one drive: which tags go into one transaction, and which transaction comes next. A
-/// round reads every tag once. A block that the drive refuses is split until only single reads are left: they
-/// alone decide.
+/// round reads every tag once, whoever wants it. A block that the drive refuses is cut until the hole is
+/// found between two neighbours or is a tag itself, which only a single read decides; cuts elsewhere are
+/// mended then. A tag with a register of its own is never part of a block.
 #pragma once
 
 #include "dpslave/drive/backend.hpp"
@@ -18,6 +19,13 @@ namespace dpslave::drive {
 /// a corrected drive is noticed.
 inline constexpr std::chrono::nanoseconds kInvalidRetry = std::chrono::seconds{10};
 
+/// Rounds in which nothing is read for the master begin this far apart: an idle line stays calm.
+inline constexpr std::chrono::nanoseconds kCalmRound = std::chrono::milliseconds{250};
+
+/// So many rounds in a row a block that is not understood is only left out: the drive may be busy. Then it is
+/// cut like one that is refused [DEC].
+inline constexpr int kBusyRounds = 3;
+
 /// A deadline that has passed at every moment; unlike Instant::min() it can be subtracted from.
 inline constexpr Instant kAtOnce{};
 
@@ -28,14 +36,20 @@ class ReadPlan {
 public:
     struct Item {
         const Tag* row = nullptr;
-        bool asked =
-            true; ///< false: decided without the drive (STRING, write-only, not in the table); state says how
+        bool input = false;    ///< an input of the layout
+        bool watched = false;  ///< read with or without a layout
+        bool compared = false; ///< an output whose word in the drive is looked at, while it is written
+        /// False: decided without the drive (STRING, write-only, not in the table); state says how.
+        bool asked = true;
         std::uint16_t word = 0;
         WordState state = WordState::untried;
+        AccessError error = AccessError::none; ///< why; with `state` stale: no_answer
         bool tried = false;
-        Instant updated_at{}; ///< last success
-        Instant retry_at{};   ///< of an excluded item: when the drive is asked again
-        bool starts_block = false;
+        Instant updated_at{};      ///< last success
+        Instant retry_at{};        ///< of an excluded item: when the drive is asked again
+        bool starts_block = false; ///< cut here on the way to a hole
+        bool after_hole = false;   ///< the item before it and this one are refused together
+        int busy = 0;              ///< rounds in a row in which a block from here on was not understood
     };
     /// Items `first` to `last` in one transaction.
     struct Block {
@@ -50,14 +64,18 @@ public:
     std::optional<std::size_t> find(std::uint16_t tag) const;
     const std::vector<Item>& items() const { return items_; }
 
-    bool empty() const { return blocks_.empty(); } ///< nothing is read cyclically
-    std::optional<Block> next(Instant now) const;  ///< nothing: the round is over
-    void begin_round() { position_ = 0; }
-    std::uint16_t count_of(Block block) const; ///< tags, the unasked ones between included
-    Instant next_retry() const;                ///< of the excluded items
-    bool every_item_tried() const;
+    /// The compared outputs are read from now on, or no more.
+    void compare(bool outputs);
 
-    /// What became of `block`; not for no_answer. True: a value or a state changed.
+    std::optional<Block> next(Instant now); ///< nothing: the round is over
+    void begin_round(Instant now);          ///< does nothing while a calm round is not due
+    Instant next_due() const;
+    std::uint16_t count_of(Block block) const; ///< tags, the unasked ones between included
+    bool serves_input(Block block) const;      ///< also false: nothing but compared and watched tags
+    bool serves_output(Block block) const;
+    bool every_input_tried() const;
+
+    /// What became of `block`; not for no_answer. True: a value or a state of an input changed.
     bool done(Block block, AccessError error, std::span<const std::uint16_t> words, Instant now);
     void skip(Block block); ///< leaves it out in this round
     void drive_lost();
@@ -66,15 +84,32 @@ public:
 
 private:
     static bool excluded(const Item& item);
+    bool in_use(const Item& item) const;
+    /// A refused block, cut in two: is the hole between its halves?
+    struct Cut {
+        Block block{};
+        std::size_t at = 0; ///< the first item of its second half
+        bool first_half_is_good = false;
+    };
+
+    bool joins(const Item& item) const;
     void rebuild();
+    void mend();
     void split(Block block);
+    bool busy(Block block);
+    void look_at_cut(Block good);
     bool good(Block block, std::span<const std::uint16_t> words, Instant now);
     bool bad(std::size_t index, AccessError error, Instant now);
 
     BlockRule rule_;
     std::vector<Item> items_;
     std::vector<Block> blocks_;
+    std::optional<Cut> cut_;   ///< the last one
     std::size_t position_ = 0; ///< the first item that this round has not read yet
+    bool compares_ = false;
+    bool calm_ = true; ///< nothing is read but watched tags
+    bool begun_ = false;
+    Instant began_at_{}; ///< the round
 };
 
 } // namespace dpslave::drive

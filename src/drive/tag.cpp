@@ -164,6 +164,21 @@ std::string_view text(TagType type) noexcept
     return "?";
 }
 
+std::string_view type_name(const Tag& tag) noexcept
+{
+    return tag.type == TagType::number && tag.is_real ? "REAL" : text(tag.type);
+}
+
+std::string_view text(WritableWhen when) noexcept
+{
+    switch (when) {
+        case WritableWhen::not_said: return "";
+        case WritableWhen::stopped: return "stopped";
+        case WritableWhen::configuration: return "configuration";
+    }
+    return "?";
+}
+
 Tag unlisted_tag(std::uint16_t number)
 {
     Tag tag;
@@ -200,6 +215,11 @@ ParsedValue parse_value(const Tag& tag, std::string_view text)
     return checked(tag, *counts);
 }
 
+bool is_within_limits(const Tag& tag, std::uint16_t word)
+{
+    return checked(tag, counts_of(tag, word)).error == AccessError::none;
+}
+
 TagTable::TagTable(std::vector<Tag> tags) : tags_(std::move(tags))
 {
     std::sort(tags_.begin(), tags_.end(), [](const Tag& a, const Tag& b) { return a.number < b.number; });
@@ -223,6 +243,15 @@ std::vector<const Tag*> TagTable::search(std::string_view name) const
         if (by_alias || contains_any_case(tag.name, name)) found.push_back(&tag);
     }
     return found;
+}
+
+std::vector<const Tag*> TagTable::in_table_order() const
+{
+    std::vector<const Tag*> ordered;
+    for (const Tag& tag : tags_) ordered.push_back(&tag);
+    std::stable_sort(ordered.begin(), ordered.end(),
+                     [](const Tag* a, const Tag* b) { return a->position < b->position; });
+    return ordered;
 }
 
 std::optional<std::array<char, 2>> mnemonic_of(const Tag& tag, MnemonicRule rule)

@@ -10,6 +10,16 @@ std::span<const Parameter> parameters_of(const Layout& layout)
     return std::span{layout.parameters}.first(std::min<std::size_t>(layout.count, kMaxParameters));
 }
 
+UnitTags::UnitTags(const UnitSettings& unit)
+    : table_(unit.tags),
+      only_from_table_(unit.tags_only_from_table),
+      compare_outputs_(unit.compare_outputs),
+      never_written_(unit.never_written),
+      watched_(unit.watched)
+{
+    if (watched_.size() > kMaxWatched) watched_.resize(kMaxWatched);
+}
+
 const Tag* UnitTags::row(std::uint16_t number)
 {
     if (const Tag* row = table_ != nullptr ? table_->find(number) : nullptr) return row;
@@ -18,6 +28,9 @@ const Tag* UnitTags::row(std::uint16_t number)
 
 AccessError UnitTags::verdict(const Tag& row, bool is_write) const
 {
+    const bool never =
+        std::find(never_written_.begin(), never_written_.end(), row.number) != never_written_.end();
+    if (is_write && never) return AccessError::read_only;
     if (!row.listed && only_from_table_) return AccessError::invalid_tag;
     if (row.type == TagType::string) return AccessError::unsupported_type;
     if (is_write && row.access == Access::read_only) return AccessError::read_only;
@@ -25,26 +38,49 @@ AccessError UnitTags::verdict(const Tag& row, bool is_write) const
     return AccessError::none;
 }
 
-std::vector<ReadPlan::Item> UnitTags::inputs_of(const Layout& layout)
+ReadPlan::Item UnitTags::read_item(std::uint16_t number)
+{
+    ReadPlan::Item item;
+    item.row = row(number);
+    item.error = verdict(*item.row, false);
+    item.asked = item.error == AccessError::none;
+    item.tried = !item.asked;
+    if (!item.asked) item.state = state_of(item.error);
+    return item;
+}
+
+std::vector<ReadPlan::Item> UnitTags::reads_of(const Layout& layout)
 {
     std::vector<ReadPlan::Item> items;
     for (const Parameter& parameter : parameters_of(layout)) {
-        if (!parameter.reads) continue;
-        ReadPlan::Item item;
-        item.row = row(parameter.tag);
-        const AccessError error = verdict(*item.row, false);
-        item.asked = error == AccessError::none;
-        item.tried = !item.asked;
-        if (!item.asked) item.state = state_of(error);
+        ReadPlan::Item item = read_item(parameter.tag);
+        item.input = parameter.reads;
+        item.compared = compare_outputs_ && parameter.writes && item.asked &&
+                        verdict(*item.row, true) == AccessError::none;
+        if (item.input || item.compared) items.push_back(item);
+    }
+    for (const std::uint16_t tag : watched_) {
+        ReadPlan::Item item = read_item(tag);
+        item.watched = true;
         items.push_back(item);
     }
     std::sort(items.begin(), items.end(),
               [](const auto& a, const auto& b) { return a.row->number < b.row->number; });
-    const auto same = [](const auto& a, const auto& b) { return a.row == b.row; };
-    items.erase(std::unique(items.begin(), items.end(), same), items.end());
-    return items;
+    std::vector<ReadPlan::Item> merged;
+    for (const ReadPlan::Item& item : items) {
+        if (merged.empty() || merged.back().row != item.row) {
+            merged.push_back(item);
+            continue;
+        }
+        merged.back().input = merged.back().input || item.input;
+        merged.back().compared = merged.back().compared || item.compared;
+        merged.back().watched = merged.back().watched || item.watched;
+    }
+    return merged;
 }
 
+/// Where outputs are compared, only the last of several with the same tag is written: two words for one
+/// parameter would be written over each other for ever.
 std::vector<OutputPlan::Item> UnitTags::outputs_of(const Layout& layout)
 {
     std::vector<OutputPlan::Item> items;
@@ -54,10 +90,17 @@ std::vector<OutputPlan::Item> UnitTags::outputs_of(const Layout& layout)
         item.parameter = place++;
         if (!parameter.writes) continue;
         item.row = row(parameter.tag);
-        const AccessError error = verdict(*item.row, true);
-        item.asked = error == AccessError::none;
-        if (!item.asked) item.state = state_of(error);
+        item.error = verdict(*item.row, true);
+        if (compare_outputs_ && item.error == AccessError::none) {
+            item.readable = verdict(*item.row, false) == AccessError::none;
+            for (OutputPlan::Item& other : items)
+                if (other.row == item.row) other.error = AccessError::not_understood;
+        }
         items.push_back(item);
+    }
+    for (OutputPlan::Item& item : items) {
+        item.asked = item.error == AccessError::none;
+        if (!item.asked) item.state = state_of(item.error);
     }
     return items;
 }

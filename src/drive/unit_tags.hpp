@@ -5,6 +5,8 @@
 #include "output_plan.hpp"
 #include "read_plan.hpp"
 
+#include "dpslave/drive/poller.hpp"
+
 #include <cstdint>
 #include <map>
 #include <span>
@@ -17,9 +19,8 @@ std::span<const Parameter> parameters_of(const Layout& layout);
 
 class UnitTags {
 public:
-    /// `table` outlives this. `only_from_table`: a tag that is not in it is invalid.
-    UnitTags(const TagTable* table, bool only_from_table) : table_(table), only_from_table_(only_from_table)
-    {}
+    /// What `unit` says of tags; its table outlives this.
+    explicit UnitTags(const UnitSettings& unit);
 
     /// The row of the table, or one made for a tag that is in none; valid as long as this.
     const Tag* row(std::uint16_t number);
@@ -28,12 +29,20 @@ public:
     /// Demand Data writes the drive decides, because its own limits may have been set otherwise.
     AccessError verdict(const Tag& row, bool is_write) const;
 
-    std::vector<ReadPlan::Item> inputs_of(const Layout& layout); ///< each tag once, ascending
+    /// What is read with this layout, the watched tags and compared outputs included; each tag once,
+    /// ascending.
+    std::vector<ReadPlan::Item> reads_of(const Layout& layout);
     std::vector<OutputPlan::Item> outputs_of(const Layout& layout);
+    const std::vector<std::uint16_t>& watched() const { return watched_; } ///< kMaxWatched at most
 
 private:
+    ReadPlan::Item read_item(std::uint16_t number);
+
     const TagTable* table_;
     bool only_from_table_;
+    bool compare_outputs_;
+    std::vector<std::uint16_t> never_written_;
+    std::vector<std::uint16_t> watched_;
     std::map<std::uint16_t, Tag> unlisted_; ///< rows of tags that are in no table; they stay where they are
 };
 

@@ -48,10 +48,26 @@ bool Station::attach(std::uint8_t address, SapUser& user, const std::array<Tbit,
     return true;
 }
 
+void Station::detach(std::uint8_t address)
+{
+    if (address >= kAddresses || places_[address].user == nullptr) return;
+    Place& place = places_[address];
+    count_supervision(place, Supervision::unowned);
+    place.user = nullptr; // place.reply stays: the edge may be writing it
+
+    const auto end = attached_.begin() + static_cast<std::ptrdiff_t>(attached_count_);
+    const auto its_place = std::find(attached_.begin(), end, address);
+    std::copy(its_place + 1, end, its_place);
+    --attached_count_;
+    touched_[address] = false;
+    if (pending_ && pending_->address == address) pending_.reset();
+    users_due_ = Instant{}; // the next on_time() tells the search that this owner is gone
+}
+
 void Station::on_request(std::uint8_t address, const Telegram& request, Instant at)
 {
     Place& place = places_[address];
-    const Pending window = window_of(place, at);
+    const Pending window = window_of(address, at);
     switch (request.function()) {
         case Function::fdl_status: unstored_ = encode_sd1(request.sa, address, kFcOk); break;
         case Function::ident:
@@ -124,11 +140,13 @@ bool Station::is_retry(const Place& place, const Telegram& request)
 }
 
 /// Asked before the request is executed: a Set_Prm changes the pause after its own acknowledgement.
-Station::Pending Station::window_of(const Place& place, Instant at) const
+Station::Pending Station::window_of(std::uint8_t address, Instant at) const
 {
+    const Place& place = places_[address];
     const Tbit min_tsdr = std::max(place.user->min_tsdr(), kLeastTsdr);
     const Tbit deadline = std::max(place.max_tsdr[index_of(baud_)], min_tsdr + kWindow);
-    return {.octets = {},
+    return {.address = address,
+            .octets = {},
             .not_before = at + duration_of(min_tsdr, baud_),
             .not_after = at + duration_of(deadline, baud_) - settings_.start_up_latency};
 }
@@ -194,11 +212,21 @@ void Station::sample(Place& place, Instant at)
     users_due_ = std::min(users_due_, place.user->next_deadline());
     const Supervision now = place.user->supervision();
     if (now == place.supervision) return;
+    count_supervision(place, now);
+    tell_search(at);
+}
+
+void Station::count_supervision(Place& place, Supervision now)
+{
     owned_ += now != Supervision::unowned ? 1u : 0u;
     owned_ -= place.supervision != Supervision::unowned ? 1u : 0u;
     supervised_ += now == Supervision::supervised ? 1u : 0u;
     supervised_ -= place.supervision == Supervision::supervised ? 1u : 0u;
     place.supervision = now;
+}
+
+void Station::tell_search(Instant at)
+{
     if (!search_) return;
     search_->on_supervision(owned_ != 0, supervised_ != 0, at);
     follow_search();
@@ -216,6 +244,7 @@ void Station::wake_users(Instant now)
         }
         sample(place, now);
     }
+    tell_search(now); // also of those that were detached
 }
 
 /// Takes over what the search decided.

@@ -1,49 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpslave/led/pattern.hpp"
-
-#include <array>
+#include "languages.hpp"
 
 namespace dpslave::led {
 namespace {
 
 using std::chrono::milliseconds;
 
-constexpr Pattern kOff{milliseconds{0}, milliseconds{0}};
-constexpr Pattern kOn{milliseconds{0}, milliseconds{1}};
-constexpr Pattern kFlash1Hz{milliseconds{1000}, milliseconds{500}};
-constexpr Pattern kFlash2Hz{milliseconds{500}, milliseconds{250}};
-
-/// What the two lamps of the option board can say (HA389815 ch. 9).
-enum class Say : std::uint8_t { dark, normal, external_fault, internal_fault };
-
-struct Row {
-    Pattern red;
-    Pattern red_620; ///< the 620 shows one fault differently (X-32)
-    Pattern green;
-    std::string_view meaning;
-};
-
-// In the order of Say.
-constexpr std::array kTable = std::to_array<Row>({
-    {kOff, kOff, kOff, "no power or major fault: this station is not served"},
-    {kOff, kOff, kFlash2Hz, "normal operation: data exchange with the master"},
-    {kOn, kOn, kFlash1Hz,
-     "external communications fault or configuration fault: no data exchange with the master"},
-    {kOn, kFlash2Hz, kFlash2Hz, "internal communications fault: the drive does not answer"},
-});
-
-/// The internal fault goes before the external one: without its drive the board has nothing to exchange, and
-/// whoever looks for a fault on the bus first would look in vain.
-constexpr Say say(const Condition& condition)
+Shown shown(Language language, const Condition& condition)
 {
-    if (!condition.running) return Say::dark;
-    if (!condition.drive_answers) return Say::internal_fault;
-    return condition.data_exchange ? Say::normal : Say::external_fault;
-}
-
-constexpr const Row& row_of(const Condition& condition)
-{
-    return kTable[static_cast<std::size_t>(say(condition))];
+    switch (language) {
+        case Language::option_board: return option_board(condition, false);
+        case Language::option_board_620: return option_board(condition, true);
+        case Language::technology_box: return technology_box(condition);
+        case Language::controller: return controller(condition);
+    }
+    return {};
 }
 
 constexpr bool is_steady(const Pattern& pattern)
@@ -59,18 +30,37 @@ constexpr std::chrono::nanoseconds phase(const Pattern& pattern, Instant now)
     return rest.count() < 0 ? rest + period : rest;
 }
 
+/// The three flashes of a technology box differ in how long they are lit, not in their period.
+std::string flash_words(const Pattern& pattern)
+{
+    const auto lit_half = 2 * pattern.on <=> pattern.period;
+    const char* const name = lit_half < 0 ? "short flash" : lit_half > 0 ? "long flash" : "flash";
+    const auto percent = 100 * pattern.on / pattern.period;
+    const auto length = pattern.period % std::chrono::seconds{1} == milliseconds{0}
+                            ? std::to_string(pattern.period / std::chrono::seconds{1}) + " s"
+                            : std::to_string(pattern.period.count()) + " ms";
+    return std::string{name} + " (" + std::to_string(percent) + " % of " + length + ")";
+}
+
 } // namespace
 
 std::vector<Lamp> lamps(Language language, const Condition& condition)
 {
-    const Row& row = row_of(condition);
-    const Pattern& red = language == Language::option_board_620 ? row.red_620 : row.red;
-    return {{"red", red}, {"green", row.green}};
+    return shown(language, condition).lamps;
 }
 
-std::string_view meaning(Language, const Condition& condition)
+std::string_view meaning(Language language, const Condition& condition)
 {
-    return row_of(condition).meaning;
+    return shown(language, condition).meaning;
+}
+
+std::string words(Language language, const Pattern& pattern)
+{
+    if (is_steady(pattern)) return pattern.on > milliseconds{0} ? "on" : "off";
+    if (language == Language::technology_box) return flash_words(pattern);
+    if (const milliseconds second{1000}; second % pattern.period == milliseconds{0})
+        return "flashing " + std::to_string(second / pattern.period) + " Hz";
+    return "flashing every " + std::to_string(pattern.period.count()) + " ms";
 }
 
 bool lit(const Pattern& pattern, Instant now)

@@ -2,6 +2,10 @@
 // config/profiles/NAME.toml becomes a Profile, each table of it by its own function.
 #include "dpslave/profile/profile.hpp"
 
+#include "gsd_facts.hpp"
+#include "needed.hpp"
+#include "personality_keys.hpp"
+
 #include "dpslave/profile/document.hpp"
 
 #include <algorithm>
@@ -10,27 +14,8 @@
 namespace dpslave::profile {
 namespace {
 
-/// Most octets of User_Prm_Data that fit in one Set_Prm (wire reference 5).
-constexpr std::int64_t kMaxUserPrmData = 237;
-
-std::string hex_octet(std::uint8_t octet)
-{
-    constexpr std::string_view digits = "0123456789ABCDEF";
-    return {'0', 'x', digits[octet >> 4], digits[octet & 15]};
-}
-
-/// An identifier octet in the general format (wire reference 5, Chk_Cfg).
-struct GeneralFormat {
-    bool reads;
-    bool writes;
-    unsigned octets; ///< per direction
-
-    explicit GeneralFormat(std::uint8_t octet)
-        : reads((octet & 0x10) != 0),
-          writes((octet & 0x20) != 0),
-          octets(((octet & 0x0FU) + 1U) * ((octet & 0x40) != 0 ? 2U : 1U))
-    {}
-};
+/// Octets of Slave_Diag before the device-related block, and of that block's header (wire reference 5).
+constexpr std::size_t kDiagHeader = 6, kBlockHeader = 1;
 
 class ProfileReader {
 public:
@@ -45,11 +30,12 @@ public:
         if (document_.readable()) {
             general();
             addresses();
-            max_tsdr();
-            cfg_data();
-            demand_data();
-            user_prm_data();
-            behaviour();
+            read_personality(document_, personality_);
+            tec();
+            slave_diag();
+            drive_side();
+            Table gsd = needed_table(root_, "gsd");
+            profile_.gsd = read_gsd_facts(gsd, profile_);
         }
         Faults faults = document_.faults();
         if (!profile_.tag_file.empty()) {
@@ -64,34 +50,6 @@ public:
     }
 
 private:
-    std::string needed_text(Table& table, std::string_view key, std::string_view example)
-    {
-        table.require(key, example);
-        return table.text(key).value_or("");
-    }
-
-    /// False if `into` kept what it was.
-    template <class T>
-    bool needed_integer(Table& table, std::string_view key, std::int64_t min, std::int64_t max, T& into)
-    {
-        table.require(key, std::string{key} + " = " + std::to_string(into));
-        const auto value = table.integer(key, min, max);
-        if (value) into = static_cast<T>(*value);
-        return value.has_value();
-    }
-
-    void needed_boolean(Table& table, std::string_view key, bool& into)
-    {
-        table.require(key, std::string{key} + (into ? " = true" : " = false"));
-        into = table.boolean(key).value_or(into);
-    }
-
-    Table needed_table(std::string_view name)
-    {
-        root_.require(name, "the table [" + std::string{name} + "]; another profile shows its keys");
-        return root_.table(name);
-    }
-
     void general()
     {
         profile_.device = needed_text(root_, "device", R"(device = "the device in words")");
@@ -119,17 +77,7 @@ private:
                                                              {"ac", MnemonicRule::ac},
                                                              {"none", MnemonicRule::none}}))
             profile_.mnemonics = *rule;
-        root_.require("output_loss", R"(output_loss = "zero")");
-        using drive::OutputLoss;
-        if (const auto loss = root_.choice<OutputLoss>(
-                "output_loss", {{"zero", OutputLoss::zero}, {"hold", OutputLoss::hold}}))
-            profile_.output_loss = *loss;
-        root_.require("leds", R"(leds = "option_board")");
-        using led::Language;
-        if (const auto language =
-                root_.choice<Language>("leds", {{"option_board", Language::option_board},
-                                                {"option_board_620", Language::option_board_620}}))
-            profile_.leds = *language;
+        profile_.option_software = root_.text("option_software").value_or("");
         tag_table();
     }
 
@@ -149,128 +97,116 @@ private:
 
     void addresses()
     {
-        Table table = needed_table("address");
+        Table table = needed_table(root_, "address");
         needed_integer(table, "min", 0, 125, profile_.min_address);
         needed_integer(table, "max", 0, 125, profile_.max_address);
         if (profile_.min_address > profile_.max_address)
             table.refuse("min", "'min' is above 'max': no address would be legal.");
     }
 
-    void max_tsdr()
+    void tec()
     {
-        Table table = needed_table("max_tsdr");
-        bool any = false;
-        for (const Baud baud : kBauds) {
-            const std::string key = std::to_string(static_cast<std::uint32_t>(baud));
-            const auto tbit = table.integer(key, 11, 0xFFFF);
-            any = any || table.has(key);
-            if (tbit) personality_.max_tsdr[index_of(baud)] = Tbit{static_cast<std::uint32_t>(*tbit)};
+        Table table = root_.table("tec");
+        profile_.has_tec = table.exists();
+        if (!profile_.has_tec) return;
+        lamp(table, "health", profile_.health);
+        lamp(table, "run", profile_.run);
+    }
+
+    static void lamp(Table& table, std::string_view key, MirroredLamp& into)
+    {
+        const auto text = table.text(key);
+        if (!text) return;
+        if (const auto lamp = parse_lamp(*text))
+            into = *lamp;
+        else
+            table.refuse(key,
+                         "'" + std::string{key} +
+                             "' is not a bit of a tag: write \"272.3\" for bit 3 of "
+                             "tag 272, \"!272.3\" if it is lit while the bit is 0, or \"12\" for any bit.");
+    }
+
+    void slave_diag()
+    {
+        Table table = needed_table(root_, "slave_diag");
+        const bool bounded = needed_integer(table, "max_length", 6, 244, personality_.max_diag_length);
+        const auto form = table.choice<DiagForm>("form", {{"none", DiagForm::none},
+                                                          {"trip_code", DiagForm::trip_code},
+                                                          {"tripped", DiagForm::tripped},
+                                                          {"status_word", DiagForm::status_word}});
+        const auto tag = table.integer("status_tag", 1, 0xFFFF);
+        const auto mask = table.integer("fault_mask", 0, 0xFFFF);
+        if (table.has("form") && !form) return;
+        profile_.diagnosis = form.value_or(DiagForm::none);
+        profile_.status_tag = static_cast<std::uint16_t>(tag.value_or(0));
+        profile_.fault_mask = static_cast<std::uint16_t>(mask.value_or(0));
+        for (const char* key : {"status_tag", "fault_mask"}) status_word_key(table, key);
+        switch (profile_.diagnosis) {
+            case DiagForm::none: return;
+            case DiagForm::trip_code:
+            case DiagForm::tripped: personality_.diag_octets = 3; break;
+            case DiagForm::status_word: personality_.diag_octets = 2; break;
         }
-        if (table.exists() && !any)
-            document_.fault(table.place(),
-                            "[max_tsdr] names no rate: add a line such as 187500 = 60 for each "
-                            "rate that the device supports.");
+        if (profile_.diagnosis != DiagForm::status_word && !profile_.has_tec)
+            table.refuse("form", "this form carries EXT DIAGNOSTIC of a TEC OPTION function block: add the "
+                                 "table [tec], or write another form.");
+        const std::size_t needed = kDiagHeader + kBlockHeader + personality_.diag_octets;
+        if (bounded && personality_.max_diag_length < needed)
+            table.refuse("max_length", "'max_length' leaves no room for the extended diagnosis: that takes " +
+                                           std::to_string(needed) + " octets.");
     }
 
-    void cfg_data()
+    void status_word_key(Table& table, std::string_view key)
     {
-        Table table = needed_table("cfg_data");
-        table.require("identifiers", "identifiers = [0x50, 0x60]");
-        for (const std::int64_t value :
-             table.integers("identifiers", 0, 0xFF).value_or(std::vector<std::int64_t>{})) {
-            const auto octet = static_cast<std::uint8_t>(value);
-            const GeneralFormat format{octet};
-            if (format.octets != 2 || !(format.reads || format.writes))
-                table.refuse("identifiers",
-                             "identifier " + hex_octet(octet) +
-                                 " is not one word in, out or both: a parameter is one word, as 0x50 and "
-                                 "0x60 have it.");
-            else if (identifier_known(octet))
-                table.refuse("identifiers", "identifier " + hex_octet(octet) + " stands twice: remove one.");
-            else
-                personality_.identifiers.push_back({octet, format.reads, format.writes});
-        }
-        personality_.max_parameters = 12;
-        needed_integer(table, "max_parameters", 1, kMaxParameters, personality_.max_parameters);
-        needed_boolean(table, "may_have_no_parameters", personality_.may_have_no_parameters);
+        if (profile_.diagnosis == DiagForm::status_word)
+            table.require(key, std::string{key} +
+                                   " = ...: the tag of the status word, and its bits that are faults");
+        else if (table.has(key))
+            table.refuse(key, "'" + std::string{key} +
+                                  "' has a meaning only with form = \"status_word\": remove it.");
     }
 
-    bool identifier_known(std::uint8_t octet) const
+    void drive_side()
     {
-        return std::any_of(personality_.identifiers.begin(), personality_.identifiers.end(),
-                           [&](const dp::Identifier& known) { return known.octet == octet; });
+        output_loss();
+        lamps();
+        profile_.selectable_resolution = root_.boolean("selectable_resolution").value_or(false);
+        for (const std::int64_t tag :
+             root_.integers("never_written", 1, 0xFFFF).value_or(std::vector<std::int64_t>{}))
+            profile_.never_written.push_back(static_cast<std::uint16_t>(tag));
     }
 
-    void demand_data()
+    void output_loss()
     {
-        Table table = needed_table("demand_data");
-        table.require("form", R"(form = "none")");
-        using dp::DemandForm;
-        const auto form =
-            table.choice<DemandForm>("form", {{"none", DemandForm::none}, {"basic", DemandForm::basic}});
-        if (form) personality_.demand = *form;
-        const auto identifier = table.integer("identifier", 0, 0xFF);
-        const auto base = table.integer("error_base", 0, 1);
-        if (!form) return;
-        if (*form == DemandForm::none) {
-            for (const char* key : {"identifier", "error_base"})
-                if (table.has(key))
-                    table.refuse(key, std::string{"'"} + key +
-                                          "' has no meaning with form = \"none\": remove it.");
+        const bool is_given = root_.has("output_loss");
+        if (is_given && root_.has("tec")) {
+            root_.refuse("output_loss",
+                         "with a TEC OPTION function block RIDE THROUGH alone decides what becomes "
+                         "of the outputs: remove 'output_loss', or the table [tec].");
             return;
         }
-        table.require("identifier", "identifier = 0x73");
-        if (identifier) {
-            const auto octet = static_cast<std::uint8_t>(*identifier);
-            const GeneralFormat format{octet};
-            if (format.octets != 8 || !format.reads || !format.writes)
-                table.refuse("identifier",
-                             "identifier " + hex_octet(octet) +
-                                 " is not four words in both directions, which Demand Data takes: 0x73 is.");
-            personality_.demand_identifier = octet;
-        }
-        personality_.demand_error_base = static_cast<std::uint16_t>(base.value_or(0));
+        if (root_.has("tec")) return;
+        root_.require("output_loss", R"(output_loss = "zero")");
+        if (const auto loss = root_.choice<drive::ZeroAfter>(
+                "output_loss", {{"zero", std::chrono::nanoseconds{0}}, {"hold", std::nullopt}}))
+            profile_.zero_after = *loss;
     }
 
-    void user_prm_data()
+    void lamps()
     {
-        Table table = needed_table("user_prm_data");
-        dp::PrmLayout& prm = personality_.prm;
-        const bool placed = needed_integer(table, "tags_at", 0, kMaxUserPrmData, prm.tags_at);
-        const bool bounded = needed_integer(table, "min_length", 0, kMaxUserPrmData, prm.min_length);
-        const bool limited = needed_integer(table, "max_length", 0, kMaxUserPrmData, prm.max_length);
-        needed_boolean(table, "may_be_absent", prm.may_be_absent);
-        needed_boolean(table, "dpv1_status", prm.dpv1_status);
-        needed_integer(table, "max_tag", 1, 0xFFFF, prm.max_tag);
-        table.require("tag_list", R"(tag_list = "first_zero_ends")");
-        using dp::TagList;
-        if (const auto list =
-                table.choice<TagList>("tag_list", {{"first_zero_ends", TagList::first_zero_ends},
-                                                   {"zeros_at_end", TagList::zeros_at_end},
-                                                   {"exact", TagList::exact}}))
-            prm.list = *list;
-        if (!placed || !bounded || !limited) return;
-        if (prm.min_length > prm.max_length)
-            table.refuse("min_length", "'min_length' is above 'max_length': no length would be legal.");
-        if (prm.dpv1_status && prm.tags_at < 3)
-            table.refuse(
-                "tags_at",
-                "with 'dpv1_status' the first three octets are DPV1_Status: 'tags_at' must be 3 or more.");
-        const std::size_t needed = prm.tags_at + 2 * personality_.max_parameters;
-        if (prm.max_length < needed)
-            table.refuse("max_length", "'max_length' leaves no room for the tags of " +
-                                           std::to_string(personality_.max_parameters) +
-                                           " parameters: that takes " + std::to_string(needed) + " octets.");
-    }
-
-    void behaviour()
-    {
-        Table table = needed_table("global_control");
-        needed_boolean(table, "sync", personality_.sync);
-        needed_boolean(table, "freeze", personality_.freeze);
-        needed_boolean(table, "fail_safe", personality_.fail_safe);
-        Table diag = needed_table("slave_diag");
-        needed_integer(diag, "max_length", 6, 244, personality_.max_diag_length);
+        root_.require("leds", R"(leds = "option_board")");
+        using led::Language;
+        const auto language =
+            root_.choice<Language>("leds", {{"option_board", Language::option_board},
+                                            {"option_board_620", Language::option_board_620},
+                                            {"technology_box", Language::technology_box},
+                                            {"controller", Language::controller}});
+        if (!language) return;
+        profile_.leds = *language;
+        if (*language == Language::technology_box && !root_.has("tec"))
+            root_.refuse("leds",
+                         "the lamps of a technology box show what its TEC OPTION function block says: "
+                         "add the table [tec], or write another language.");
     }
 
     std::filesystem::path folder_;

@@ -13,6 +13,10 @@ using drive::Access;
 using drive::Label;
 using drive::Tag;
 using drive::TagType;
+using drive::WritableWhen;
+
+/// In column decimals: as many as the instrument's display has.
+constexpr std::string_view kFollowsDisplay = "display";
 
 /// A whole text as an unsigned number; nothing if it is anything else or above `max`.
 std::optional<std::uint32_t> number_of(std::string_view text, int base, std::uint32_t max)
@@ -63,13 +67,16 @@ public:
         tag.section = text(kSection);
         tag.notes = text(kNotes);
         tag.type = type();
-        tag.decimals = static_cast<std::uint8_t>(number(kDecimals, 4).value_or(0));
-        if (tag.decimals > 0 && tag.type != TagType::number)
+        tag.follows_display = text(kDecimals) == kFollowsDisplay;
+        tag.is_real =
+            text(kType) == "REAL" || tag.follows_display; // what the display shows in decimals is a single
+        if (!tag.follows_display) tag.decimals = static_cast<std::uint8_t>(number(kDecimals, 4).value_or(0));
+        if ((tag.decimals > 0 || tag.follows_display) && tag.type != TagType::number)
             fault(kDecimals, "only INT and REAL have decimals: leave the cell empty, or change the type.");
         tag.access = access();
+        tag.when = when();
         tag.mnemonic = mnemonic();
-        if (const auto reg = number(kRegister, 0xFFFF))
-            tag.modbus_register = static_cast<std::uint16_t>(*reg);
+        modbus_register(tag);
         if (!good_) return std::nullopt; // limits and labels have no meaning without their type
         limits(tag);
         labels(tag);
@@ -93,7 +100,8 @@ private:
         const auto value = number_of(text(column), 10, max);
         if (!value)
             fault(column, std::string{kColumnNames[column]} + " " + in_quotes(text(column)) +
-                              ": write a decimal number from 0 to " + std::to_string(max) + ".");
+                              ": write a decimal number from 0 to " + std::to_string(max) +
+                              (column == kDecimals ? ", or display." : "."));
         return value;
     }
 
@@ -119,6 +127,34 @@ private:
             fault(kAccess,
                   "access " + in_quotes(word) + ": write ro, rw or wo, or leave it empty if not known.");
         return Access::unknown;
+    }
+
+    WritableWhen when()
+    {
+        const std::string_view word = text(kWhen);
+        for (const WritableWhen one : {WritableWhen::stopped, WritableWhen::configuration})
+            if (word == drive::text(one)) return one;
+        if (!word.empty())
+            fault(kWhen, "when " + in_quotes(word) +
+                             ": write stopped or configuration, or leave it empty if not known.");
+        return WritableWhen::not_said;
+    }
+
+    /// From 8000h on: the IEEE area, where a number is a single. A whole number lies in the first register
+    /// there, a time in both as milliseconds.
+    void modbus_register(Tag& tag)
+    {
+        constexpr std::uint16_t ieee_area = 0x8000;
+        const auto reg = number(kRegister, 0xFFFF);
+        if (!reg) return;
+        tag.modbus_register = static_cast<std::uint16_t>(*reg);
+        const bool has_ieee_form =
+            tag.type != TagType::string && (tag.type != TagType::number || tag.is_real);
+        if (*reg >= ieee_area && !has_ieee_form)
+            fault(kRegister,
+                  "register " + in_quotes(text(kRegister)) +
+                      " is in the IEEE area (32768 and above), which has singles: write type REAL if "
+                      "this is one, otherwise the register of the normal area.");
     }
 
     std::string mnemonic()
@@ -174,6 +210,13 @@ private:
 
     void limits(Tag& tag)
     {
+        for (const Column column : {kMin, kMax})
+            if (tag.follows_display && given(column))
+                fault(column,
+                      std::string{kColumnNames[column]} + " " + in_quotes(text(column)) +
+                          ": a value whose decimals follow the display has no fixed limits here, leave "
+                          "the cell empty.");
+        if (tag.follows_display) return;
         tag.min = limit(tag, kMin);
         tag.max = limit(tag, kMax);
         if (tag.min && tag.max && *tag.min > *tag.max)
@@ -286,14 +329,24 @@ std::optional<Tag> read_tag(const Row& row, const Columns& columns, const std::s
     return RowReader{row, columns, file, faults}.read();
 }
 
+bool is_name_only(const Row& row, const Columns& columns)
+{
+    constexpr std::array says_more{kType, kDecimals, kMin,      kMax,   kAccess,
+                                   kWhen, kMnemonic, kRegister, kValues};
+    return std::all_of(says_more.begin(), says_more.end(),
+                       [&](Column column) { return columns.text(row, column).empty(); });
+}
+
 std::optional<Column> contradiction(const Tag& known, const Tag& tag, const Row& row, const Columns& columns)
 {
     const auto given = [&](Column column) { return !columns.text(row, column).empty(); };
-    if (given(kType) && known.type != tag.type) return kType;
-    if (given(kDecimals) && known.decimals != tag.decimals) return kDecimals;
+    if (given(kType) && (known.type != tag.type || known.is_real != tag.is_real)) return kType;
+    if (given(kDecimals) && (known.decimals != tag.decimals || known.follows_display != tag.follows_display))
+        return kDecimals;
     if (given(kMin) && known.min != tag.min) return kMin;
     if (given(kMax) && known.max != tag.max) return kMax;
     if (given(kAccess) && known.access != tag.access) return kAccess;
+    if (given(kWhen) && known.when != tag.when) return kWhen;
     if (given(kMnemonic) && known.mnemonic != tag.mnemonic) return kMnemonic;
     if (given(kRegister) && known.modbus_register != tag.modbus_register) return kRegister;
     if (given(kValues) && !same_labels(known.labels, tag.labels)) return kValues;

@@ -22,6 +22,7 @@ enum Column : std::size_t {
     kMin,
     kMax,
     kAccess,
+    kWhen,
     kMnemonic,
     kRegister,
     kValues,
@@ -29,9 +30,9 @@ enum Column : std::size_t {
     kNotes,
     kColumns,
 };
-constexpr std::array<std::string_view, kColumns> kColumnNames{"tag",      "name",   "type",    "decimals",
-                                                              "min",      "max",    "access",  "mnemonic",
-                                                              "register", "values", "section", "notes"};
+constexpr std::array<std::string_view, kColumns> kColumnNames{
+    "tag",  "name",     "type",     "decimals", "min",     "max",  "access",
+    "when", "mnemonic", "register", "values",   "section", "notes"};
 
 /// Which cell of a row is which column.
 struct Columns {
@@ -55,6 +56,9 @@ private:
 /// The row as a tag; nothing, and the reasons in `faults`, if a cell is wrong.
 std::optional<drive::Tag> read_tag(const Row& row, const Columns& columns, const std::string& file,
                                    Faults& faults);
+
+/// The row says nothing but a name of its tag.
+bool is_name_only(const Row& row, const Columns& columns);
 
 /// The first column in which `row`, read as `tag`, says something else than `known`; an empty cell
 /// contradicts nothing.

@@ -39,6 +39,13 @@ public:
     }
 
 private:
+    /// The row that says what a tag is.
+    struct First {
+        std::size_t index = 0; ///< in tags_
+        unsigned line = 0;
+        bool is_name_only = false;
+    };
+
     bool header(const Row& row)
     {
         columns_.width = row.cells.size();
@@ -76,23 +83,38 @@ private:
         }
         auto tag = read_tag(row, columns_, file_, faults_);
         if (!tag) return;
-        const auto [known, is_new] = places_.try_emplace(tag->number, tags_.size(), row.line);
-        if (is_new)
+        tag->position = rows_++;
+        const First here{tags_.size(), row.line, is_name_only(row, columns_)};
+        const auto [known, is_new] = firsts_.try_emplace(tag->number, here);
+        if (is_new) {
             tags_.push_back(*std::move(tag));
-        else
+        } else if (known->second.is_name_only && !here.is_name_only) {
+            known->second = {known->second.index, here.line, false};
+            make_first(tags_[known->second.index], *std::move(tag));
+        } else {
             join(known->second, *tag, row);
+        }
+    }
+
+    /// The rows before this one were names only: this one is the tag, they are its further names.
+    static void make_first(Tag& known, Tag tag)
+    {
+        std::vector<std::string> names = std::move(known.aliases);
+        names.insert(names.begin(), known.name);
+        for (std::string& name : names)
+            if (!name.empty() && name != tag.name) tag.aliases.push_back(std::move(name));
+        known = std::move(tag);
     }
 
     /// A further row of a tag gives it a further name.
-    void join(std::pair<std::size_t, unsigned> known, const Tag& tag, const Row& row)
+    void join(const First& known, const Tag& tag, const Row& row)
     {
-        const auto [index, first_line] = known;
-        Tag& first = tags_[index];
+        Tag& first = tags_[known.index];
         if (const auto column = contradiction(first, tag, row, columns_)) {
             const Place at = columns_.place(row, *column);
             fault(at.line, at.column,
                   "tag " + std::to_string(tag.number) + " has another " + std::string{kColumnNames[*column]} +
-                      " on line " + std::to_string(first_line) +
+                      " on line " + std::to_string(known.line) +
                       ": make them equal, or leave the cell empty in a line that gives a further name.");
         } else if (!tag.name.empty() && tag.name != first.name &&
                    std::find(first.aliases.begin(), first.aliases.end(), tag.name) == first.aliases.end()) {
@@ -109,8 +131,8 @@ private:
     Faults faults_;
     Columns columns_;
     std::vector<Tag> tags_;
-    std::map<std::uint16_t, std::pair<std::size_t, unsigned>>
-        places_; ///< index in tags_, line of its first row
+    std::map<std::uint16_t, First> firsts_; ///< by tag
+    std::size_t rows_ = 0;
 };
 
 } // namespace

@@ -101,4 +101,18 @@ TEST(Hex, HasTwoUpperCaseDigitsAnOctetAndOneBlankBetween)
     EXPECT_EQ(hex({}), "");
 }
 
+TEST(ByteBuffer, IsEqualByItsContentsWhateverStoodThereBefore)
+{
+    ByteBuffer<4> one;
+    ByteBuffer<4> other;
+    one.push16(0x4711);
+    one.push16(0x1234);
+    one.assign(std::array<std::uint8_t, 1>{0x04});
+    other.push(0x04);
+
+    EXPECT_EQ(one, other);
+    other.push(0x00);
+    EXPECT_NE(one, other); // a zero is an octet too
+}
+
 } // namespace

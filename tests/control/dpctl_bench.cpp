@@ -80,6 +80,15 @@ control::Handlers FixtureDaemon::handlers()
         }
         return tag(parameters);
     };
+    all["SetTec"] = [this](const Json& parameters, const control::Caller&) -> Reply {
+        if (parameters.at("parameter") == "FAULT")
+            return Error{
+                "BadTecValue",
+                Json::object({{"parameter", "FAULT"}, {"value", "1"}, {"reason", "it is an output"}})};
+        const std::lock_guard lock(mutex_);
+        written_ = parameters;
+        return Done{fixture("SetTec")};
+    };
     all["Watch"] = [this](const Json&, const control::Caller&) {
         second_picture_due_ = true;
         return control::Stream{++last_number_, fixture("Watch")};

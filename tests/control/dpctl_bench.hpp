@@ -12,7 +12,8 @@
 namespace dpslave::test {
 
 /// Serves the fixtures. Stations "unwinder" and "rewinder"; tags are answered later, as a drive does: tag 1
-/// is read only, tag 2 never gets an answer. Watch gives a first picture at once and a second one, in which
+/// is read only, tag 2 never gets an answer. FAULT of
+/// TEC OPTION cannot be set. Watch gives a first picture at once and a second one, in which
 /// the unwinder has left Data_Exch, as soon as somebody watches.
 class FixtureDaemon {
 public:
@@ -22,7 +23,7 @@ public:
     ~FixtureDaemon();
 
     std::string socket() const { return socket_.string(); }
-    /// The parameters of the last WriteTag.
+    /// The parameters of the last WriteTag or SetTec.
     Json written() const
     {
         const std::lock_guard lock(mutex_);

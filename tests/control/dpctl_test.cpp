@@ -35,6 +35,7 @@ TEST_F(DpctlProgram, PrintsWhatTheRenderersMakeWithoutColourIntoAPipe)
     EXPECT_EQ(run({"diag", "16"}).out, dpctl::render_diagnosis(fixture("GetDiagnosis"), false));
     EXPECT_EQ(run({"counters"}).out, dpctl::render_counters(fixture("GetCounters"), false));
     EXPECT_EQ(run({"leds"}).out, dpctl::render_leds(fixture("GetLeds"), false));
+    EXPECT_EQ(run({"tec"}).out, dpctl::render_tec(fixture("GetTec"), false));
     EXPECT_EQ(run({"read", "7", "--station", "unwinder"}).out,
               "unwinder: tag 7 SPEED FEEDBACK is 50.00, raw 5000 (0x1388)\n");
     EXPECT_EQ(run({"version"}).out, "dpctl " DPSLAVE_VERSION "\ndpslaved 9.8.7 (org.dpslaved.Control)\n");
@@ -43,7 +44,7 @@ TEST_F(DpctlProgram, PrintsWhatTheRenderersMakeWithoutColourIntoAPipe)
 TEST_F(DpctlProgram, EndsWith0WhenAllIsFine)
 {
     for (const char* subcommand :
-         {"status", "stations", "info", "io", "diag", "counters", "leds", "version"}) {
+         {"status", "stations", "info", "io", "diag", "counters", "leds", "tec", "version"}) {
         const Ran ran = run({subcommand});
         EXPECT_EQ(ran.exit, 0) << subcommand;
         EXPECT_EQ(ran.err, "") << subcommand;
@@ -78,7 +79,8 @@ INSTANTIATE_TEST_SUITE_P(
                     JsonRow{"GetInfo", {"info"}}, JsonRow{"GetIo", {"io"}}, JsonRow{"GetDiagnosis", {"diag"}},
                     JsonRow{"GetCounters", {"counters"}}, JsonRow{"ReadTag", {"read", "7", "--station", "5"}},
                     JsonRow{"WriteTag", {"write", "7", "50", "--station", "5"}}, JsonRow{"GetLeds", {"leds"}},
-                    JsonRow{"GetVersion", {"version"}}, JsonRow{"ListStations", {"is-exchanging"}}),
+                    JsonRow{"GetTec", {"tec"}}, JsonRow{"GetVersion", {"version"}},
+                    JsonRow{"ListStations", {"is-exchanging"}}),
     [](const auto& row) {
         std::string name = row.param.arguments[0];
         return name.replace(std::min(name.find('-'), name.size()), name.find('-') != std::string::npos, "");
@@ -170,6 +172,33 @@ TEST_F(DpctlProgram, EndsWith1WhenTheDaemonIsSilent)
     EXPECT_THAT(ran.err, HasSubstr("no answer within 100 ms"));
 }
 
+// ---------------------------------------------------------------- TEC OPTION
+
+TEST_F(DpctlProgram, SetsAnInputOfTheFunctionBlockInEitherShape)
+{
+    const Json wanted = Json::object({{"station", "5"}, {"parameter", "RIDE THROUGH"}, {"value", "-1"}});
+
+    const Ran ran = run({"tec", "set", "RIDE THROUGH", "-1", "--station", "5"});
+    EXPECT_EQ(ran.exit, 0) << ran.err;
+    EXPECT_EQ(daemon.written(), wanted);
+    EXPECT_THAT(ran.out, HasSubstr("anything other than zero could compromise safety.\n"));
+
+    EXPECT_EQ(run({"tec", "5", "set", "RIDE THROUGH", "-1"}).exit, 0);
+    EXPECT_EQ(daemon.written(), wanted);
+
+    EXPECT_EQ(Json::parse(run({"tec", "set", "TYPE", "PROFIBUS DP", "--json"}).out), fixture("SetTec"));
+    EXPECT_EQ(daemon.written(), Json::object({{"parameter", "TYPE"}, {"value", "PROFIBUS DP"}}));
+}
+
+TEST_F(DpctlProgram, SaysWhyAnInputOfTheFunctionBlockCannotBeSet)
+{
+    const Ran ran = run({"tec", "set", "FAULT", "1"});
+
+    EXPECT_EQ(ran.exit, 1);
+    EXPECT_EQ(ran.out, "");
+    EXPECT_EQ(ran.err, "dpctl: FAULT cannot be set to '1': it is an output\n");
+}
+
 // ---------------------------------------------------------------- usage
 
 class DpctlUsage : public testing::TestWithParam<std::vector<std::string>> {};
@@ -191,6 +220,9 @@ INSTANTIATE_TEST_SUITE_P(
                     std::vector<std::string>{"read", "-1"}, std::vector<std::string>{"read", "65536"},
                     std::vector<std::string>{"read", "7", "8"}, std::vector<std::string>{"write", "56"},
                     std::vector<std::string>{"write", "56", "1", "2"},
+                    std::vector<std::string>{"tec", "set", "TYPE"}, std::vector<std::string>{"hex"},
+                    std::vector<std::string>{"decode"},
+                    std::vector<std::string>{"tag", "7", "--table", "x.csv", "--profile", "590"},
                     std::vector<std::string>{"status", "--timeout", "0"},
                     std::vector<std::string>{"status", "--socket"}));
 
@@ -200,18 +232,34 @@ TEST(DpctlHelp, TellsExitCodesAndWhereTheSchemaIs)
 
     EXPECT_EQ(ran.exit, 0);
     EXPECT_THAT(ran.out, HasSubstr("  0  fine\n"));
-    EXPECT_THAT(
-        ran.out,
-        HasSubstr("  1  refused by the daemon or the drive, a faulty answer, or not so (is-exchanging)\n"));
+    EXPECT_THAT(ran.out,
+                HasSubstr("  1  refused by the daemon or the drive, a faulty answer or input, not found, "
+                          "or not so (is-exchanging, doctor)\n"));
     EXPECT_THAT(ran.out, HasSubstr("  2  usage\n"));
     EXPECT_THAT(ran.out, HasSubstr("  3  no daemon"));
     EXPECT_THAT(ran.out, HasSubstr("org.dpslaved.Control.varlink"));
+}
+
+TEST(DpctlHelp, TellsForEachSubcommandItsExitCodesAndWhatJsonPrints)
+{
+    const std::string all = dpctl({"--help"}).out;
     for (const char* subcommand : {"status", "stations", "info", "io", "diag", "counters", "read", "write",
-                                   "leds", "watch", "version", "is-exchanging"}) {
-        EXPECT_THAT(ran.out, HasSubstr(std::string{"\n  "} + subcommand + " "));
-        EXPECT_THAT(dpctl({subcommand, "--help"}).out,
-                    HasSubstr("Exit codes: 0 fine, 1 refused, faulty or not so, 2 usage, 3 no daemon."));
+                                   "tec", "leds", "watch", "version", "is-exchanging"}) {
+        EXPECT_THAT(all, HasSubstr(std::string{"\n  "} + subcommand + " "));
+        const std::string own = dpctl({subcommand, "--help"}).out;
+        EXPECT_THAT(own, HasSubstr("Exit codes: 0 fine, 1 refused, faulty or not so, 2 usage, 3 no daemon."));
+        EXPECT_THAT(own, HasSubstr("--json prints the reply of "));
     }
+    for (const char* subcommand : {"tag", "hex", "decode"}) {
+        EXPECT_THAT(all, HasSubstr(std::string{"\n  "} + subcommand + " "));
+        const std::string own = dpctl({subcommand, "--help"}).out;
+        EXPECT_THAT(own,
+                    HasSubstr("Exit codes: 0 fine, 1 not found or faulty, 2 usage; no daemon is needed."));
+        EXPECT_THAT(own, HasSubstr("--json prints {\""));
+        EXPECT_THAT(own, HasSubstr(std::string{"Examples:\n  dpctl "} + subcommand));
+    }
+    EXPECT_THAT(dpctl({"doctor", "--help"}).out,
+                HasSubstr("Exit codes: 0 all is well, 1 something was found, 2 usage, 3 no daemon."));
 }
 
 // ---------------------------------------------------------------- no daemon
@@ -225,6 +273,8 @@ TEST(DpctlWithoutDaemon, EndsWith3AndSaysWhatToDo)
                                                {"diag"},
                                                {"counters"},
                                                {"leds"},
+                                               {"tec"},
+                                               {"tec", "set", "TYPE", "2"},
                                                {"watch"},
                                                {"is-exchanging"},
                                                {"read", "7"},

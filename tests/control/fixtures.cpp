@@ -32,7 +32,8 @@ const char* const kInfo = R"({"stations":[
   {"name":"unwinder","profile":"590","device":"590 with PROFIBUS-DP option board","order_code":"590 option digit 2",
    "firmware":"4.2 or later","manual":"HA389815","ident":1331,"address_active":5,"address_pending":7,"address_min":0,
    "address_max":125,"max_parameters":12,"max_input_octets":32,"max_output_octets":32,"max_diag_octets":6,"demand_data":true,
-   "sync":true,"freeze":true,"bauds":[9600,187500,1500000],"max_tsdr":[60,60,150],"tag_table":"590.csv","tags_in_table":312}]})";
+   "sync":true,"freeze":true,"bauds":[9600,187500,1500000],"max_tsdr":[60,60,150],"tag_table":"590.csv","tags_in_table":312,
+   "option_software":null,"comms_status":null,"resolution":null,"notes":[]}]})";
 
 const char* const kDiagnosis = R"({"stations":[
   {"name":"rewinder",
@@ -49,7 +50,16 @@ const char* const kDiagnosis = R"({"stations":[
 
 const char* const kLeds = R"({"stations":[{"name":"unwinder","meaning":"data exchange with the master",
   "leds":[{"name":"red","sink":"gpio:23","lit":false,"pattern":"off"},
-          {"name":"green","sink":"led:dpslaved-green","lit":true,"pattern":"flashes at 2 Hz"}]}]})";
+          {"name":"green","sink":"led:dpslaved-green","lit":true,"pattern":"flashing 2 Hz"}]}]})";
+
+const char* const kTec = R"({"stations":[{"name":"booster","view":"profibus","rows":[
+  {"name":"TYPE","generic_name":"TYPE","input":true,"value":2,"shown":"PROFIBUS DP","range":"0 to 9"},
+  {"name":"ADDRESS","generic_name":"INPUT 1","input":true,"value":3,"shown":"3","range":"0 to 125"},
+  {"name":"EXT DIAGNOSTIC","generic_name":"INPUT 2","input":true,"value":27317,"shown":">6AB5","range":"0 to FFFF"},
+  {"name":"RIDE THROUGH","generic_name":"INPUT 4","input":true,"value":10,"shown":"10 s","range":"-1 to 60 s"},
+  {"name":"FAULT","generic_name":"FAULT","input":false,"value":0,"shown":"NONE","range":""},
+  {"name":"NETWORK STATE","generic_name":"OUTPUT 1","input":false,"value":0,"shown":"DATA EXCHANGE","range":""}],
+  "trip":"1: LINK OVERVOLTS","tripped":true,"notes":["WARNING: Setting the RIDE THROUGH parameter to anything other than zero could compromise safety."]}]})";
 
 const char* const kCounters = R"({"groups":[{"name":"bus","counters":[
   {"name":"telegrams","value":123456,"meaning":"valid telegrams heard"},
@@ -77,6 +87,8 @@ std::map<std::string, json> all()
         {"GetDiagnosis", json::parse(kDiagnosis)},
         {"GetCounters", json::parse(kCounters)},
         {"GetLeds", json::parse(kLeds)},
+        {"GetTec", json::parse(kTec)},
+        {"SetTec", json::parse(kTec)},
         {"Watch", {{"bus", bus}, {"stations", stations}, {"words", watched_words}}},
         {"ReadTag", tag},
         {"WriteTag", tag},

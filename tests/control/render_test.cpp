@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fixtures.hpp"
+#include "lines.hpp"
 #include "render.hpp"
 #include "varlink_reader.hpp"
 
@@ -19,7 +20,7 @@ TEST(DpctlFixtures, AreAsTheInterfaceDescribes)
 
 TEST(DpctlStatus, IsOneLineForTheBusAndOneForEachStation)
 {
-    EXPECT_EQ(render_status(fixture("GetStatus"), false), 1 + R"(
+    EXPECT_EQ(render_status(fixture("GetStatus"), false), test::lines(R"(
 bus       /dev/ttyS1, 187.5 kbit/s (DP_Control), last telegram 2 ms ago
 stations  2, 1 in Data_Exch
 daemon    process 812, running for 1 h 2 min
@@ -27,7 +28,7 @@ daemon    process 812, running for 1 h 2 min
 STATION   ADDRESS  PROFILE  STATE      MASTER  DRIVE    LINE
 unwinder        5  590      Data_Exch       2  answers  p3
 rewinder       16  590      Wait_Prm        -  silent   p3
-)");
+)"));
 }
 
 TEST(DpctlStatus, SaysThatTheRateIsSearched)
@@ -51,7 +52,7 @@ TEST(DpctlStatus, ShowsStatesAndLinksInColour)
 
 TEST(DpctlStations, TellsEverythingAboutEach)
 {
-    EXPECT_EQ(render_stations(fixture("ListStations"), false), 1 + R"(
+    EXPECT_EQ(render_stations(fixture("ListStations"), false), test::lines(R"(
 unwinder, address 5
   device          590 with PROFIBUS-DP option board (profile 590)
   state           Data_Exch, master 2
@@ -78,12 +79,12 @@ rewinder, address 16
   drive           unit 01 on p3 (/dev/ttyS2, ei-ascii): silent
                   0 reads, 0 writes, 12 unanswered, 0 refused, lost 0 times
                   last trouble: no answer
-)");
+)"));
 }
 
 TEST(DpctlInfo, TellsWhatIsEmulatedAndThePendingAddress)
 {
-    EXPECT_EQ(render_info(fixture("GetInfo"), "9.8.7"), 1 + R"(
+    EXPECT_EQ(render_info(fixture("GetInfo"), "9.8.7"), test::lines(R"(
 unwinder
   emulates         590 with PROFIBUS-DP option board
   order code       590 option digit 2
@@ -101,7 +102,7 @@ unwinder
                    187.5 kbit/s, answers within 60 T_bit
                    1.5 Mbit/s, answers within 150 T_bit
   tag table        590.csv, 312 tags
-)");
+)"));
 }
 
 TEST(DpctlInfo, SaysNothingOfAPendingAddressWhenThereIsNone)
@@ -112,9 +113,94 @@ TEST(DpctlInfo, SaysNothingOfAPendingAddressWhenThereIsNone)
     EXPECT_NE(render_info(reply, "9.8.7").find("  address          5 active\n"), std::string::npos);
 }
 
+TEST(DpctlInfo, TellsReleaseStatusAndResolutionWhereTheDeviceHasThem)
+{
+    Json reply = fixture("GetInfo");
+    EXPECT_EQ(render_info(reply, "9.8.7").find("option software"), std::string::npos);
+    EXPECT_EQ(render_info(reply, "9.8.7").find("comms status"), std::string::npos);
+    EXPECT_EQ(render_info(reply, "9.8.7").find("resolution"), std::string::npos);
+
+    reply["stations"][0]["option_software"] = "Version 3.x";
+    reply["stations"][0]["comms_status"] = "rdY";
+    reply["stations"][0]["resolution"] = "full";
+    const std::string picture = render_info(reply, "9.8.7");
+    EXPECT_NE(picture.find("\n  option software  Version 3.x\n"), std::string::npos) << picture;
+    EXPECT_NE(picture.find("\n  comms status     rdY (ready to run)\n"), std::string::npos);
+    EXPECT_NE(picture.find("\n  resolution       full\n"), std::string::npos);
+
+    reply["stations"][0]["comms_status"] = "run";
+    EXPECT_NE(render_info(reply, "9.8.7").find("\n  comms status     run (comms running)\n"),
+              std::string::npos);
+}
+
+TEST(DpctlInfo, RepeatsWhatTheFunctionBlockWarnsOf)
+{
+    Json reply = fixture("GetInfo");
+    reply["stations"][0]["notes"] = {"WARNING: it could compromise safety.", "ADDRESS 2: a master's."};
+
+    EXPECT_NE(render_info(reply, "9.8.7")
+                  .find("  notes            WARNING: it could compromise safety.\n"
+                        "                   ADDRESS 2: a master's.\n"),
+              std::string::npos);
+}
+
+TEST(DpctlTec, ShowsTheFunctionBlockTripAndNotes)
+{
+    EXPECT_EQ(render_tec(fixture("GetTec"), false), test::lines(R"(
+booster: TEC OPTION
+          NAME            VALUE          NUMBER  RANGE
+  input   TYPE            PROFIBUS DP         2  0 to 9
+  input   ADDRESS         3                   3  0 to 125
+  input   EXT DIAGNOSTIC  >6AB5           27317  0 to FFFF
+  input   RIDE THROUGH    10 s               10  -1 to 60 s
+  output  FAULT           NONE                0
+  output  NETWORK STATE   DATA EXCHANGE       0
+  trip 1: LINK OVERVOLTS
+  WARNING: Setting the RIDE THROUGH parameter to anything other than zero could compromise safety.
+)"));
+}
+
+TEST(DpctlTec, TakesTheNamesThatFitAnyOptionInTheGenericView)
+{
+    Json reply = fixture("GetTec");
+    reply["stations"][0]["view"] = "generic";
+
+    const std::string picture = render_tec(reply, false);
+
+    EXPECT_EQ(picture.find("booster: TEC OPTION, in names that fit any option\n"), 0u);
+    EXPECT_NE(picture.find("  input   INPUT 1   3"), std::string::npos) << picture;
+    EXPECT_NE(picture.find("  output  OUTPUT 1  DATA EXCHANGE"), std::string::npos);
+    EXPECT_EQ(picture.find("ADDRESS"), std::string::npos);
+}
+
+TEST(DpctlTec, SaysTheThreeStepsOfTheSetUpWhereItIsNotSetUp)
+{
+    for (const int fault : {1, 2}) { // PARAMETER, TYPE MISMATCH
+        Json reply = fixture("GetTec");
+        reply["stations"][0]["rows"][4]["value"] = fault;
+        const std::string picture = render_tec(reply, false);
+
+        const auto type =
+            picture.find("    1. TYPE is to be PROFIBUS DP:  dpctl tec set TYPE \"PROFIBUS DP\"\n");
+        const auto address =
+            picture.find("    2. ADDRESS, 0 to 125; 0 to 2 are usually masters:  dpctl tec set ADDRESS 3\n");
+        const auto look = picture.find("    3. look at FAULT: NONE is wanted\n");
+        EXPECT_LT(type, address);
+        EXPECT_LT(address, look);
+        EXPECT_NE(look, std::string::npos);
+    }
+    EXPECT_EQ(render_tec(fixture("GetTec"), false).find("three steps"), std::string::npos);
+}
+
+TEST(DpctlTec, SaysWhereNoStationHasTheFunctionBlock)
+{
+    EXPECT_EQ(render_tec(Json::parse(R"({"stations":[]})"), false),
+              "no station has a TEC OPTION function block: the profiles of technology boxes have one\n");
+}
+
 TEST(DpctlIo, ShowsEachWordRawAndScaledWithItsAge)
 {
-    EXPECT_EQ(render_io(fixture("GetIo"), false), 1 + R"(
+    EXPECT_EQ(render_io(fixture("GetIo"), false), test::lines(R"(
 unwinder, address 5: Data_Exch; outputs go to the drive
   DIR  OCTET  TAG  NAME             VALUE             RAW  STATE        AGE
   in       8    7  SPEED FEEDBACK   50.00   5000 (0x1388)  good       12 ms
@@ -127,12 +213,12 @@ rewinder, address 16: Wait_Prm; nothing is written to the drive
   no parameters: no master has chosen any
 
 in: drive to master, out: master to drive; octet: place in the Data_Exchange telegram, counted from 0
-)");
+)"));
 }
 
 TEST(DpctlDiag, CountsOctetsBothWaysAndExplainsTheRefusal)
 {
-    EXPECT_EQ(render_diagnosis(fixture("GetDiagnosis"), false), 1 + R"(
+    EXPECT_EQ(render_diagnosis(fixture("GetDiagnosis"), false), test::lines(R"(
 rewinder: Station_Not_Ready, Cfg_Fault, Prm_Req
   OCTET  OFFSET  VALUE  MEANING
       1       0  0x06   Station_Not_Ready, Cfg_Fault
@@ -151,7 +237,7 @@ rewinder: Station_Not_Ready, Cfg_Fault, Prm_Req
   last Chk_Cfg  73 50 51
 
 octet: counted from 1, as the PROFIBUS standard does; offset: counted from 0, as PLC programs do
-)");
+)"));
 }
 
 TEST(DpctlDiag, SaysWithoutAnOctetWhenTheTelegramAsAWholeIsWrong)
@@ -180,7 +266,7 @@ TEST(DpctlDiag, IsQuietWhenNothingIsWrong)
 
 TEST(DpctlCounters, AreGroups)
 {
-    EXPECT_EQ(render_counters(fixture("GetCounters"), false), 1 + R"(
+    EXPECT_EQ(render_counters(fixture("GetCounters"), false), test::lines(R"(
 bus
    COUNT  OF             MEANING
   123456  telegrams      valid telegrams heard
@@ -189,17 +275,17 @@ bus
 unwinder
   COUNT  OF             MEANING
       7  data_exchange  Data_Exchange requests answered
-)");
+)"));
 }
 
 TEST(DpctlLeds, SayWhatTheyMean)
 {
-    EXPECT_EQ(render_leds(fixture("GetLeds"), false), 1 + R"(
+    EXPECT_EQ(render_leds(fixture("GetLeds"), false), test::lines(R"(
 unwinder: data exchange with the master
-  LED    NOW   PATTERN          SINK
-  red    dark  off              gpio:23
-  green  lit   flashes at 2 Hz  led:dpslaved-green
-)");
+  LED    NOW   PATTERN        SINK
+  red    dark  off            gpio:23
+  green  lit   flashing 2 Hz  led:dpslaved-green
+)"));
 }
 
 TEST(DpctlTag, IsOneLine)
@@ -213,7 +299,7 @@ TEST(DpctlTag, IsOneLine)
 
 TEST(DpctlWatch, IsBusStationsAndWords)
 {
-    EXPECT_EQ(render_watch(fixture("Watch"), false), 1 + R"(
+    EXPECT_EQ(render_watch(fixture("Watch"), false), test::lines(R"(
 /dev/ttyS1, 187.5 kbit/s (DP_Control), last telegram 2 ms ago
 
 STATION   ADDRESS  PROFILE  STATE      MASTER  DRIVE    LINE
@@ -224,7 +310,7 @@ unwinder
   DIR  OCTET  TAG  NAME             VALUE             RAW  STATE        AGE
   in       8    7  SPEED FEEDBACK   50.00   5000 (0x1388)  good       12 ms
   out      8   56                  -12.50  64286 (0xFB1E)  read only      -
-)");
+)"));
 }
 
 /// A daemon of another version may leave fields out or change their types: that is shown, it is no crash.
@@ -247,7 +333,7 @@ TEST(DpctlRenderers, SurviveRepliesOfAnotherVersion)
 {
     for (int depth = 0; depth < 6; ++depth)
         for (const char* method : {"GetStatus", "ListStations", "GetInfo", "GetIo", "GetDiagnosis",
-                                   "GetCounters", "GetLeds", "Watch"}) {
+                                   "GetCounters", "GetLeds", "GetTec", "Watch"}) {
             const Json odd = damaged(fixture(method), depth);
             EXPECT_NO_THROW({
                 render_status(odd, false);
@@ -257,6 +343,7 @@ TEST(DpctlRenderers, SurviveRepliesOfAnotherVersion)
                 render_diagnosis(odd, false);
                 render_counters(odd, false);
                 render_leds(odd, false);
+                render_tec(odd, false);
                 render_tag(odd, "is");
                 render_watch(odd, false);
                 changes(odd, fixture("Watch"));

@@ -90,6 +90,12 @@ INSTANTIATE_TEST_SUITE_P(
         Explained{"BadValue", "org.dpslaved.Control.BadValue",
                   R"({"tag":56,"value":"x","reason":"no number"})",
                   "tag 56: the value 'x' does not fit: no number"},
+        Explained{"NoTecOption", "org.dpslaved.Control.NoTecOption", R"({"station":"unwinder"})",
+                  "the device of station 'unwinder' has no TEC OPTION function block; technology boxes have "
+                  "one"},
+        Explained{"BadTecValue", "org.dpslaved.Control.BadTecValue",
+                  R"({"parameter":"TYPE","value":"ARCNET","reason":"no such type"})",
+                  "TYPE cannot be set to 'ARCNET': no such type"},
         Explained{"Busy", "org.dpslaved.Control.Busy", "{}",
                   "the daemon has too many callers or orders at once; try again"},
         Explained{

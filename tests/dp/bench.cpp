@@ -50,6 +50,7 @@ Personality technology_box()
                   .dpv1_status = true,
                   .list = dp::TagList::zeros_at_end};
     device.max_diag_length = 10;
+    device.diag_octets = 3;
     return device;
 }
 
@@ -58,11 +59,13 @@ Personality controller()
     Personality device = option_board();
     device.ident = 0x2408;
     device.max_parameters = 117;
+    device.max_words = 117;
     device.prm = {.min_length = 0, .max_length = 234, .max_tag = 16'383, .list = dp::TagList::exact};
     device.demand = dp::DemandForm::extended;
     device.sync = false;
     device.freeze = false;
     device.max_diag_length = 9;
+    device.diag_octets = 2;
     return device;
 }
 

@@ -22,9 +22,11 @@ inline constexpr std::uint8_t kUs = 5;
 dpslave::dp::Personality example_device();
 /// HA389815: ident 0533, 24 octets with 12 tags, 73 / 50 / 60, Sync and Freeze, six octets of diagnosis.
 dpslave::dp::Personality option_board();
-/// HA463561: DPV1_Status, tags from octet 3, also 70 (read and write), up to 30 parameters.
+/// HA463561: DPV1_Status, tags from octet 3, also 70 (read and write), up to 30 parameters, four octets of
+/// extended diagnosis.
 dpslave::dp::Personality technology_box();
-/// 2408f/2404f handbook: no Sync, no Freeze, extended Demand Data.
+/// 2408f/2404f handbook: no Sync, no Freeze, 117 words, extended Demand Data, three octets of extended
+/// diagnosis.
 dpslave::dp::Personality controller();
 
 /// A DP master by the second hand. Requests are answered in a short form: "SC", "RS", "RR", "DL 12 34", "DH

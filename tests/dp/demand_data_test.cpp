@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// HA389815 ch. 7 and the acceptance rows: Demand Data in the first eight octets.
-#include "bench.hpp"
+#include "demand_bench.hpp"
 
 namespace test {
 namespace {
@@ -8,44 +8,6 @@ namespace {
 using dpslave::AccessError;
 using dpslave::DemandOrder;
 using Kind = DemandOrder::Kind;
-
-class DemandBench : public DpBench {
-protected:
-    explicit DemandBench(dpslave::dp::Personality device) : DpBench(std::move(device)) {}
-
-    /// One exchange with these registers 1 and 4; the answer's, as "1037 1234".
-    std::string demand(std::uint16_t command, std::uint16_t value = 0)
-    {
-        return exchange({command, 0, 0, value});
-    }
-    std::string exchange(const std::vector<std::uint16_t>& registers)
-    {
-        Octets outputs;
-        for (const unsigned word : registers) {
-            outputs.push_back(static_cast<std::uint8_t>(word / 256));
-            outputs.push_back(static_cast<std::uint8_t>(word % 256));
-        }
-        const std::string reply = master.data_exchange(outputs);
-        EXPECT_EQ(reply.substr(0, 3), "DL ");
-        return reply.substr(3);
-    }
-    DemandOrder order()
-    {
-        const auto one = slave.take_demand_order();
-        EXPECT_TRUE(one) << "no order";
-        return one.value_or(DemandOrder{});
-    }
-    void answer(const DemandOrder& order, std::uint16_t value)
-    {
-        slave.set_demand_answer({order.number, AccessError::none, value});
-    }
-    void refuse(const DemandOrder& order, AccessError why)
-    {
-        slave.set_demand_answer({order.number, why, 0});
-    }
-};
-
-constexpr std::string_view kNothing = "00 00 00 00 00 00 00 00";
 
 class DemandData : public DemandBench {
 protected:
@@ -398,53 +360,6 @@ TEST_F(DemandData, TheSnapshotShowsRequestAndReply)
     EXPECT_EQ(seen().demand_request, (std::array<std::uint16_t, 4>{0x1037, 1, 2, 3}));
     EXPECT_EQ(seen().demand_reply, (std::array<std::uint16_t, 4>{0x1037, 0, 0, 0x55AA}));
     EXPECT_EQ(seen().counters.demand_orders, 1u);
-}
-
-/// 2408f/2404f handbook ch. 7: commands 3 and 4 with the tag in register 2.
-class ExtendedDemandData : public DemandBench {
-protected:
-    ExtendedDemandData() : DemandBench(controller()) { start_up("88 14 01 0B 24 08 01", "73"); }
-};
-
-TEST_F(ExtendedDemandData, ReadsTagsOf14Bits)
-{
-    exchange({0x3000, 8328, 0, 77});
-    const DemandOrder read = order();
-    EXPECT_EQ(read.kind, Kind::read);
-    EXPECT_EQ(read.tag, 8328);
-    answer(read, 5);
-
-    EXPECT_EQ(exchange({0x3000, 8328, 0, 77}), "10 00 20 88 00 00 00 05");
-}
-
-TEST_F(ExtendedDemandData, WritesTagsOf14Bits)
-{
-    exchange({0x4000, 16'383, 0, 77});
-    const DemandOrder write = order();
-    EXPECT_EQ(write.kind, Kind::write);
-    EXPECT_EQ(write.tag, 16'383);
-    EXPECT_EQ(write.value, 77);
-    refuse(write, AccessError::out_of_range);
-
-    EXPECT_EQ(exchange({0x4000, 16'383, 0, 77}), "70 00 3F FF 00 00 00 02");
-}
-
-TEST_F(ExtendedDemandData, RejectsATagFieldThatIsNotZeroAndTagsAbove14Bits)
-{
-    EXPECT_EQ(exchange({0x3001, 8328, 0, 0}), "70 00 20 88 00 00 00 00");
-    EXPECT_EQ(exchange({0x4000, 16'384, 0, 0}), "70 00 40 00 00 00 00 00");
-    EXPECT_FALSE(slave.take_demand_order());
-}
-
-TEST_F(ExtendedDemandData, TheStandardCommandsAreAsEverywhere)
-{
-    exchange({0x210E, 0xFFFF, 0, 1}); // worked example 1: 8462 with value 1
-    answer(order(), 1);
-
-    EXPECT_EQ(exchange({0x210E, 0, 0, 1}), "11 0E 00 00 00 00 00 01"); // 4366
-    exchange({0x104C, 0, 0, 0});                                       // 4172 polls tag 76
-    answer(order(), 0x1000);
-    EXPECT_EQ(exchange({0x104C, 0, 0, 0}), "10 4C 00 00 00 00 10 00");
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a script can ask for, and how Demand Data lies in the telegram (HA389815 chapters 6 and 7).
+// What a script can ask for, and where the process words lie (HA389815 chapter 6).
 #include "dpsim/condition.hpp"
 #include "dpsim/values.hpp"
 #include "octets.hpp"
@@ -44,10 +44,46 @@ TEST(Conditions, ThatMakeNoSenseAreExplained)
     EXPECT_THAT(parse_condition(words_of("diag sunshine")).error(), HasSubstr("neither"));
 }
 
-TEST(DemandData, LiesInTheFirstEightOctets)
+TEST(Conditions, LookAtTheBitsOfAMask)
+{
+    for (const char* const text : {"in 2 & 0x1000 = 0", "in2&0x1000=0"}) {
+        const auto c = parse_condition(words_of(text));
+        ASSERT_TRUE(c) << c.error();
+        EXPECT_EQ(c->index, 2U);
+        EXPECT_EQ(c->mask, 0x1000);
+        EXPECT_EQ(c->value, 0);
+    }
+    const auto demand = parse_condition(words_of("demand reg 4 & 0x1008 != 0"));
+    ASSERT_TRUE(demand) << demand.error();
+    EXPECT_EQ(demand->subject, Condition::Subject::demand_register);
+    EXPECT_EQ(demand->index, 4U);
+    EXPECT_EQ(demand->mask, 0x1008);
+    EXPECT_EQ(demand->relation, "!=");
+    EXPECT_THAT(parse_condition(words_of("in 1 & = 0")).error(), HasSubstr("& 0x1000"));
+    EXPECT_THAT(parse_condition(words_of("in 1 & 0 = 0")).error(), HasSubstr("& 0x1000"));
+}
+
+TEST(Conditions, AskForWholeRegistersOfDemandData)
+{
+    EXPECT_EQ(parse_condition(words_of("demand reg 1 = 4366"))->value, 4366);
+    for (const char* const wrong : {"demand reg 0 = 1", "demand reg 5 = 1", "demand reg 1",
+                                    "demand reg 1 ~ 5", "demand reg 1 = x", "demand reject", "demand"})
+        EXPECT_THAT(parse_condition(words_of(wrong)).error(), HasSubstr("demand reg 1 = 4366")) << wrong;
+}
+
+TEST(Conditions, AskForTheExtendedPartOfTheDiagnosisAsAWhole)
+{
+    const auto c = parse_condition(words_of("diag ext 03 40 30"));
+    ASSERT_TRUE(c) << c.error();
+    EXPECT_EQ(c->subject, Condition::Subject::extended_diagnosis);
+    EXPECT_EQ(c->octets, wire("03 40 30"));
+    EXPECT_FALSE(parse_condition(words_of("diag ext")));
+}
+
+TEST(Process, WordsLieBehindDemandData)
 {
     Master master{option_board()};
-    set_demand_request(master, {2, 56, 1000});
+    set_demand_outputs(master, {0x2038, 0, 0, 1000});
     set_output_word(master, 1, 0x8AD0);
     EXPECT_EQ(hex(master.outputs()), "20 38 00 00 00 00 03 E8 8A D0");
     EXPECT_EQ(input_words(master), 2U);
@@ -55,11 +91,15 @@ TEST(DemandData, LiesInTheFirstEightOctets)
     EXPECT_FALSE(set_output_word(master, 2, 0));
 }
 
-TEST(DemandData, IsShownInWords)
+TEST(Process, WordsOfBothDirectionsAreOneIdentifier)
 {
-    EXPECT_EQ(show_demand({1, 270, 30000}), "tag 270 = 30000 (0x7530)");
-    EXPECT_EQ(show_demand({7, 55, 1}), "tag 55 rejected, 1: read-only parameter");
-    EXPECT_EQ(show_demand({0, 0, 0}), "no command");
+    MasterSettings s;
+    s.cfg = wire("70 60 50 70");
+    Master master{s};
+    EXPECT_EQ(input_words(master), 3U);
+    EXPECT_EQ(output_words(master), 3U);
+    EXPECT_TRUE(set_output_word(master, 3, 0x1234));
+    EXPECT_EQ(hex(master.outputs()), "00 00 00 00 12 34");
 }
 
 TEST(Values, AreReadAsPeopleWriteThem)

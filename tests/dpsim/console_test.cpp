@@ -5,6 +5,8 @@
 
 #include <gmock/gmock.h>
 
+#include <map>
+
 namespace dpslave::sim {
 namespace {
 
@@ -39,7 +41,7 @@ protected:
         if (request[4] == 0xFF) return {};
         if (request[4] == 0x05) {
             requests.emplace_back(request.begin() + 7, request.end() - 2);
-            Octets body{0x02, 0x05, 0x08};
+            Octets body{0x02, 0x05, static_cast<std::uint8_t>(high_priority ? 0x0A : 0x08)};
             const Octets inputs = drive ? drive(requests.back()) : Octets(10, 0);
             body.insert(body.end(), inputs.begin(), inputs.end());
             return sd2(body);
@@ -72,7 +74,7 @@ protected:
     Instant now{1s};
     Master master{option_board()};
     Console console{master, now};
-    bool silent = false;
+    bool silent = false, high_priority = false;
     Octets diagnosis = wire("00 0C 00 02 05 33");
     std::vector<Octets> requests;
     std::function<Octets(const Octets&)> drive;
@@ -200,6 +202,147 @@ TEST_F(DemandConsoleTest, ShowsARejectionWithItsReason)
     run("demand none");
     run("expect demand none");
     EXPECT_FALSE(console.failed()) << text;
+}
+
+TEST_F(DemandConsoleTest, SetsTheFourRegistersAsTheyAre)
+{
+    run("start");
+    run("demand raw 8462 0 0 1");
+    run("wait 5s for demand reg 1 = 4366");
+    EXPECT_EQ(hex(requests.back()), "21 0E 00 00 00 00 00 01");
+    run("demand raw 0x104C");
+    run("wait 5s for demand reg 1 = 4172");
+    run("expect demand reg 4 & 0x0008 = 8");
+    EXPECT_FALSE(console.failed()) << text;
+    run("demand");
+    EXPECT_THAT(text, HasSubstr("request 104C 0000 0000 0000"));
+    EXPECT_THAT(text, HasSubstr("answer  104C 0000 0000 002A"));
+}
+
+/// An instrument with the extended commands: each tag holds what was written, or its own number.
+class ExtendedConsoleTest : public DemandConsoleTest {
+protected:
+    Octets reply_to(const Octets& out) override
+    {
+        const std::uint16_t tag = be16(out, 2);
+        Octets in(10, 0);
+        if (out[0] == 0x40) held[tag] = be16(out, 6);
+        const bool refused = tag == missing;
+        const auto value = refused ? std::uint16_t{0} : held.try_emplace(tag, tag).first->second;
+        const auto first = static_cast<std::uint16_t>(!as_example ? (refused ? 0x7000 : 0x1000)
+                                                                  : (refused ? 0x7000 + tag : out[0] << 8));
+        in[0] = high(first);
+        in[1] = low(first);
+        in[2] = out[2];
+        in[3] = out[3];
+        in[6] = high(value);
+        in[7] = low(value);
+        return in;
+    }
+    std::map<std::uint16_t, std::uint16_t> held;
+    std::uint16_t missing = 9000;
+    bool as_example = false;
+};
+
+TEST_F(ExtendedConsoleTest, ReadsAndWritesATagAbove2047)
+{
+    run("start");
+    run("demand read-ext 8328");
+    EXPECT_EQ(hex(requests.back()), "30 00 20 88 00 00 00 00");
+    run("expect demand = 8328");
+    run("demand write-ext 8328 -2");
+    EXPECT_EQ(hex(requests.back()), "40 00 20 88 00 00 FF FE");
+    run("expect demand = -2");
+    EXPECT_FALSE(console.failed()) << text;
+    run("demand write-ext 9000 1");
+    run("expect demand reject 0");
+    EXPECT_FALSE(console.failed()) << text;
+    EXPECT_THAT(text, HasSubstr("tag 9000 rejected, 0: invalid tag number"));
+}
+
+TEST_F(ExtendedConsoleTest, UnderstandsTheAnswersOfWorkedExample2)
+{
+    as_example = true;
+    run("start");
+    run("demand read-ext 8329");
+    run("expect demand = 8329");
+    run("demand read-ext 9000");
+    run("expect demand reject 0");
+    EXPECT_FALSE(console.failed()) << text;
+}
+
+TEST_F(ExtendedConsoleTest, UploadsABlockOneTagARequestAfterCommand0)
+{
+    run("start");
+    const std::size_t before = requests.size();
+    run("demand upload 8328 136");
+    EXPECT_FALSE(console.failed()) << text;
+    EXPECT_EQ(hex(requests[before]), "00 00 00 00 00 00 00 00");
+    std::vector<std::uint16_t> asked;
+    for (std::size_t i = before; i < requests.size(); ++i)
+        if (requests[i][0] == 0x30 && (asked.empty() || asked.back() != be16(requests[i], 2)))
+            asked.push_back(be16(requests[i], 2));
+    ASSERT_EQ(asked.size(), 136U) << "each once";
+    EXPECT_EQ(asked.front(), 8328);
+    EXPECT_EQ(asked.back(), 8463);
+    EXPECT_THAT(text, HasSubstr("tag 8336 = 8336 8337 8338 8339 8340 8341 8342 8343\n"));
+    EXPECT_THAT(text, HasSubstr("136 values uploaded, tags 8328 to 8463"));
+}
+
+TEST_F(ExtendedConsoleTest, DownloadsTheBlockThatWasUploadedOrOtherValues)
+{
+    run("start");
+    run("demand upload 8328 3");
+    run("demand download 8464");
+    EXPECT_EQ(held.at(8464), 8328);
+    EXPECT_EQ(held.at(8466), 8330);
+    EXPECT_THAT(text, HasSubstr("3 values downloaded, tags 8464 to 8466"));
+    run("demand download 8328 5 0x0006 -7");
+    EXPECT_EQ(held.at(8328), 5);
+    EXPECT_EQ(held.at(8329), 6);
+    EXPECT_EQ(held.at(8330), 0xFFF9);
+    EXPECT_FALSE(console.failed()) << text;
+}
+
+TEST_F(ExtendedConsoleTest, EndsATransferAtTheFirstTagThatIsRefused)
+{
+    missing = 8330;
+    run("start");
+    run("demand download 8328 1 2 3 4");
+    EXPECT_TRUE(console.failed());
+    EXPECT_THAT(text, HasSubstr("tag 8330 rejected, 0: invalid tag number after 2 values"));
+    EXPECT_EQ(held.count(8331), 0U);
+}
+
+TEST_F(ExtendedConsoleTest, SaysWhatIsWrongWithATransfer)
+{
+    run("start");
+    run("demand download 8328");
+    EXPECT_THAT(text, HasSubstr("nothing was uploaded yet"));
+    run("demand upload 65535 2");
+    EXPECT_THAT(text, HasSubstr("the last tag would be above 65535"));
+    run("demand upload 8328");
+    EXPECT_THAT(text, HasSubstr("demand upload 8328 136"));
+    run("demand raw 1 2 3 4 5");
+    EXPECT_THAT(text, HasSubstr("demand raw 8462 0 0 1"));
+}
+
+TEST_F(ConsoleTest, PrintsAChangedDiagnosisOnceInWords)
+{
+    run("start");
+    high_priority = true;
+    diagnosis = wire("00 0C 00 02 05 33 03 40 30");
+    run("wait 2s for diag ext 03 40 30");
+    run("run 1s");
+    EXPECT_FALSE(console.failed()) << text;
+    const auto first = text.find("summary output status 4030, manual mode, sensor break, IP1 fault");
+    EXPECT_NE(first, std::string::npos) << text;
+    EXPECT_EQ(text.find("summary output status", first + 1), std::string::npos) << text;
+    diagnosis = wire("00 0C 00 02 05 33 03 00 00");
+    run("wait 2s for diag ext 03 00 00");
+    EXPECT_THAT(text, HasSubstr("summary output status 0000, no bit"));
+    run("try expect diag ext 03 00");
+    EXPECT_THAT(text, HasSubstr("expect diag ext 03 00: the diagnosis is 00 0C 00 02 05 33 03 00 00"));
 }
 
 TEST_F(ConsoleTest, ReadsAndExplainsTheDiagnosis)

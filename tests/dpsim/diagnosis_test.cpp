@@ -49,6 +49,30 @@ TEST(Diagnosis, ExplainsEveryKindOfExtendedBlock)
     EXPECT_THAT(lines, Contains(HasSubstr("identifier 12, channel 6: error 7")));
 }
 
+TEST(Diagnosis, OfATechnologyBoxTellsTripCodeAndExtDiagnostic)
+{
+    const auto lines = explain(*parse_diagnosis(wire("00 0C 00 01 16 49 04 01 6A B5"))); // HA463561U002
+    EXPECT_THAT(lines, Contains("device-related diagnosis: 01 6A B5"));
+    EXPECT_THAT(lines, Contains("  of a technology box: trip code 1 (link overvolts), EXT DIAGNOSTIC 6AB5"));
+    EXPECT_THAT(explain(*parse_diagnosis(wire("00 0C 00 01 16 49 04 1F 00 00"))),
+                Contains(HasSubstr("trip code 31 (tripped)")));
+    EXPECT_THAT(explain(*parse_diagnosis(wire("00 0C 00 01 16 49 04 0E 00 00"))),
+                Contains(HasSubstr("trip code 14 (in no table)")));
+}
+
+TEST(Diagnosis, OfAControllerNamesTheBitsOfItsSummaryOutputStatus)
+{
+    const auto lines = explain(*parse_diagnosis(wire("00 0C 00 24 24 08 03 40 30"))); // handbook chapter 4
+    EXPECT_THAT(lines, Contains("device-related diagnosis: 40 30"));
+    EXPECT_THAT(lines, Contains("  of a 2408f/2404f: summary output status 4030, manual mode, sensor break, "
+                                "IP1 fault"));
+    EXPECT_THAT(explain(*parse_diagnosis(wire("00 0C 00 24 24 08 03 00 00"))),
+                Contains(HasSubstr("status 0000, no bit")));
+    EXPECT_THAT(explain(*parse_diagnosis(wire("00 0C 00 24 24 08 03 1F 01"))),
+                Contains(HasSubstr("1F01, alarm 1, tune active, program complete, PV out of range, DC module "
+                                   "fault, segment sync")));
+}
+
 TEST(Diagnosis, SaysWhereABlockIsLongerThanTheReply)
 {
     EXPECT_THAT(explain(*parse_diagnosis(wire("08 0C 00 02 47 11 04 E1"))),

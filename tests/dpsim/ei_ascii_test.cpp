@@ -37,29 +37,51 @@ TEST(EiAscii, ChecksTheWorkedSelectsWhateverTheCheckLooksLike)
 
 TEST(EiAscii, NamesTagsByTheRuleOfThe590)
 {
-    EXPECT_EQ(mnemonic_of(0), "a0");
-    EXPECT_EQ(mnemonic_of(12), "ac");
-    EXPECT_EQ(mnemonic_of(55), "bj");
-    EXPECT_EQ(mnemonic_of(56), "bk");
-    EXPECT_EQ(mnemonic_of(130), "dm");
-    EXPECT_EQ(mnemonic_of(198), "fi");
-    EXPECT_EQ(mnemonic_of(288), "i0");
-    EXPECT_EQ(mnemonic_of(536), "ow");
-    EXPECT_EQ(mnemonic_of(537), "ox");
-    EXPECT_EQ(mnemonic_of(559), "pj");
-    EXPECT_EQ(mnemonic_of(935), "zz");
-    EXPECT_EQ(mnemonic_of(936), "aA");
-    EXPECT_EQ(mnemonic_of(937), "aB");
-    EXPECT_EQ(mnemonic_of(961), "aZ");
-    EXPECT_EQ(mnemonic_of(962), "bA");
+    EXPECT_EQ(mnemonic_of(Model::dc590, 0), "a0");
+    EXPECT_EQ(mnemonic_of(Model::dc590, 12), "ac");
+    EXPECT_EQ(mnemonic_of(Model::dc590, 55), "bj");
+    EXPECT_EQ(mnemonic_of(Model::dc590, 56), "bk");
+    EXPECT_EQ(mnemonic_of(Model::dc590, 130), "dm");
+    EXPECT_EQ(mnemonic_of(Model::dc590, 198), "fi");
+    EXPECT_EQ(mnemonic_of(Model::dc590, 288), "i0");
+    EXPECT_EQ(mnemonic_of(Model::dc590, 536), "ow");
+    EXPECT_EQ(mnemonic_of(Model::dc590, 537), "ox");
+    EXPECT_EQ(mnemonic_of(Model::dc590, 559), "pj");
+    EXPECT_EQ(mnemonic_of(Model::dc590, 935), "zz");
+    EXPECT_EQ(mnemonic_of(Model::dc590, 936), "aA");
+    EXPECT_EQ(mnemonic_of(Model::dc590, 937), "aB");
+    EXPECT_EQ(mnemonic_of(Model::dc590, 961), "aZ");
+    EXPECT_EQ(mnemonic_of(Model::dc590, 962), "bA");
 }
 
 TEST(EiAscii, ReachesParameterNumbersAsTags1000To1127)
 {
-    EXPECT_EQ(mnemonic_of(1039), "27");
-    EXPECT_EQ(mnemonic_of(1015), "0F");
-    EXPECT_EQ(mnemonic_of(1127), "7F");
-    EXPECT_EQ(mnemonic_of(1128), "hK");
+    EXPECT_EQ(mnemonic_of(Model::dc590, 1039), "27");
+    EXPECT_EQ(mnemonic_of(Model::dc590, 1015), "0F");
+    EXPECT_EQ(mnemonic_of(Model::dc590, 1127), "7F");
+    EXPECT_EQ(mnemonic_of(Model::dc590, 1128), "hK");
+}
+
+TEST(Mnemonics, OfAcDrivesHaveARuleOfTheirOwn)
+{
+    EXPECT_EQ(model_of("605"), Model::ac);
+    EXPECT_EQ(model_of("584sv"), Model::ac);
+    EXPECT_EQ(model_of("690plus"), Model::ac);
+    EXPECT_EQ(mnemonic_of(Model::ac, 0), "00");
+    EXPECT_EQ(mnemonic_of(Model::ac, 35), "0z");
+    EXPECT_EQ(mnemonic_of(Model::ac, 36), "10");
+    EXPECT_EQ(mnemonic_of(Model::ac, 255), "73");
+    EXPECT_EQ(mnemonic_of(Model::ac, 269), "7h");
+    EXPECT_EQ(mnemonic_of(Model::ac, 271), "7j");
+    EXPECT_EQ(mnemonic_of(Model::ac, 272), "7k");
+    EXPECT_EQ(mnemonic_of(Model::ac, 348), "9o");
+    EXPECT_EQ(mnemonic_of(Model::ac, 1000), "rs") << "no PNO there";
+    EXPECT_EQ(mnemonic_of(Model::ac, 1295), "zz");
+    EXPECT_EQ(mnemonic_of(Model::ac, 1296), "aA");
+    EXPECT_EQ(mnemonic_of(Model::ac, 1297), "bA") << "the letter that runs fast comes first";
+    EXPECT_EQ(mnemonic_of(Model::ac, 1321), "zA");
+    EXPECT_EQ(mnemonic_of(Model::ac, 1322), "aB");
+    EXPECT_EQ(mnemonic_of(Model::ac, 1972), "");
 }
 
 TEST(EiAscii, SendsNumbersWithoutNeedlessZerosButWithThePoint)

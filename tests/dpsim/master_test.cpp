@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 namespace dpslave::sim {
 namespace {
 
@@ -37,6 +39,25 @@ TEST_F(MasterTest, ReadsTheDiagnosisWhenTheAnswerIsOfHighPriority)
     expect("68 05 05 68 05 02 7D A5 01 2A 16", "68 05 05 68 02 05 08 12 34 55 16");
     EXPECT_EQ(hex(master.diagnosis()->octets), "08 0C 00 02 47 11 02 01");
     EXPECT_EQ(master.counters().diagnosis_pending, 1U);
+}
+
+TEST_F(MasterTest, TellsAChangedDiagnosisOnce)
+{
+    exchanging();
+    const auto diagnoses = [&] {
+        collect();
+        return std::count_if(events.begin(), events.end(),
+                             [](const MasterEvent& e) { return e.kind == MasterEvent::Kind::diagnosis; });
+    };
+    expect("68 05 05 68 05 02 7D 00 00 84 16", "68 05 05 68 02 05 0A 12 34 57 16");
+    expect("68 05 05 68 85 82 5D 3C 3E DE 16", "68 0D 0D 68 82 85 08 3E 3C 08 0C 00 02 47 11 02 01 FA 16");
+    EXPECT_EQ(diagnoses(), 1);
+    expect("68 05 05 68 05 02 7D 00 00 84 16", "68 05 05 68 02 05 0A 12 34 57 16");
+    expect("68 05 05 68 85 82 5D 3C 3E DE 16", "68 0D 0D 68 82 85 08 3E 3C 08 0C 00 02 47 11 02 01 FA 16");
+    EXPECT_EQ(diagnoses(), 1) << "it is the same one";
+    expect("68 05 05 68 05 02 7D 00 00 84 16", "68 05 05 68 02 05 0A 12 34 57 16");
+    expect("68 05 05 68 85 82 5D 3C 3E DE 16", "68 0D 0D 68 82 85 08 3E 3C 08 0C 00 02 47 11 02 00 F9 16");
+    EXPECT_EQ(diagnoses(), 2);
 }
 
 TEST_F(MasterTest, RepeatsARequestWithoutAnswerOctetForOctet)

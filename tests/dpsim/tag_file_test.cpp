@@ -31,7 +31,9 @@ TEST(TagFile, LoadsTheShippedExample)
         kinds.insert(tag.type);
         accesses.insert(tag.access);
         if (tag.type == TagKind::number) decimals.insert(tag.decimals);
-        EXPECT_TRUE(mnemonics.insert(tag.mnemonic.empty() ? mnemonic_of(tag.number) : tag.mnemonic).second)
+        EXPECT_TRUE(
+            mnemonics.insert(tag.mnemonic.empty() ? mnemonic_of(Model::dc590, tag.number) : tag.mnemonic)
+                .second)
             << tag.number;
     }
     EXPECT_EQ(kinds.size(), 5U) << "every type is there";
@@ -59,6 +61,31 @@ TEST(TagFile, ReadsWordLimitsAsHexadecimal)
     ASSERT_TRUE(tags) << tags.error();
     EXPECT_EQ((*tags)[0].min, 0x10);
     EXPECT_EQ((*tags)[0].max, 0x3FF);
+}
+
+TEST(TagFile, LetsDecimalsFollowTheDisplay)
+{
+    const auto tags =
+        parse_tags("tag,type,decimals,max,start\n1,INT,display,9999,18.3\n2,WORD,display,,\n", "t.csv");
+    ASSERT_TRUE(tags) << tags.error();
+    EXPECT_TRUE((*tags)[0].follows_display);
+    EXPECT_EQ((*tags)[0].decimals, kDisplayDecimals);
+    EXPECT_EQ((*tags)[0].max, 999900) << "it is no word";
+    EXPECT_TRUE((*tags)[0].has_start);
+    EXPECT_EQ((*tags)[0].start.counts, 1830);
+    EXPECT_FALSE((*tags)[1].follows_display) << "a word has no decimals";
+    EXPECT_FALSE((*tags)[1].has_start);
+}
+
+TEST(TagFile, GivesCountsOtherDecimalsRounded)
+{
+    EXPECT_EQ(rescaled(9999, 1, 0), 1000);
+    EXPECT_EQ(rescaled(1234, 2, 0), 12);
+    EXPECT_EQ(rescaled(5, 1, 0), 1) << "ties go away from zero";
+    EXPECT_EQ(rescaled(-5, 1, 0), -1);
+    EXPECT_EQ(rescaled(-4, 1, 0), 0);
+    EXPECT_EQ(rescaled(12, 0, 2), 1200);
+    EXPECT_EQ(rescaled(12, 2, 2), 12);
 }
 
 TEST(TagFile, NamesTheLineThatIsWrong)

@@ -23,9 +23,14 @@ struct MemoryDrive {
     std::map<int, AccessError> read_errors;  ///< tags that refuse reads
     std::map<int, AccessError> write_errors; ///< tags that refuse writes
     std::set<int> silent_tags;
+    std::set<int> unanswered_writes; ///< tags whose writes are done and never answered
+    std::set<int> not_kept;          ///< tags whose writes are accepted and change nothing
     bool alive = true;
-    int lost_answers = 0;   ///< so many transactions are done and not answered
-    int not_understood = 0; ///< so many transactions are answered with a NAK and not done
+    int lost_answers = 0;       ///< so many transactions are done and not answered
+    int not_understood = 0;     ///< so many transactions are answered with a NAK and not done
+    int longest_read = 125;     ///< tags; a longer block is refused
+    bool answers_blocks = true; ///< false: silent to a write of more than one word
+    AccessError refuses_blocks = AccessError::none; ///< a write of more than one word, whatever it says
 };
 
 struct Done {
@@ -34,7 +39,7 @@ struct Done {
     std::size_t unit;
     int tag;
     std::uint16_t count;
-    std::uint16_t word;
+    std::vector<std::uint16_t> words; ///< of a write
     AccessError error;
     Instant at; ///< begin
 };
@@ -89,9 +94,14 @@ public:
         std::array<std::uint16_t, 64> words{};
         const AccessError error = carry_out(*transaction, words);
         now += error == AccessError::no_answer ? kSilenceTime : kAnswerTime;
-        log.push_back({transaction->purpose, transaction->kind, transaction->unit,
-                       transaction->tag != nullptr ? transaction->tag->number : -1, transaction->count,
-                       transaction->word, error, began});
+        log.push_back({transaction->purpose,
+                       transaction->kind,
+                       transaction->unit,
+                       transaction->tag != nullptr ? transaction->tag->number : -1,
+                       transaction->count,
+                       {transaction->words.begin(), transaction->words.end()},
+                       error,
+                       began});
         poller.done({error, std::span{words}.first(transaction->count)}, now);
         return true;
     }
@@ -117,17 +127,21 @@ public:
     }
     std::size_t writes_of(int tag) const
     {
-        return count([tag](const Done& d) { return d.kind == Transaction::Kind::write && d.tag == tag; });
+        return count([tag](const Done& d) {
+            return d.kind == Transaction::Kind::write && d.tag <= tag && tag < d.tag + d.count;
+        });
     }
     std::size_t reads_of(int tag) const
     {
-        return count([tag](const Done& d) { return d.kind == Transaction::Kind::read && d.tag == tag; });
+        return count([tag](const Done& d) {
+            return d.kind == Transaction::Kind::read && d.tag <= tag && tag < d.tag + d.count;
+        });
     }
-    /// The purposes of the log as letters: i o s d c (dpctl) p.
+    /// The purposes of the log as letters: i o s d c (dpctl) w p.
     std::string purposes() const
     {
         std::string out;
-        for (const Done& done : log) out += "iosdcp"[static_cast<std::size_t>(done.purpose)];
+        for (const Done& done : log) out += "iosdcwp"[static_cast<std::size_t>(done.purpose)];
         return out;
     }
 
@@ -155,11 +169,13 @@ private:
             --drive.lost_answers;
             return AccessError::no_answer;
         }
-        return error;
+        const bool is_write = transaction.kind == Transaction::Kind::write;
+        return is_write && drive.unanswered_writes.count(tag) != 0 ? AccessError::no_answer : error;
     }
     static AccessError read(MemoryDrive& drive, const Transaction& transaction,
                             std::array<std::uint16_t, 64>& words)
     {
+        if (transaction.count > drive.longest_read) return AccessError::invalid_tag;
         for (std::uint16_t i = 0; i < transaction.count; ++i) {
             const auto refused = drive.read_errors.find(transaction.tag->number + i);
             if (refused != drive.read_errors.end()) return refused->second;
@@ -169,13 +185,21 @@ private:
         }
         return AccessError::none;
     }
+    /// A block as the 2000 series takes it: the words of tags that it does not have are dropped in silence, a
+    /// refused one stops it with those before it written.
     static AccessError write(MemoryDrive& drive, const Transaction& transaction)
     {
-        const int tag = transaction.tag->number;
-        if (drive.words.count(tag) == 0) return AccessError::invalid_tag;
-        const auto refused = drive.write_errors.find(tag);
-        if (refused != drive.write_errors.end()) return refused->second;
-        drive.words[tag] = transaction.word;
+        const int first = transaction.tag->number;
+        if (transaction.count > 1 && drive.refuses_blocks != AccessError::none) return drive.refuses_blocks;
+        if (transaction.count > 1 && !drive.answers_blocks) return AccessError::no_answer;
+        for (std::size_t i = 0; i < transaction.words.size(); ++i) {
+            const int tag = first + static_cast<int>(i);
+            const bool there = drive.words.count(tag) != 0;
+            if (!there && transaction.count == 1) return AccessError::invalid_tag;
+            const auto refused = drive.write_errors.find(tag);
+            if (refused != drive.write_errors.end()) return refused->second;
+            if (there && drive.not_kept.count(tag) == 0) drive.words[tag] = transaction.words[i];
+        }
         return AccessError::none;
     }
 };

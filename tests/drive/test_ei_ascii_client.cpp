@@ -48,6 +48,11 @@ protected:
         return error;
     }
 
+    AccessError write(UnitAddress unit, const Tag& tag, std::uint16_t value)
+    {
+        return client.write(unit, tag, {&value, 1});
+    }
+
     std::chrono::nanoseconds time_of(const std::function<void()>& what)
     {
         const Instant before = line.time;
@@ -78,7 +83,7 @@ TEST_F(EiClient, ReadsAWordInThePollFormOfTheReference)
 
 TEST_F(EiClient, WritesAWordInTheSelectFormOfTheReference)
 {
-    EXPECT_EQ(client.write(kDc, sequence, 0x0203), AccessError::none);
+    EXPECT_EQ(write(kDc, sequence, 0x0203), AccessError::none);
     EXPECT_EQ(dc.parameters["ow"].text, ">0203");
     EXPECT_EQ(line.sent, "\x04"
                          "0000\x02"
@@ -91,15 +96,15 @@ TEST_F(EiClient, AsksEachDriveOfTheLineByItsOwnAddressAndRule)
     EXPECT_EQ(word, 3000);
     EXPECT_EQ(read(kDc, demand), AccessError::none);
     EXPECT_EQ(word, 125);
-    EXPECT_EQ(client.write(kAc, row(269, TagType::number, 1), 164), AccessError::none);
+    EXPECT_EQ(write(kAc, row(269, TagType::number, 1), 164), AccessError::none);
     EXPECT_EQ(ac.parameters["7h"].text, "16.4");
 }
 
 TEST_F(EiClient, WritesAnEnumAsTheFamilyDoes)
 {
-    EXPECT_EQ(client.write(kAc, row(300, TagType::enumeration), 10), AccessError::none);
+    EXPECT_EQ(write(kAc, row(300, TagType::enumeration), 10), AccessError::none);
     EXPECT_EQ(ac.parameters["8c"].text, "10.");
-    EXPECT_EQ(client.write(kDc, row(288, TagType::enumeration), 10), AccessError::none);
+    EXPECT_EQ(write(kDc, row(288, TagType::enumeration), 10), AccessError::none);
     EXPECT_EQ(dc.parameters["i0"].text, ">0A");
 }
 
@@ -115,7 +120,7 @@ TEST_F(EiClient, HasNoWordForATagWithoutMnemonic)
 {
     EXPECT_EQ(read(kDc, row(40000, TagType::word)), AccessError::invalid_tag);
     EXPECT_THAT(client.last_trouble(), HasSubstr("no mnemonic for tag 40000"));
-    EXPECT_EQ(client.write(kDc, row(40000, TagType::word), 1), AccessError::invalid_tag);
+    EXPECT_EQ(write(kDc, row(40000, TagType::word), 1), AccessError::invalid_tag);
     EXPECT_EQ(line.sent, "");
 }
 
@@ -146,20 +151,20 @@ TEST_F(EiClient, TellsAWriteOnlyParameterFromAMissingOne)
 
 TEST_F(EiClient, NamesWhyAWriteIsRefusedByReadingEe)
 {
-    EXPECT_EQ(client.write(kDc, status, 1), AccessError::read_only);
+    EXPECT_EQ(write(kDc, status, 1), AccessError::read_only);
     EXPECT_EQ(client.last_trouble(), "NAK, EE >05C8 (write to a read-only parameter)");
-    EXPECT_EQ(client.write(kDc, demand, 1001), AccessError::out_of_range);
+    EXPECT_EQ(write(kDc, demand, 1001), AccessError::out_of_range);
     EXPECT_THAT(client.last_trouble(), HasSubstr(">08C8"));
-    EXPECT_EQ(client.write(kDc, row(100, TagType::word), 1), AccessError::invalid_tag);
+    EXPECT_EQ(write(kDc, row(100, TagType::word), 1), AccessError::invalid_tag);
     EXPECT_THAT(client.last_trouble(), HasSubstr(">01C7"));
 }
 
 TEST_F(EiClient, TakesAValueAtTheVeryLimitOfTheDrive)
 {
-    EXPECT_EQ(client.write(kDc, demand, 1000), AccessError::none);
-    EXPECT_EQ(client.write(kDc, demand, static_cast<std::uint16_t>(-1000)), AccessError::none);
+    EXPECT_EQ(write(kDc, demand, 1000), AccessError::none);
+    EXPECT_EQ(write(kDc, demand, static_cast<std::uint16_t>(-1000)), AccessError::none);
     EXPECT_EQ(dc.parameters["i0"].text, "-100.");
-    EXPECT_EQ(client.write(kDc, demand, static_cast<std::uint16_t>(-1001)), AccessError::out_of_range);
+    EXPECT_EQ(write(kDc, demand, static_cast<std::uint16_t>(-1001)), AccessError::out_of_range);
     EXPECT_EQ(dc.parameters["i0"].text, "-100.");
 }
 
@@ -174,7 +179,7 @@ TEST_F(EiClient, MapsEveryEeOfARefusedWrite)
     };
     for (const auto& [ee, error] : list) {
         dc.refuse_next.push_back(ee);
-        EXPECT_EQ(client.write(kDc, sequence, 1), error) << ee;
+        EXPECT_EQ(write(kDc, sequence, 1), error) << ee;
         EXPECT_THAT(client.last_trouble(), HasSubstr(ee));
     }
 }
@@ -183,14 +188,14 @@ TEST_F(EiClient, TakesARefusalWithoutReadableEeForNoAnswer)
 {
     dc.refuse_next.push_back(">05C8");
     dc.faults = {Fault::none, Fault::silent};
-    EXPECT_EQ(client.write(kDc, sequence, 1), AccessError::no_answer);
+    EXPECT_EQ(write(kDc, sequence, 1), AccessError::no_answer);
     EXPECT_THAT(client.last_trouble(), HasSubstr("EE could not be read"));
 }
 
 TEST_F(EiClient, TakesARefusalByADriveWithoutEeForNotUnderstood)
 {
     dc.refuse_next = {"nonsense"};
-    EXPECT_EQ(client.write(kDc, sequence, 1), AccessError::not_understood);
+    EXPECT_EQ(write(kDc, sequence, 1), AccessError::not_understood);
     EXPECT_EQ(client.last_trouble(), "NAK, and the drive has no EE that says why");
 }
 
@@ -277,7 +282,7 @@ TEST_F(EiClient, ReturnsWithinItsDeadlineFromALineThatBabblesForEver)
             EXPECT_LE(read_took, longest) << int{octet};
             const auto probe_took = time_of([this] { (void)client.probe(kNobody); });
             EXPECT_LE(probe_took, longest) << int{octet};
-            const auto write_took = time_of([this] { (void)client.write(kNobody, status, 1); });
+            const auto write_took = time_of([this] { (void)write(kNobody, status, 1); });
             EXPECT_LE(write_took, 2 * longest) << int{octet} << ": a NAK, then EE";
         }
 }
@@ -330,14 +335,14 @@ TEST_F(EiClient, ReportsAValueThatDoesNotFitInsteadOfClampingIt)
     dc.parameters["i0"].text = "3276.7";
     EXPECT_EQ(read(kDc, demand), AccessError::none);
     EXPECT_EQ(word, 0x7FFF);
-    EXPECT_EQ(client.write(kDc, row(288, TagType::boolean), 2), AccessError::out_of_range);
+    EXPECT_EQ(write(kDc, row(288, TagType::boolean), 2), AccessError::out_of_range);
     EXPECT_EQ(dc.parameters["i0"].writes, 0u);
 }
 
 TEST_F(EiClient, DoesNotTransportAString)
 {
     EXPECT_EQ(read(kDc, row(288, TagType::string)), AccessError::unsupported_type);
-    EXPECT_EQ(client.write(kDc, row(288, TagType::string), 0), AccessError::unsupported_type);
+    EXPECT_EQ(write(kDc, row(288, TagType::string), 0), AccessError::unsupported_type);
     EXPECT_EQ(line.sent, "");
 }
 
@@ -349,16 +354,16 @@ TEST_F(EiClient, TakesAnUnlistedTagThatAnswersInHexadecimalForAWord)
 
 TEST_F(EiClient, ReadsAnUnlistedTagBeforeItWritesItForTheFirstTime)
 {
-    EXPECT_EQ(client.write(kDc, unlisted_tag(536), 0x0201), AccessError::none);
+    EXPECT_EQ(write(kDc, unlisted_tag(536), 0x0201), AccessError::none);
     EXPECT_EQ(dc.parameters["ow"].text, ">0201");
     EXPECT_EQ(dc.requests, 2u);
-    EXPECT_EQ(client.write(kDc, unlisted_tag(536), 0x0203), AccessError::none);
+    EXPECT_EQ(write(kDc, unlisted_tag(536), 0x0203), AccessError::none);
     EXPECT_EQ(dc.requests, 3u) << "now it is known to be a WORD";
 }
 
 TEST_F(EiClient, NeverWritesAnUnlistedNumberAndSaysWhatTheTableNeeds)
 {
-    EXPECT_EQ(client.write(kDc, unlisted_tag(288), 1), AccessError::invalid_tag);
+    EXPECT_EQ(write(kDc, unlisted_tag(288), 1), AccessError::invalid_tag);
     EXPECT_EQ(dc.parameters["i0"].writes, 0u);
     EXPECT_EQ(read(kDc, unlisted_tag(288)), AccessError::invalid_tag);
     EXPECT_THAT(client.last_trouble(), HasSubstr("the table needs a line with tag=288"));
@@ -397,10 +402,19 @@ TEST_F(EiClient, TakesTheWireTimeOfTheReference)
         ASSERT_EQ(on_wire.read(kDc, tag, {&value, 1}), AccessError::none);
         EXPECT_NEAR(std::chrono::duration<double>(wire.time - before).count() * 1000, entry.read_ms, 0.006);
         before = wire.time;
-        ASSERT_EQ(on_wire.write(kDc, tag, value), AccessError::none);
+        ASSERT_EQ(on_wire.write(kDc, tag, {&value, 1}), AccessError::none);
         EXPECT_NEAR(std::chrono::duration<double>(wire.time - before).count() * 1000, entry.write_ms, 0.006);
         EXPECT_EQ(dc.parameters["ow"].text, text);
     }
+}
+
+TEST_F(EiClient, TakesNoBlocks)
+{
+    const std::array<std::uint16_t, 2> words{1, 2};
+    EXPECT_EQ(client.block_rule().max_written, 1);
+    EXPECT_EQ(client.write(kDc, sequence, words), AccessError::unsupported_type);
+    EXPECT_NE(client.last_trouble(), "");
+    EXPECT_EQ(line.sent, "");
 }
 
 TEST_F(EiClient, ProbesTheIdentityAndTakesAnyWellFormedAnswer)

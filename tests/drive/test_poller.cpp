@@ -155,7 +155,7 @@ TEST_F(PollerOfOne, WritesAValueThatChangedWhileTheOldOneWasOnItsWay)
 {
     bench.layout(0, 1, {5}, {10});
     bench.meanwhile = [this](const Transaction& t) {
-        if (t.purpose == Purpose::output && t.word == 1) bench.master_writes(0, 10, 2);
+        if (t.purpose == Purpose::output && t.words.front() == 1) bench.master_writes(0, 10, 2);
     };
     bench.master_writes(0, 10, 1);
     bench.run(200ms);

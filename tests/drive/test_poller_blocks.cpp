@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace dpslave::drive {
 namespace {
 
@@ -12,9 +14,15 @@ using namespace std::chrono_literals;
 
 class PollerBlocks : public testing::Test {
 protected:
-    PollerBlocks() : tags(test::table_up_to(99)), bench({settings(tags)}, {.max_tags = 16, .max_gap = 2})
+    PollerBlocks() : tags(make_tags()), bench({settings(tags)}, {.max_tags = 16, .max_gap = 2})
     {
         for (int tag = 0; tag < 100; ++tag) drive().words[tag] = static_cast<std::uint16_t>(1000 + tag);
+    }
+    static TagTable make_tags()
+    {
+        std::vector<Tag> rows = test::table_up_to(99).all();
+        rows[52].modbus_register = std::uint16_t{0x8068};
+        return TagTable{rows};
     }
     static UnitSettings settings(const TagTable& tags)
     {
@@ -107,6 +115,54 @@ TEST_F(PollerBlocks, RememberTheirHoles)
     EXPECT_EQ(bench.count([](const test::Done& d) { return d.error != AccessError::none; }), 0u);
 }
 
+TEST_F(PollerBlocks, AreCutAtTheirHoleOnlyAndNotOnTheWayToIt)
+{
+    drive().words.erase(12);
+    std::vector<int> asked;
+    for (int tag = 10; tag <= 25; ++tag)
+        if (tag != 12) asked.push_back(tag);
+    bench.layout(0, 1, asked);
+    EXPECT_EQ(round(), "10+2 13+13");
+    drive().words.erase(20);
+    asked.erase(std::remove(asked.begin(), asked.end(), 20), asked.end());
+    bench.layout(0, 2, asked);
+    EXPECT_EQ(round(), "10+2 13+7 21+5") << "two holes that nobody asked for";
+    bench.log.clear();
+    bench.run(60s);
+    EXPECT_EQ(bench.count([](const test::Done& d) { return d.error != AccessError::none; }), 0u);
+}
+
+TEST_F(PollerBlocks, AreCutWhereTheDriveTakesNoMoreAtATime)
+{
+    drive().longest_read = 5;
+    bench.layout(0, 1, {10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25});
+    bench.run(2s);
+    bench.log.clear();
+    bench.run(5s);
+    EXPECT_EQ(bench.count([](const test::Done& d) { return d.error != AccessError::none; }), 0u);
+    for (std::size_t i = 0; i < 16; ++i) EXPECT_EQ(input(i), 1010 + i);
+}
+
+TEST_F(PollerBlocks, AreOneAgainBehindADriveThatWasBusy)
+{
+    bench.layout(0, 1, {10, 11, 13, 14, 15, 16});
+    drive().not_understood = 6;
+    bench.steps(6);
+    EXPECT_TRUE(bench.poller.take_inputs(0)->every_input_tried);
+    EXPECT_EQ(round(), "10+7");
+    EXPECT_EQ(input(5), 1016);
+}
+
+TEST_F(PollerBlocks, ThatAreNeverUnderstoodAreCutInTheEnd)
+{
+    drive().read_errors[12] = AccessError::not_understood;
+    bench.layout(0, 1, {10, 11, 12, 13, 14});
+    bench.run(3s);
+    EXPECT_EQ(input(0), 1010);
+    EXPECT_EQ(input(4), 1014);
+    EXPECT_EQ(bench.poller.snapshot(0).errors[2], AccessError::not_understood);
+}
+
 TEST_F(PollerBlocks, JoinAgainWhenTheHoleIsGone)
 {
     drive().words.erase(12);
@@ -136,6 +192,15 @@ TEST_F(PollerBlocks, ThatAreNotAnsweredAreRepeatedAsTheyAre)
     bench.steps(3);
     for (const test::Done& done : bench.log) EXPECT_EQ(done.count, 3);
     EXPECT_EQ(input(2), 1012);
+}
+
+TEST_F(PollerBlocks, LeaveOutATagWithARegisterOfItsOwn)
+{
+    bench.layout(0, 1, {50, 51, 52, 53, 54});
+    EXPECT_EQ(round(), "50+2 52 53+2");
+    for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(input(i), 1050 + i);
+    bench.layout(0, 2, {51, 53});
+    EXPECT_EQ(round(), "51+3") << "it is not asked for: what lies under its number is only passed over";
 }
 
 } // namespace

@@ -12,17 +12,16 @@ using namespace std::chrono_literals;
 
 class PollerLoss : public testing::Test {
 protected:
-    explicit PollerLoss(OutputLoss loss = OutputLoss::zero)
-        : tags(test::table_up_to(99)), bench({settings(tags, loss)})
+    explicit PollerLoss(ZeroAfter loss = 0s) : tags(test::table_up_to(99)), bench({settings(tags, loss)})
     {
         for (int tag = 0; tag < 100; ++tag) drive().words[tag] = static_cast<std::uint16_t>(1000 + tag);
         bench.layout(0, 1, {1, 2}, {10, 11});
     }
-    static UnitSettings settings(const TagTable& tags, OutputLoss loss)
+    static UnitSettings settings(const TagTable& tags, ZeroAfter loss)
     {
         UnitSettings one;
         one.tags = &tags;
-        one.output_loss = loss;
+        one.zero_after = loss;
         one.output_refresh = 60s;
         return one;
     }
@@ -431,7 +430,7 @@ TEST_F(PollerLoss, GenerationsMayPassThroughTheirEnd)
 
 class PollerLossHold : public PollerLoss {
 protected:
-    PollerLossHold() : PollerLoss(OutputLoss::hold) {}
+    PollerLossHold() : PollerLoss(std::nullopt) {}
 };
 
 TEST_F(PollerLossHold, WritingStopsAndNothingIsZeroed)

@@ -84,7 +84,7 @@ private:
         std::uint16_t word = 0;
         const AccessError error = next->kind == Transaction::Kind::read
                                       ? client_.read({}, *next->tag, {&word, 1})
-                                      : client_.write({}, *next->tag, next->word);
+                                      : client_.write({}, *next->tag, next->words);
         EXPECT_EQ(error, AccessError::none);
         poller_->done({error, {&word, 1}}, line_.time);
         return true;

@@ -205,5 +205,32 @@ TEST(TagTable, FindsByNumberAndByPartOfANameOrAlias)
     EXPECT_TRUE(table.search("torque").empty());
 }
 
+TEST(TagTable, KeepsTheOrderOfItsRowsBesideThatOfTheNumbers)
+{
+    Tag first = number_tag(0), second = number_tag(0), third = number_tag(0);
+    first.number = 288;
+    second.number = 55;
+    third.number = 56;
+    first.position = 0;
+    second.position = 1;
+    third.position = 2;
+    const TagTable table{{third, second, first}};
+    const auto rows = table.in_table_order();
+    ASSERT_EQ(rows.size(), 3u);
+    EXPECT_EQ(rows[0]->number, 288);
+    EXPECT_EQ(rows[1]->number, 55);
+    EXPECT_EQ(rows[2]->number, 56);
+    EXPECT_EQ(table.all().front().number, 55);
+}
+
+TEST(TagType, IsTheWordOfTheColumnAndTellsRealFromInt)
+{
+    Tag tag = number_tag(1);
+    EXPECT_EQ(type_name(tag), "INT");
+    tag.is_real = true;
+    EXPECT_EQ(type_name(tag), "REAL");
+    EXPECT_EQ(type_name(typed(TagType::word)), "WORD");
+}
+
 } // namespace
 } // namespace dpslave::drive

@@ -44,9 +44,12 @@ public:
         return deadline;
     }
 
+    // No list in the initializer below: g++ 12 believes it uninitialized as soon as it optimizes.
+    static constexpr std::array<std::uint8_t, 2> kInputs{0x12, 0x34};
+
     // What it is to say.
     dpslave::fdl::Answer answer = dpslave::fdl::Answer::low;
-    Octets inputs{0x12, 0x34};
+    Octets inputs = Octets(kInputs.begin(), kInputs.end());
     dpslave::Tbit min_tsdr_bits{11};
     std::optional<dpslave::Tbit> min_tsdr_after_srd;
     dpslave::fdl::Supervision level = dpslave::fdl::Supervision::unowned;

@@ -1,48 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The table of HA389815 ch. 9 row by row, and the time line of the lamps.
-#include "dpslave/led/pattern.hpp"
+#include "watch.hpp"
 
 #include <gtest/gtest.h>
-
-#include <ostream>
 
 namespace dpslave::led {
 namespace {
 
 using namespace std::chrono_literals;
-
-constexpr Instant at(std::chrono::nanoseconds time)
-{
-    return Instant{time};
-}
-
-/// What an observer with a stop watch sees in the window of two seconds that begins at `from`.
-struct Seen {
-    int flashes = 0; ///< times that the lamp went on
-    int lit_ms = 0;  ///< of the 2000 ms
-    friend bool operator==(const Seen&, const Seen&) = default;
-    friend std::ostream& operator<<(std::ostream& out, const Seen& seen)
-    {
-        return out << seen.flashes << " flashes, lit " << seen.lit_ms << " ms";
-    }
-};
-constexpr Seen kDark{0, 0};
-constexpr Seen kSteady{0, 2000};
-constexpr Seen k1Hz{2, 1000};
-constexpr Seen k2Hz{4, 1000};
-
-Seen watch(const Pattern& pattern, std::chrono::nanoseconds from)
-{
-    Seen seen;
-    bool before = lit(pattern, at(from - 1ms));
-    for (int ms = 0; ms < 2000; ++ms) {
-        const bool now = lit(pattern, at(from + std::chrono::milliseconds{ms}));
-        if (now && !before) ++seen.flashes;
-        if (now) ++seen.lit_ms;
-        before = now;
-    }
-    return seen;
-}
 
 struct Row {
     const char* name;
@@ -165,6 +130,21 @@ TEST(LedTimeLine, HoldsBeforeItsZeroAndAtItsEnd)
     EXPECT_EQ(watch({500ms, 250ms}, -10s), k2Hz);
     EXPECT_EQ(next_change({500ms, 250ms}, at(-100ms)), at(0ms));
     EXPECT_EQ(next_change({500ms, 250ms}, kNever), kNever);
+}
+
+TEST(Words, OfOptionBoardsAndControllersHaveTheFrequency)
+{
+    const Pattern half_a_second{500ms, 250ms}, second{1s, 500ms}, odd{300ms, 150ms};
+
+    for (const Language language :
+         {Language::option_board, Language::option_board_620, Language::controller}) {
+        EXPECT_EQ(words(language, half_a_second), "flashing 2 Hz");
+        EXPECT_EQ(words(language, second), "flashing 1 Hz");
+        EXPECT_EQ(words(language, odd), "flashing every 300 ms");
+        EXPECT_EQ(words(language, Pattern{0ms, 1ms}), "on");
+        EXPECT_EQ(words(language, Pattern{}), "off");
+        EXPECT_EQ(words(language, Pattern{1s, 1s}), "on") << "lit all the time";
+    }
 }
 
 } // namespace

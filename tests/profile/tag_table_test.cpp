@@ -104,6 +104,16 @@ TEST_F(TagTable, a_number_is_unsigned_where_min_is_not_negative_and_max_above_32
     EXPECT_FALSE(tags.find(5)->is_unsigned);
 }
 
+TEST_F(TagTable, a_number_may_follow_the_decimals_of_the_display)
+{
+    const auto tags = good("tag,type,decimals\n1,INT,display\n2,REAL,display\n3,INT,0\n1,,display\n");
+
+    EXPECT_TRUE(tags.find(1)->follows_display);
+    EXPECT_EQ(tags.find(1)->decimals, 0);
+    EXPECT_TRUE(tags.find(2)->follows_display);
+    EXPECT_FALSE(tags.find(3)->follows_display);
+}
+
 TEST_F(TagTable, limits_are_displayed_values_and_may_have_fewer_or_needless_decimals)
 {
     const auto tags = good("tag,decimals,min,max\n1,2,-5,+1.5\n2,1,0.100,7.\n3,4,-3.2768,3.2767\n");
@@ -171,6 +181,50 @@ TEST_F(TagTable, a_tag_that_stands_twice_with_one_meaning_has_two_names)
     EXPECT_THAT(tags.find(23)->aliases, ElementsAre("SP1", "Alias"));
 }
 
+TEST_F(TagTable, a_row_that_gives_a_further_name_only_may_stand_before_the_one_that_counts)
+{
+    const auto tags =
+        good("tag,name,type,values,section\n517,Goto,,,Setpoint\n5,WSP,,,Home\n517,Jump,,,Setpoint\n"
+             "517,Programmer type,ENUM,0=None,Programmer\n5,Other,,,Home\n517,Goto,,,Setpoint\n");
+
+    EXPECT_EQ(tags.find(517)->name, "Programmer type");
+    EXPECT_EQ(tags.find(517)->type, TagType::enumeration);
+    EXPECT_EQ(tags.find(517)->section, "Programmer");
+    EXPECT_THAT(tags.find(517)->aliases, ElementsAre("Goto", "Jump"));
+    EXPECT_EQ(tags.find(5)->name, "WSP") << "where no row says more the first one counts";
+    EXPECT_THAT(tags.find(5)->aliases, ElementsAre("Other"));
+}
+
+TEST_F(TagTable, keeps_the_order_of_its_rows)
+{
+    const auto tags = good("tag,name,type\n273,A,ENUM\n2,B,INT\n5,Alias,\n1,C,INT\n5,D,INT\n");
+
+    std::vector<int> order;
+    for (const Tag* tag : tags.in_table_order()) order.push_back(tag->number);
+    EXPECT_THAT(order, ElementsAre(273, 2, 1, 5)) << "each where its own row stands";
+}
+
+TEST_F(TagTable, tells_floating_values_from_whole_numbers)
+{
+    const auto tags = good("tag,type,decimals,register\n1,INT,2,\n2,REAL,0,32772\n3,INT,display,32774\n"
+                           "4,ENUM,,32776\n5,WORD,,32778\n6,BOOL,,32780\n");
+
+    EXPECT_FALSE(tags.find(1)->is_real);
+    EXPECT_TRUE(tags.find(2)->is_real);
+    EXPECT_TRUE(tags.find(3)->is_real) << "what has the decimals of the display is scaled";
+    EXPECT_FALSE(tags.find(4)->is_real);
+    EXPECT_EQ(tags.find(6)->modbus_register, 32780);
+}
+
+TEST_F(TagTable, knows_when_a_tag_can_be_written)
+{
+    const auto tags = good("tag,when\n1,\n2,stopped\n3,configuration\n");
+
+    EXPECT_EQ(tags.find(1)->when, drive::WritableWhen::not_said);
+    EXPECT_EQ(tags.find(2)->when, drive::WritableWhen::stopped);
+    EXPECT_EQ(tags.find(3)->when, drive::WritableWhen::configuration);
+}
+
 TEST_F(TagTable, a_table_may_be_a_header_only)
 {
     EXPECT_TRUE(good("tag,name\n").all().empty());
@@ -201,56 +255,67 @@ TEST_P(BadTagTable, is_refused_with_place_and_remedy)
 
 INSTANTIATE_TEST_SUITE_P(
     rows, BadTagTable,
-    testing::Values(BadTable{"", "0:0: ", "first line names the columns"},
-                    BadTable{"\n\n", "0:0: ", "first line names the columns"},
-                    BadTable{"name,type\nx,INT\n", "1:1: ", "no column tag"},
-                    BadTable{"Tag,type\n1,INT\n", "1:1: ", "is \"Tag\" meant?"},
-                    BadTable{"tag;name;type\n1;x;INT\n", "1:1: ", "not by semicolons"},
-                    BadTable{"tag,name,tag\n1,x,2\n", "1:10: ", "second column \"tag\""},
-                    BadTable{"tag,name\n1,x\n2,y,z\n", "3:0: ", "3 cells, the first line has 2"},
-                    BadTable{"tag,name\n1\n", "2:0: ", "1 cells, the first line has 2"},
-                    BadTable{"tag,name\n,x\n", "2:1: ", "tag number is missing"},
-                    BadTable{"name,tag\nx,12a\n", "2:3: ", "decimal number from 0 to 65535"},
-                    BadTable{"tag\n65536\n", "2:1: ", "from 0 to 65535"},
-                    BadTable{"tag\n-1\n", "2:1: ", "from 0 to 65535"},
-                    BadTable{"tag\n0x37\n", "2:1: ", "decimal number"},
-                    BadTable{"tag,type\n1,FLOAT\n", "2:3: ", "write INT, WORD, BOOL, ENUM, REAL or STRING"},
-                    BadTable{"tag,type\n1,int\n", "2:3: ", "type \"int\""},
-                    BadTable{"tag,decimals\n1,5\n", "2:3: ", "from 0 to 4"},
-                    BadTable{"tag,type,decimals\n1,WORD,1\n", "2:8: ", "only INT and REAL have decimals"},
-                    BadTable{"tag,access\n1,read\n", "2:3: ", "ro, rw or wo"},
-                    BadTable{"tag,mnemonic\n1,abc\n", "2:3: ", "two printable characters"},
-                    BadTable{"tag,mnemonic\n1,\"a \"\n", "2:3: ", "two printable characters"},
-                    BadTable{"tag,register\n1,70000\n", "2:3: ", "register \"70000\""},
-                    BadTable{"tag,min\n1,abc\n", "2:3: ", "whole number"},
-                    BadTable{"tag,min\n1,1.5\n", "2:3: ", "column decimals"},
-                    BadTable{"tag,decimals,min\n1,1,1.25\n", "2:5: ", "at most 1 decimals"},
-                    BadTable{"tag,decimals,max\n1,2,327.68\n", "2:5: ", "does not fit in 16 bits"},
-                    BadTable{"tag,min\n1,-32769\n", "2:3: ", "-32768 to 32767"},
-                    BadTable{"tag,min,max\n1,0,65536\n", "2:5: ", "0 to 65535"},
-                    BadTable{"tag,min,max\n1,-1,40000\n", "2:6: ", "min of 0 or more"},
-                    BadTable{"tag,min,max\n1,10,9\n", "2:3: ", "is above max"},
-                    BadTable{"tag,type,max\n1,WORD,10000\n", "2:8: ", "hexadecimal number from 0 to FFFF"},
-                    BadTable{"tag,type,max\n1,BOOL,2\n", "2:8: ", "write 0 or 1"},
-                    BadTable{"tag,type,max\n1,ENUM,256\n", "2:8: ", "0 to 255"},
-                    BadTable{"tag,type,max\n1,STRING,8\n", "2:10: ", "a STRING has none"},
-                    BadTable{"tag,type,values\n1,ENUM,Stopped\n", "2:8: ", "value=label"},
-                    BadTable{"tag,type,values\n1,ENUM,0=\n", "2:8: ", "value=label"},
-                    BadTable{"tag,type,values\n1,ENUM,0=a;0=b\n", "2:8: ", "same value again"},
-                    BadTable{"tag,type,values\n1,ENUM,300=a\n", "2:8: ", "0 to 255"},
-                    BadTable{"tag,type,values\n1,WORD,bit16=a\n", "2:8: ", "bit0 to bit15"},
-                    BadTable{"tag,type,values\n1,BOOL,bit0=a\n", "2:8: ", "only WORD and INT have bits"},
-                    BadTable{"tag,name\n1,\"open\n2,b\n", "2:3: ", "never closed"},
-                    BadTable{"tag,name\n1,\"a\" b\n", "2:7: ", "behind the closing quote"},
-                    BadTable{"tag,name\n1,5\" pipe\n", "2:4: ", "write this quote twice"},
-                    BadTable{"tag,name\n1,Z\xE4hler\n", "2:4: ", "save the table as UTF-8"},
-                    BadTable{"tag,name\n1,a\x07z\n", "2:4: ", "control character"},
-                    BadTable{"tag,\"name\n1,a\n", "1:5: ", "never closed"},
-                    BadTable{"tag,name,min\n1,\xC3\xA4\xC3\xB6,x\n", "2:6: ", "min \"x\""},
-                    BadTable{"tag,type\n1,INT\n\n1,WORD\n", "4:3: ", "tag 1 has another type on line 2"},
-                    BadTable{"tag,access\n1,ro\n1,rw\n", "3:3: ", "another access on line 2"},
-                    BadTable{"tag,max\n1,5\n1,6\n", "3:3: ", "another max"},
-                    BadTable{"tag,type,values\n1,ENUM,0=a\n1,ENUM,0=b\n", "3:8: ", "another values"}));
+    testing::Values(
+        BadTable{"", "0:0: ", "first line names the columns"},
+        BadTable{"\n\n", "0:0: ", "first line names the columns"},
+        BadTable{"name,type\nx,INT\n", "1:1: ", "no column tag"},
+        BadTable{"Tag,type\n1,INT\n", "1:1: ", "is \"Tag\" meant?"},
+        BadTable{"tag;name;type\n1;x;INT\n", "1:1: ", "not by semicolons"},
+        BadTable{"tag,name,tag\n1,x,2\n", "1:10: ", "second column \"tag\""},
+        BadTable{"tag,name\n1,x\n2,y,z\n", "3:0: ", "3 cells, the first line has 2"},
+        BadTable{"tag,name\n1\n", "2:0: ", "1 cells, the first line has 2"},
+        BadTable{"tag,name\n,x\n", "2:1: ", "tag number is missing"},
+        BadTable{"name,tag\nx,12a\n", "2:3: ", "decimal number from 0 to 65535"},
+        BadTable{"tag\n65536\n", "2:1: ", "from 0 to 65535"},
+        BadTable{"tag\n-1\n", "2:1: ", "from 0 to 65535"}, BadTable{"tag\n0x37\n", "2:1: ", "decimal number"},
+        BadTable{"tag,type\n1,FLOAT\n", "2:3: ", "write INT, WORD, BOOL, ENUM, REAL or STRING"},
+        BadTable{"tag,type\n1,int\n", "2:3: ", "type \"int\""},
+        BadTable{"tag,decimals\n1,Display\n", "2:3: ", "from 0 to 4, or display."},
+        BadTable{"tag,type,decimals\n1,WORD,display\n", "2:8: ", "only INT and REAL have decimals"},
+        BadTable{"tag,decimals,max\n1,display,5\n", "2:11: ", "follow the display has no fixed limits"},
+        BadTable{"tag,decimals\n1,display\n1,0\n", "3:3: ", "another decimals on line 2"},
+        BadTable{"tag,decimals\n1,5\n", "2:3: ", "from 0 to 4"},
+        BadTable{"tag,type,decimals\n1,WORD,1\n", "2:8: ", "only INT and REAL have decimals"},
+        BadTable{"tag,access\n1,read\n", "2:3: ", "ro, rw or wo"},
+        BadTable{"tag,mnemonic\n1,abc\n", "2:3: ", "two printable characters"},
+        BadTable{"tag,mnemonic\n1,\"a \"\n", "2:3: ", "two printable characters"},
+        BadTable{"tag,register\n1,70000\n", "2:3: ", "register \"70000\""},
+        BadTable{"tag,type,register\n1,INT,32770\n", "2:7: ", "IEEE area"},
+        BadTable{"tag,register\n1,32768\n", "2:3: ", "write type REAL if this is one"},
+        BadTable{"tag,type,register\n1,STRING,40000\n", "2:10: ", "IEEE area"},
+        BadTable{"tag,when\n1,running\n", "2:3: ", "write stopped or configuration"},
+        BadTable{"tag,when\n1,stopped\n1,configuration\n", "3:3: ", "another when on line 2"},
+        BadTable{"tag,type\n1,INT\n1,REAL\n", "3:3: ", "another type on line 2"},
+        BadTable{"tag,name,type\n1,Goto,\n1,Type,ENUM\n1,Type,WORD\n", "4:8: ", "another type on line 3"},
+        BadTable{"tag,min\n1,abc\n", "2:3: ", "whole number"},
+        BadTable{"tag,min\n1,1.5\n", "2:3: ", "column decimals"},
+        BadTable{"tag,decimals,min\n1,1,1.25\n", "2:5: ", "at most 1 decimals"},
+        BadTable{"tag,decimals,max\n1,2,327.68\n", "2:5: ", "does not fit in 16 bits"},
+        BadTable{"tag,min\n1,-32769\n", "2:3: ", "-32768 to 32767"},
+        BadTable{"tag,min,max\n1,0,65536\n", "2:5: ", "0 to 65535"},
+        BadTable{"tag,min,max\n1,-1,40000\n", "2:6: ", "min of 0 or more"},
+        BadTable{"tag,min,max\n1,10,9\n", "2:3: ", "is above max"},
+        BadTable{"tag,type,max\n1,WORD,10000\n", "2:8: ", "hexadecimal number from 0 to FFFF"},
+        BadTable{"tag,type,max\n1,BOOL,2\n", "2:8: ", "write 0 or 1"},
+        BadTable{"tag,type,max\n1,ENUM,256\n", "2:8: ", "0 to 255"},
+        BadTable{"tag,type,max\n1,STRING,8\n", "2:10: ", "a STRING has none"},
+        BadTable{"tag,type,values\n1,ENUM,Stopped\n", "2:8: ", "value=label"},
+        BadTable{"tag,type,values\n1,ENUM,0=\n", "2:8: ", "value=label"},
+        BadTable{"tag,type,values\n1,ENUM,0=a;0=b\n", "2:8: ", "same value again"},
+        BadTable{"tag,type,values\n1,ENUM,300=a\n", "2:8: ", "0 to 255"},
+        BadTable{"tag,type,values\n1,WORD,bit16=a\n", "2:8: ", "bit0 to bit15"},
+        BadTable{"tag,type,values\n1,BOOL,bit0=a\n", "2:8: ", "only WORD and INT have bits"},
+        BadTable{"tag,name\n1,\"open\n2,b\n", "2:3: ", "never closed"},
+        BadTable{"tag,name\n1,\"a\" b\n", "2:7: ", "behind the closing quote"},
+        BadTable{"tag,name\n1,5\" pipe\n", "2:4: ", "write this quote twice"},
+        BadTable{"tag,name\n1,Z\xE4hler\n", "2:4: ", "save the table as UTF-8"},
+        BadTable{"tag,name\n1,a\x07z\n", "2:4: ", "control character"},
+        BadTable{"tag,\"name\n1,a\n", "1:5: ", "never closed"},
+        BadTable{"tag,name,min\n1,\xC3\xA4\xC3\xB6,x\n", "2:6: ", "min \"x\""},
+        BadTable{"tag,type\n1,INT\n\n1,WORD\n", "4:3: ", "tag 1 has another type on line 2"},
+        BadTable{"tag,access\n1,ro\n1,rw\n", "3:3: ", "another access on line 2"},
+        BadTable{"tag,max\n1,5\n1,6\n", "3:3: ", "another max"},
+        BadTable{"tag,type,values\n1,ENUM,0=a\n1,ENUM,0=b\n", "3:8: ", "another values"}));
 
 TEST_F(TagTable, all_faults_of_a_table_are_told_in_one_run_in_the_order_of_the_lines)
 {

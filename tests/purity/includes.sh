@@ -16,10 +16,13 @@ case $room in
     base)    doors=$nothing                                       outside=$nothing forbidden=$impure ;;
     fdl)     doors='base/.*'                                      outside=$nothing forbidden=$impure ;;
     dp)      doors='base/.*|fdl/sap_user\.hpp'                    outside=$nothing forbidden=$impure ;;
+    tec)     doors='base/.*|dp/slave\.hpp|drive/poller\.hpp'      outside=$nothing forbidden=$impure ;;
     led)     doors='base/.*'                                      outside=$nothing forbidden=$impure ;;
     drive)   doors='base/.*'                                      outside=$nothing forbidden=$impure ;;
-    profile) doors='base/.*|dp/personality\.hpp|drive/(tag|poller)\.hpp|led/pattern\.hpp' outside='toml\+\+/.*' forbidden='thread|iostream' ;;
+    gsd)     doors='base/.*'                                      outside=$nothing forbidden=$impure ;;
+    profile) doors='base/.*|gsd/.*|dp/personality\.hpp|drive/(tag|poller)\.hpp|led/pattern\.hpp' outside='toml\+\+/.*' forbidden='thread|iostream' ;;
     io)      doors='base/.*'                                      outside='.*' forbidden=iostream ;;
+    modbus)  doors='base/.*|drive/.*|io/.*'                       outside='modbus\.h|spdlog/.*' forbidden=iostream ;;
     control) doors='base/.*'                                      outside='.*' forbidden=iostream ;;
     *) echo "no rule for room $room" >&2; exit 2 ;;
 esac

@@ -82,25 +82,50 @@ void write_file(const fs::path& file, const std::string& text)
 Gateway::Gateway(Wiring wiring) : wiring_(std::move(wiring))
 {
     plug_bus();
-    line_ = paced_line(wiring_.drive_baud, "10", folder_ / "drive-end", folder_ / "drive-gateway");
-    Arguments drive{DPSIM_PROGRAM, "drive",
-                    "--model",     wiring_.profile,
-                    "--port",      folder_ / "drive-end",
-                    "--baud",      std::to_string(wiring_.drive_baud),
-                    "--tags",      kConfigFolder / "tags/example.csv",
-                    "--log",       "--unit"};
-    drive.insert(drive.end(), wiring_.units.begin(), wiring_.units.end());
-    drive_ = std::make_unique<Process>(std::move(drive));
-    must(drive_->says("ready"));
+    line_ = paced_line(wiring_.drive_baud, "10", drive_end(), folder_ / "drive-gateway");
+    if (!wiring_.table.empty()) write_file(folder_ / "tags.csv", wiring_.table);
+    if (wiring_.simulated) start_drive();
     if (wiring_.lamps) {
         write_file(lamp_folder() / "class/gpio/gpio23/direction", "in\n");
         write_file(lamp_folder() / "class/gpio/gpio23/value", "0\n");
-        write_file(lamp_folder() / "class/leds/green/brightness", "0\n");
-        write_file(lamp_folder() / "class/leds/green/max_brightness", "1\n");
-        write_file(lamp_folder() / "class/leds/green/trigger", "none\n");
+        make_led("green");
     }
     write_file(config(), config_text());
     if (wiring_.started) start_daemon();
+}
+
+void Gateway::start_drive()
+{
+    const bool is_instrument = wiring_.protocol == "modbus-rtu";
+    Arguments drive{
+        DPSIM_PROGRAM, "drive",     "--model", wiring_.model.empty() ? wiring_.profile : wiring_.model,
+        "--port",      drive_end(), "--baud",  std::to_string(wiring_.drive_baud),
+        "--log",       "--tags"};
+    if (!wiring_.table.empty())
+        drive.push_back(folder_ / "tags.csv");
+    else
+        drive.push_back(kConfigFolder / (is_instrument ? "tags/2400.csv" : "tags/example.csv"));
+    drive.insert(drive.end(), wiring_.drive.begin(), wiring_.drive.end());
+    drive.push_back("--unit");
+    drive.insert(drive.end(), wiring_.units.begin(), wiring_.units.end());
+    drive_ = std::make_unique<Process>(std::move(drive));
+    must(drive_->says("ready"));
+}
+
+std::filesystem::path Gateway::make_led(const std::string& name) const
+{
+    const fs::path led = lamp_folder() / "class/leds" / name;
+    write_file(led / "brightness", "0\n");
+    write_file(led / "max_brightness", "1\n");
+    write_file(led / "trigger", "none\n");
+    return led / "brightness";
+}
+
+bool Gateway::flashes(const fs::path& lamp) const
+{
+    for (const char* const value : {"1", "0", "1"})
+        if (!eventually([&] { return content(lamp) == value; })) return false;
+    return true;
 }
 
 Gateway::~Gateway()
@@ -127,12 +152,13 @@ std::string Gateway::config_text() const
                     "[[line]]\n"
                     "name = \"p3\"\n"
                     "port = \"{}\"\n"
-                    "protocol = \"ei-ascii\"\n"
+                    "protocol = \"{}\"\n"
                     "baud = {}\n",
                     (folder_ / "bus-gateway").string(), wiring_.bus_baud,
                     wiring_.max_tsdr.value_or(patient_max_tsdr(wiring_.bus_baud)), lamp_folder().string(),
-                    socket().string(), own_group(), (folder_ / "drive-gateway").string(), wiring_.drive_baud);
-    for (std::size_t i = 0; i < wiring_.units.size(); ++i)
+                    socket().string(), own_group(), (folder_ / "drive-gateway").string(), wiring_.protocol,
+                    wiring_.drive_baud);
+    for (std::size_t i = 0; i < wiring_.units.size(); ++i) {
         text +=
             fmt::format("[[station]]\n"
                         "name = \"{}\"\n"
@@ -142,13 +168,18 @@ std::string Gateway::config_text() const
                         "unit = \"{}\"\n"
                         "output_refresh_s = {}\n",
                         kStationNames[i], 5 + i, wiring_.profile, wiring_.units[i], wiring_.output_refresh_s);
+        if (!wiring_.table.empty()) text += "tags = \"tags.csv\"\n";
+        text += wiring_.keys;
+    }
     if (wiring_.lamps) text += "[station.leds]\nred = \"gpio:23\"\ngreen = \"led:green\"\n";
     return text;
 }
 
 Arguments Gateway::daemon_command(Arguments more) const
 {
-    Arguments command{DPSLAVED_PROGRAM, "--config", config(), "--profiles", kConfigFolder / "profiles"};
+    const fs::path profiles =
+        wiring_.profiles.empty() ? kConfigFolder / "profiles" : fs::path{wiring_.profiles};
+    Arguments command{DPSLAVED_PROGRAM, "--config", config(), "--profiles", profiles};
     command.insert(command.end(), more.begin(), more.end());
     return command;
 }
@@ -204,12 +235,28 @@ Json Gateway::diagnosis() const
     return json({"diag"}).at("stations").at(0);
 }
 
+Json Gateway::tec(const std::string& row) const
+{
+    const Json reply = json({"tec"});
+    for (const Json& one : reply.at("stations").at(0).at("rows"))
+        if (one.at("name") == row) return one.at("value");
+    return {};
+}
+
 Json Gateway::word(unsigned tag) const
 {
     const Json all = json({"io"}).at("stations").at(0).at("words");
     const auto found =
         std::find_if(all.begin(), all.end(), [&](const Json& one) { return one.at("tag") == tag; });
     return found != all.end() ? *found : Json{};
+}
+
+::testing::AssertionResult Gateway::word_becomes(unsigned tag, const char* field, const Json& value) const
+{
+    return eventually([&] {
+        const Json now = word(tag);
+        return now.is_object() && now.at(field) == value;
+    });
 }
 
 std::uint64_t Gateway::counter(const std::string& group, const std::string& name) const

@@ -46,6 +46,13 @@ struct Wiring {
     /// what the profile says, as on a real bus.
     std::optional<unsigned> max_tsdr{};
     std::string output_refresh_s = "1.0";
+    std::string protocol = "ei-ascii";
+    std::string model{}; ///< of the simulated drive; empty: as the profile
+    Arguments drive{};   ///< more options of dpsim drive
+    std::string table{}; ///< a tag table of the test, for the drive and the daemon; empty: that of the drive
+    std::string profiles{};    ///< folder of the profiles; empty: those that are shipped
+    std::string keys{};        ///< more lines of each station, its tables last
+    bool simulated = true;     ///< false: the test brings a drive of its own to drive_end()
     bool lamps = false;        ///< red on GPIO 23, green on the LED class, both in lamp_folder()
     Environment environment{}; ///< of the daemon
     bool started = true;       ///< false: the test starts the daemon by itself, or sees it refuse
@@ -66,6 +73,7 @@ public:
     void unplug_bus();   ///< as a USB adapter that is pulled: the tty vanishes
     void plug_bus();
 
+    std::filesystem::path drive_end() const { return folder_ / "drive-end"; }
     std::filesystem::path bus_end() const { return folder_ / "bus-plc"; } ///< where the masters are
     std::filesystem::path socket() const { return folder_ / "control.sock"; }
     std::filesystem::path config() const { return folder_ / "dpslaved.toml"; }
@@ -77,6 +85,10 @@ public:
     Arguments daemon_command(Arguments more = {}) const;
     Outcome run_daemon(Arguments more = {}) const { return run(daemon_command(std::move(more))); }
 
+    /// A file in lamp_folder() that an LED of the LED class called `name` shines into.
+    std::filesystem::path make_led(const std::string& name) const;
+    bool flashes(const std::filesystem::path& lamp) const; ///< it is lit, and dark, and lit again soon
+
     Outcome dpctl(Arguments arguments) const;
     Arguments dpctl_command(Arguments arguments) const;
     /// That dpctl is-exchanging ends with this status soon: what dpctl shows may be a moment old.
@@ -84,7 +96,10 @@ public:
     Json json(Arguments arguments) const;      ///< what dpctl --json prints
     Json station(std::size_t index = 0) const; ///< of dpctl stations
     Json diagnosis() const;                    ///< of dpctl diag, first station
+    Json tec(const std::string& row) const;    ///< value of a row of dpctl tec, first station
     Json word(unsigned tag) const;             ///< of dpctl io, first station; null if no word has this tag
+    /// That a field of this word soon has this value: what dpctl shows may be a moment old.
+    ::testing::AssertionResult word_becomes(unsigned tag, const char* field, const Json& value) const;
     std::uint64_t counter(const std::string& group, const std::string& name) const;
     std::uint64_t cycles() const { return counter("unwinder", "data_exchange"); }
     std::uint64_t flaws() const; ///< of the bus, all kinds
@@ -93,6 +108,8 @@ public:
     std::string spoken_on_the_bus();
 
 private:
+    void start_drive();
+
     Wiring wiring_;
     Folder folder_;
     std::unique_ptr<Process> bus_, line_, drive_, daemon_;

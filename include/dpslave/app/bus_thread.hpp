@@ -23,7 +23,8 @@
 namespace dpslave::app {
 
 /// One slave as the bus sees it: a dp::Slave that fetches the newest inputs and answers when it is spoken to,
-/// so that the cost of a telegram does not grow with the number of stations.
+/// so that the cost of a telegram does not grow with the number of stations. It is on the bus while the main
+/// thread wants it there.
 class BusStation final : public fdl::SapUser {
 public:
     BusStation(const StationConfig& config, StationLink& link);
@@ -38,6 +39,10 @@ public:
 
     dp::Slave& slave() { return slave_; }
 
+    /// Takes what the main thread ordered, also while nobody speaks to the station. True: it was news.
+    bool take_orders();
+    const BusOrders& orders() const { return orders_; }
+
     /// Hands outputs, orders and events on. False: a full ring has refused an order; call again.
     bool hand_on();
     /// Hands a fresh snapshot to the main thread.
@@ -48,6 +53,7 @@ private:
 
     StationLink& link_;
     dp::Slave slave_;
+    BusOrders orders_;                         ///< as they were seen last
     std::optional<DemandOrder> waiting_order_; ///< refused by a full ring: late, not lost
 };
 
@@ -79,6 +85,9 @@ private:
     bool read_line();
     void send();
     void hand_on();
+    void obey_orders();
+    void take_off(std::size_t station);
+    void put_on(std::size_t station);
     void show(Instant now);
     void show_bus(Instant now);
     void watch_port();
@@ -89,16 +98,18 @@ private:
     std::optional<io::Tty> tty_;
     fdl::Station station_;
     std::vector<std::unique_ptr<BusStation>> stations_;
-    std::array<BusStation*, 128> by_address_{};
+    std::array<std::optional<std::uint8_t>, 128> at_{}; ///< which station is at this address
+    std::vector<std::optional<std::uint8_t>> address_;  ///< of each station; nothing = not on the bus
     BusLink& link_;
     io::Epoll epoll_;
     io::Ticker ticker_{kTick};
     std::array<std::uint8_t, 512> buffer_{};
+    bool orders_due_ = true;   ///< the orders of the main thread are looked at with each tick
     std::bitset<128> waiting_; ///< stations with an order that could not be handed on yet
     std::bitset<128> unseen_;  ///< stations whose snapshot is older than their state
     Instant next_snapshot_{};
     Instant next_bus_snapshot_{};
-    unsigned turn_ = 0; ///< address whose snapshot went last
+    unsigned turn_ = 0; ///< station whose snapshot went last
     Instant next_reopen_{};
     Instant last_telegram_{};
     std::uint64_t telegrams_seen_ = 0;

@@ -8,12 +8,14 @@
 #include "dpslave/drive/poller.hpp"
 #include "dpslave/profile/fault.hpp"
 #include "dpslave/profile/profile.hpp"
+#include "dpslave/tec/option_block.hpp"
 
 #include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dpslave::app {
@@ -43,21 +45,39 @@ struct LineFormat {
     int stop_bits = 1;
 };
 
+/// Protocols of a drive line, as the file spells them.
+inline constexpr std::string_view kEiAscii = "ei-ascii";
+inline constexpr std::string_view kModbusRtu = "modbus-rtu";
+
+/// How long an answer may take unless the file says otherwise. A 2408f takes up to 500 ms for a block (Modbus
+/// reference, section 5).
+inline constexpr std::chrono::milliseconds kEiAsciiTimeout{200}, kModbusTimeout{600};
+
 struct LineConfig {
     std::string name;
     std::string port;
-    std::string protocol; ///< "ei-ascii"
+    std::string protocol; ///< kEiAscii or kModbusRtu
     std::uint32_t baud = 9600;
-    LineFormat format;
-    std::chrono::milliseconds timeout{200};
+    LineFormat format; ///< where the file names none: 7E1, of Modbus RTU 8N1
+    std::chrono::milliseconds timeout = kEiAsciiTimeout; ///< kModbusTimeout with Modbus RTU
     int retries = 2;
     unsigned port_line = 0;
 };
 
 /// One lamp of a station and where it shines.
 struct LedConfig {
-    std::string lamp; ///< "red", "green"
+    std::string lamp; ///< "red", "green"; "network", "module", "health", "run"; "rem"
     std::string sink; ///< "gpio:23", "led:dpslaved-green"
+};
+
+/// [station.tec]: the TEC OPTION function block at the start, and what feeds it.
+struct TecConfig {
+    tec::Settings start;
+    std::uint16_t trip_tag = 0;           ///< 0 = none
+    std::uint16_t trip_mask = 0xFFFF;     ///< of DiagForm::tripped: the bits of it that are a trip ...
+    bool trip_inverted = false;           ///< ... and whether they are one while they are 0
+    std::uint16_t ext_diagnostic_tag = 0; ///< 0 = the value that is set stands
+    profile::MirroredLamp health, run;
 };
 
 struct StationConfig {
@@ -66,13 +86,19 @@ struct StationConfig {
     std::shared_ptr<const profile::Profile> profile;
     std::shared_ptr<const dp::Personality>
         personality; ///< the profile's, with this station's ident, max_tsdr and demand switches
-    std::shared_ptr<const drive::TagTable> tags; ///< the profile's or the station's own
+    /// The profile's or the station's own, with the decimals of its display and its resolution.
+    std::shared_ptr<const drive::TagTable> tags;
     std::string tag_file;
     std::size_t line = 0; ///< index into Config::lines
     drive::UnitAddress unit{};
     std::string unit_text;
     std::chrono::nanoseconds output_refresh = std::chrono::seconds{1};
-    drive::OutputLoss output_loss = drive::OutputLoss::zero;
+    drive::ZeroAfter zero_after = std::chrono::nanoseconds{0};
+    bool ext_diag_bit = false;          ///< a fault in the extended diagnosis sets Ext_Diag (X-15)
+    std::uint16_t status_tag = 0;       ///< [station.diagnosis]; 0 = the profile has none
+    bool integer_resolution = false;    ///< 2408f/2404f: resolution = "integer"
+    std::optional<TecConfig> tec;       ///< there where the profile has the block
+    std::vector<std::uint16_t> watched; ///< tags that the drive side reads for diagnosis and lamps
     std::vector<LedConfig> leds;
 };
 
@@ -84,8 +110,8 @@ struct Config {
     ControlConfig control;
     std::vector<LineConfig> lines;
     std::vector<StationConfig> stations;
-    std::vector<profile::Fault>
-        warnings; ///< said in the log at start: address 0..2, unknown operator group, tags without mnemonic
+    std::vector<profile::Fault> warnings; ///< said in the log at start: address 0..2, RIDE THROUGH, unknown
+                                          ///< operator group, tags without mnemonic
 };
 
 /// Reads and judges `file`; all faults of it, of the profiles and of the tag tables in one list.

@@ -10,6 +10,7 @@
 #include "dpslave/drive/poller.hpp"
 #include "dpslave/io/event_fd.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <stop_token>
 #include <string>
@@ -37,7 +38,8 @@ private:
         const StationConfig* config = nullptr;
         std::uint32_t station = 0; ///< index in config.stations
         StationLink* link = nullptr;
-        Generation ended = 0; ///< as said to the poller last
+        std::int64_t zero_after_ms = 0; ///< as said to the poller last
+        Generation ended = 0;           ///< as said to the poller last
         bool has_layout = false;
         bool was_known = false, answered = false; ///< as said in the log last
     };
@@ -46,8 +48,8 @@ private:
     void carry_out(const drive::Transaction& transaction);
     void publish();
     void say_link_changes();
-    void remember_trouble(const Unit& unit, std::uint16_t tag, const std::string& text);
-    void forget_trouble(const Unit& unit, std::uint16_t tag);
+    void remember_trouble(const Unit& unit, const drive::Transaction& access, const std::string& text);
+    void forget_trouble(const Unit& unit, const drive::Transaction& access);
     void rest(int wake, Instant now) const;
     void farewell();
 

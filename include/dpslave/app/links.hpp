@@ -12,9 +12,32 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
+#include <optional>
 
 namespace dpslave::app {
+
+/// What the main thread wants of a station on the bus.
+struct BusOrders {
+    bool enabled = true; ///< false: the station is silent (TEC OPTION: FAULT is not NONE)
+    std::uint8_t address = 0;
+    ByteBuffer<8> ext_diag;      ///< the block of the extended diagnosis; empty = the device has none
+    bool ext_diag_fault = false; ///< it reports a fault, and the Ext_Diag bit shall say so
+    friend bool operator==(const BusOrders&, const BusOrders&) = default;
+};
+
+/// StationLink::zero_after_ms: how ZeroAfter crosses between threads.
+inline constexpr std::int64_t kNeverToZero = -1;
+constexpr std::int64_t to_ms(drive::ZeroAfter after)
+{
+    return after ? std::chrono::ceil<std::chrono::milliseconds>(*after).count() : kNeverToZero;
+}
+constexpr drive::ZeroAfter from_ms(std::int64_t after)
+{
+    if (after == kNeverToZero) return std::nullopt;
+    return std::chrono::milliseconds{after};
+}
 
 /// One station between its bus, its drive line and the main thread.
 struct StationLink {
@@ -34,6 +57,12 @@ struct StationLink {
     Ring<dp::Event, 64> events;
     // drive -> main
     Mailbox<drive::UnitSnapshot> drive_snapshot;
+    // main -> bus
+    Mailbox<BusOrders> bus_orders;
+    // main -> drive
+    /// When the outputs go to zero after the loss of the master, ms; kNeverToZero = never. Settable while the
+    /// program runs (RIDE THROUGH).
+    std::atomic<std::int64_t> zero_after_ms{0};
 };
 
 /// The bus as a whole, bus -> main.
@@ -58,6 +87,7 @@ struct BusLink {
 struct Trouble {
     std::uint32_t station = 0; ///< index in config.stations
     std::uint16_t tag = 0;
+    bool is_write = false;        ///< a tag may be read and refuse to be written
     std::array<char, 160> text{}; ///< ends with NUL
 };
 struct TroubleList {

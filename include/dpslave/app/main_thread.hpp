@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dpslave/app/config.hpp"
+#include "dpslave/app/device_state.hpp"
 #include "dpslave/app/lamps.hpp"
 #include "dpslave/app/links.hpp"
 #include "dpslave/app/report.hpp"
@@ -44,7 +45,8 @@ public:
 
 private:
     static constexpr std::chrono::milliseconds kTick{100};
-    static constexpr std::chrono::milliseconds kTickWhileAsked{5}; ///< while somebody waits for a drive
+    static constexpr std::chrono::milliseconds kTickWithDiagnosis{20}; ///< a trip is told the master soon
+    static constexpr std::chrono::milliseconds kTickWhileAsked{5};     ///< while somebody waits for a drive
 
     struct Asked {
         std::size_t station = 0;
@@ -64,6 +66,8 @@ private:
     control::Reply on_watch(const control::Json& parameters);
     control::Reply on_tag(const control::Json& parameters, bool is_write);
     control::Reply on_info(const control::Json& parameters);
+    control::Reply on_tec(const control::Json& parameters);
+    control::Reply on_set_tec(const control::Json& parameters);
     control::Json info_of(std::size_t station);
     void read_file_again();
     control::Json io_of(std::size_t station);
@@ -84,7 +88,10 @@ private:
     std::size_t unit_of(std::size_t station) const;
 
     void refresh();
+    void follow_device(std::size_t station);
     void log_events();
+    void log_devices();
+    std::chrono::milliseconds tick_length() const;
     void show_lamps(Instant now);
     void answer_asked();
     void push_watchers(Instant now);
@@ -102,6 +109,9 @@ private:
     std::optional<control::Server> server_;
 
     View view_;
+    std::vector<DeviceState> devices_; ///< in the order of config.stations
+    std::vector<BusOrders> ordered_;   ///< of each, as published last
+    std::chrono::milliseconds usual_tick_ = kTick;
     Instant started_{};
     std::map<std::uint32_t, Asked> asked_; ///< by the number of the order
     std::uint32_t next_order_ = 1;

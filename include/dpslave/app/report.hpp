@@ -14,10 +14,13 @@
 
 namespace dpslave::app {
 
+class DeviceState;
+
 /// One station as the main thread sees it now.
 struct StationView {
     const StationConfig* config = nullptr;
     const LineConfig* line = nullptr;
+    std::uint8_t address = 0; ///< in force
     dp::Snapshot bus{};
     drive::UnitSnapshot drive{};
     bool line_open = false;
@@ -35,16 +38,23 @@ struct View {
 nlohmann::json bus_json(const View& view, Instant now);
 nlohmann::json station_json(const StationView& station);
 nlohmann::json stations_json(const View& view);
-/// `pending`: the address in the configuration file now, when it differs from the active one.
-nlohmann::json info_json(const StationView& station, std::optional<std::uint8_t> pending);
+/// `pending`: the address in the configuration file now, when it differs from the active one. `notes`: of
+/// DeviceState.
+nlohmann::json info_json(const StationView& station, std::optional<std::uint8_t> pending,
+                         const std::vector<std::string>& notes);
 nlohmann::json io_json(const StationView& station, Instant now);
 nlohmann::json words_json(const StationView& station, Instant now);
 nlohmann::json diagnosis_json(const StationView& station);
 nlohmann::json counters_json(const View& view);
+/// Of a station that has the function block.
+nlohmann::json tec_json(const std::string& station, const DeviceState& device);
 nlohmann::json leds_json(const StationConfig& station, const led::Condition& condition, Instant now);
 
-/// "octets" and "bits" of a Slave_Diag reply, in words (wire reference 5.1).
-nlohmann::json diagnosis_octets_json(Bytes diagnosis);
+/// "octets" and "bits" of a Slave_Diag reply of this station, in words (wire reference 5.1).
+nlohmann::json diagnosis_octets_json(const StationConfig& station, Bytes diagnosis);
+
+/// What the octet at `offset` (from 0, 6 at least) of a Slave_Diag reply says.
+std::string extended_meaning(const StationConfig& station, std::size_t offset, Bytes diagnosis);
 
 /// What a refused Set_Prm or Chk_Cfg was refused for, in a sentence and with an advice.
 struct Explanation {

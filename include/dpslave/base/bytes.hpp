@@ -2,6 +2,7 @@
 /// Octets as PROFIBUS has them: views, big-endian words, and a buffer that cannot grow beyond its bound.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -63,6 +64,12 @@ public:
         if (all.size() > N) return false;
         clear();
         return append(all);
+    }
+
+    /// By the octets that are in them; what an earlier, longer content left behind them does not count.
+    friend constexpr bool operator==(const ByteBuffer& a, const ByteBuffer& b)
+    {
+        return std::ranges::equal(a.bytes(), b.bytes());
     }
 
 private:

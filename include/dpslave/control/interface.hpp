@@ -35,9 +35,11 @@ inline constexpr std::array kMethods = std::to_array<MethodEntry>({
     {"GetDiagnosis", Right::look},
     {"GetCounters", Right::look},
     {"GetLeds", Right::look},
+    {"GetTec", Right::look},
     {"Watch", Right::look},
     {"ReadTag", Right::look},
     {"WriteTag", Right::operate},
+    {"SetTec", Right::operate},
 });
 
 inline constexpr std::string_view kInterface = "org.dpslaved.Control";

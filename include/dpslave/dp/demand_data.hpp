@@ -54,8 +54,12 @@ private:
     Wanted wanted_by(const DemandRegisters& registers) const;
     void give(DemandOrder::Kind kind);
     void withdraw();
-    void reply_with(std::uint16_t command, std::uint16_t value);
+    bool is_extended_form() const;
+    bool as_example() const;
+    std::uint16_t tag_echo() const;
+    void accept(std::uint16_t value);
     void reject(std::uint16_t code);
+    void reply_with(std::uint16_t first, std::uint16_t value);
 
     const Personality* personality_;
     Generation generation_ = 0;

@@ -45,6 +45,12 @@ enum class DemandForm : std::uint8_t {
     extended, ///< also 3 and 4 with the tag in register 2 (2408f/2404f handbook ch. 7)
 };
 
+/// How the extended commands 3 and 4 are answered.
+enum class ExtendedReply : std::uint8_t {
+    table,   ///< as the table of the handbook: 1000 or 7000, the tag in register 2
+    example, ///< as worked example 2: the request's own 3000 or 4000, and 7000 + tag for a refusal
+};
+
 struct Personality {
     std::uint16_t ident = 0;
     std::array<Tbit, kBauds.size()> max_tsdr{}; ///< per rate, in the order of kBauds; 0 = rate not supported
@@ -52,16 +58,24 @@ struct Personality {
     std::vector<Identifier> identifiers; ///< of process parameters
     std::uint8_t demand_identifier = 0;  ///< legal in first position only; 0 = none
     std::size_t max_parameters = 0;      ///< process parameters, Demand Data not counted; <= kMaxParameters
-    bool may_have_no_parameters = true;  ///< Demand Data alone is a legal configuration
+    /// Inputs and outputs together, Demand Data counts 8; one more is a Cfg_Fault. 0 = no such limit. Source:
+    /// 2408f/2404f handbook ch. 5; X-28.
+    std::size_t max_words = 0;
+    bool may_have_no_parameters = true; ///< Demand Data alone is a legal configuration
 
     PrmLayout prm;
     DemandForm demand = DemandForm::none;
     std::uint16_t demand_error_base = 0; ///< added to the error codes 0, 1, 2 (X-09)
+    ExtendedReply extended_reply = ExtendedReply::table;
 
     bool sync = false;
     bool freeze = false;
     bool fail_safe = false;          ///< zero-length Data_Exchange in Clear is legal
     std::size_t max_diag_length = 6; ///< octets of Slave_Diag, 6..244
+    /// Octets (1..62) behind the header of the one device-related block that is always sent, from the start
+    /// on and then as zeros (acceptance B-080, C-017). max_diag_length is at least diag_octets + 7. 0 = no
+    /// block of its own.
+    std::uint8_t diag_octets = 0;
 };
 
 } // namespace dpslave::dp

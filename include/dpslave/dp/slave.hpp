@@ -124,6 +124,10 @@ public:
     Slave(const Slave&) = delete; // the station knows it by its place
     Slave& operator=(const Slave&) = delete;
 
+    /// The address from the next start() on, 0..125. Only in Power_On; false, and nothing changes, in any
+    /// other state: its masters know the slave under the old one.
+    bool set_address(std::uint8_t address);
+
     void start(Instant now); ///< Power_On -> Wait_Prm
     void stop(Instant now);  ///< every state -> Power_On, with everything that leaving means
 
@@ -142,8 +146,9 @@ public:
     void set_inputs(const InputImage& inputs);
     void set_demand_answer(const DemandAnswer& answer);
     /// Blocks of extended diagnosis, back to back; `fault` sets Ext_Diag. What does not fit into
-    /// max_diag_length is cut off at a block boundary (Ext_Diag_Overflow). False: a header promised what was
-    /// not there, from there on nothing was taken.
+    /// max_diag_length is cut off at a block boundary (Ext_Diag_Overflow). None: the device's own block as
+    /// zeros (Personality::diag_octets). False: a header promised what was not there, from there on nothing
+    /// was taken.
     bool set_ext_diag(Bytes blocks, bool fault);
 
     /// What the drive side shall write; given only when it changed since the last call.
@@ -195,6 +200,7 @@ private:
     void tell_inputs(ByteBuffer<244>& into) const;
     void tell_outputs(ByteBuffer<244>& into) const;
     void tell_diagnosis(ByteBuffer<244>& into) const;
+    ExtendedDiagnosis::Outcome take_ext_diag(Bytes blocks, bool fault);
     void tell(Event event);
     void tell_once(Event event); ///< not again when it was the last one told
 

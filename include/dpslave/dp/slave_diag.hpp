@@ -10,7 +10,8 @@
 namespace dpslave::dp {
 
 inline constexpr std::size_t kStandardDiagnosis = 6;
-inline constexpr std::uint8_t kNoMaster = 0xFF; ///< Master_Add of a slave that nobody has parameterised
+inline constexpr std::size_t kLongestBlock = 63; ///< device-related, header included (six bits of length)
+inline constexpr std::uint8_t kNoMaster = 0xFF;  ///< Master_Add of a slave that nobody has parameterised
 
 /// What the six standard octets say, by name.
 struct StandardDiagnosis {

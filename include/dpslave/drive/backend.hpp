@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The one narrow door to a drive, whatever protocol it speaks. A call is one exchange; after a refusal it
 /// asks for the reason as well (EI-ASCII: EE), and before the first write of an unlisted tag it reads it.
-/// Each exchange may block for one response time-out and the time that its characters take, whatever comes on
-/// the line; the first one without a good answer ends the call. Repetitions are the poller's business, so
-/// that one dead drive does not stop the others.
+/// Each exchange may block for one response time-out (with Modbus one more, to let a late answer pass) and
+/// the time that its characters take, whatever comes on the line; the first one without a good answer ends
+/// the call. Repetitions are the poller's business, so that one dead drive does not stop the others.
 #pragma once
 
 #include "dpslave/base/process_image.hpp"
@@ -22,10 +22,13 @@ struct UnitAddress {
     friend bool operator==(UnitAddress, UnitAddress) = default;
 };
 
-/// How many tags one read may take, and how many unasked tags may lie between two of them.
+/// How many tags one read may take, how many unasked tags may lie between two of them, and how many adjoining
+/// tags one write may take, where reads prove what became of them (UnitSettings::compare_outputs). A tag with
+/// a register of its own is never part of a block.
 struct BlockRule {
     std::uint16_t max_tags = 1;
     std::uint16_t max_gap = 0;
+    std::uint16_t max_written = 1;
 };
 
 class Backend {
@@ -38,7 +41,10 @@ public:
     /// For a single tag `tag` is its row; of a block only the numbers matter.
     virtual AccessError read(UnitAddress unit, const Tag& tag, std::span<std::uint16_t> words) = 0;
 
-    virtual AccessError write(UnitAddress unit, const Tag& tag, std::uint16_t word) = 0;
+    /// Writes `words` to the tags from `tag` on; one word unless block_rule() allows more. A block is
+    /// accepted as a whole or refused as a whole as far as its answer tells; the drive may have dropped words
+    /// in silence.
+    virtual AccessError write(UnitAddress unit, const Tag& tag, std::span<const std::uint16_t> words) = 0;
 
     /// Is somebody there? Any well-formed answer counts.
     virtual bool probe(UnitAddress unit) = 0;

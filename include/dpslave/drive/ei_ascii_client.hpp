@@ -36,7 +36,7 @@ public:
 
     BlockRule block_rule() const override { return {}; }
     AccessError read(UnitAddress unit, const Tag& tag, std::span<std::uint16_t> words) override;
-    AccessError write(UnitAddress unit, const Tag& tag, std::uint16_t word) override;
+    AccessError write(UnitAddress unit, const Tag& tag, std::span<const std::uint16_t> words) override;
     bool probe(UnitAddress unit) override;
     std::string last_trouble() const override { return trouble_; }
 

@@ -11,15 +11,17 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace dpslave::drive {
 
-/// What becomes of the outputs when the master is lost.
-enum class OutputLoss : std::uint8_t {
-    zero, ///< every output is written 0 once, then writing stops
-    hold, ///< writing stops; nothing is zeroed
-};
+/// Tags that a unit may have read beside those that the master chose.
+inline constexpr std::size_t kMaxWatched = 8;
+
+/// What becomes of the outputs when the master is lost: each is written 0 once after this time, and writing
+/// stops; none = writing stops and nothing is zeroed (X-46; RIDE THROUGH of HA463561U002).
+using ZeroAfter = std::optional<std::chrono::nanoseconds>;
 
 /// One drive of the line, as the poller knows it.
 struct UnitSettings {
@@ -27,31 +29,46 @@ struct UnitSettings {
     const TagTable* tags = nullptr;                                    ///< outlives the poller
     bool tags_only_from_table = false;                                 ///< unlisted_tags = "refuse"
     std::chrono::nanoseconds output_refresh = std::chrono::seconds{1}; ///< 0 = every cycle
-    OutputLoss output_loss = OutputLoss::zero;
+    ZeroAfter zero_after = std::chrono::nanoseconds{0};
+    /// Each output is also read cyclically, unless its tag is write-only, and a standing word is written
+    /// again only where the drive shows another one: the front panel is overridden and no memory is worn. A
+    /// word that was refused is tried again after 1 s, then more seldom up to every 10 s; one that was
+    /// accepted and not kept up to every minute. output_refresh is not used. Acceptance C-019.
+    bool compare_outputs = false;
+    std::vector<std::uint16_t> never_written; ///< tags that count as read only, whatever the table says
+    /// Read once a round; 250 ms apart where nothing is read for the master. kMaxWatched at most.
+    std::vector<std::uint16_t> watched;
     int retries = 2;
     /// While nothing else is asked, and for the first probe of a lost drive; each further one takes twice as
     /// long, up to eight times.
     std::chrono::nanoseconds probe_interval = std::chrono::seconds{1};
 };
 
-/// Who asked for a transaction.
-enum class Purpose : std::uint8_t { input, output, safe_state, demand, operate, probe };
+/// Who asked for a transaction. output: a write, or a read that shows what became of compared outputs; watch:
+/// a read that serves watched tags only.
+enum class Purpose : std::uint8_t { input, output, safe_state, demand, operate, watch, probe };
 
 /// The next thing to do on the line. Handed to a Backend, its outcome to Poller::done().
 struct Transaction {
     enum class Kind : std::uint8_t { read, write, probe };
     Kind kind = Kind::probe;
     Purpose purpose = Purpose::probe;
-    std::size_t unit = 0;     ///< index of the drive in the settings
-    const Tag* tag = nullptr; ///< first tag of a read; valid until done()
-    std::uint16_t count = 1;  ///< tags of a block read
-    std::uint16_t word = 0;   ///< of a write
+    std::size_t unit = 0;                 ///< index of the drive in the settings
+    const Tag* tag = nullptr;             ///< first tag of a read; valid until done()
+    std::uint16_t count = 1;              ///< tags of a block
+    std::span<const std::uint16_t> words; ///< of a write, `count` of them; valid until done()
 };
 
 /// What became of it. `words` holds `count` words after a read without error.
 struct Outcome {
     AccessError error = AccessError::none;
     std::span<const std::uint16_t> words;
+};
+
+/// A watched tag as it was read last. untried: not yet.
+struct Watched {
+    std::uint16_t word = 0;
+    WordState state = WordState::untried;
 };
 
 /// State of one drive for `dpctl`, as a plain value. reads and writes count what the drive did, refusals what
@@ -63,6 +80,8 @@ struct UnitSnapshot {
     Generation generation = 0;
     std::array<std::uint16_t, kMaxParameters> words{}; ///< inputs as read, outputs as last written
     std::array<WordState, kMaxParameters> states{};
+    std::array<AccessError, kMaxParameters> errors{}; ///< why, of the last access; none where it worked
+    std::array<Watched, kMaxWatched> watched{};       ///< in the order of UnitSettings::watched
     std::array<Instant, kMaxParameters> updated_at{}; ///< last success; default = never
     std::chrono::nanoseconds cycle{};                 ///< the last whole round over this unit's parameters
     std::uint64_t reads = 0, writes = 0, silences = 0, refusals = 0, losses = 0;
@@ -98,6 +117,10 @@ public:
     /// the outputs of an image with may_write go to the safe state: before, nothing is written at all.
     void left_data_exchange(std::size_t unit, const LeftDataExchange& left);
     void set_demand(std::size_t unit, const DemandOrder& order);
+    /// From now on, also for a ride that is under way: it counts from the loss. What is zeroed already stays.
+    void set_zero_after(std::size_t unit, ZeroAfter after);
+    /// The program ends: what would be zeroed later is zeroed now.
+    void ride_no_longer();
     /// False: too many wait already, or there is no such drive. A lost drive is answered for at once:
     /// no_answer. The limits of the tag table are not looked at: parse_value() has done it.
     bool operate(const OperateOrder& order);
@@ -116,7 +139,7 @@ public:
     std::optional<DemandAnswer> take_demand_answer(std::size_t unit);
     std::optional<OperateAnswer> take_operate_answer();
 
-    /// Does an output still wait to be written to its safe state?
+    /// Does an output still wait to be written to its safe state, now or when a ride is over?
     bool safe_state_pending() const;
 
     const UnitSnapshot& snapshot(std::size_t unit) const;

@@ -5,6 +5,7 @@
 #include "dpslave/base/process_image.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -15,7 +16,7 @@ namespace dpslave::drive {
 
 enum class TagType : std::uint8_t {
     number,  ///< INT or REAL of the table: signed 16 bit with `decimals`; unsigned where min >= 0 and max >
-             ///< 32767
+             ///< 32767. Tag::is_real tells the two apart
     word,    ///< 16 bits, hexadecimal
     boolean, ///< 0 or 1
     enumeration, ///< 0..255
@@ -25,6 +26,15 @@ std::string_view
 text(TagType type) noexcept; ///< as the table's column spells it: INT, WORD, BOOL, ENUM, STRING
 
 enum class Access : std::uint8_t { unknown, read_only, read_write, write_only };
+
+/// What has to be so that the drive takes a write (column: "when"). The drive itself only says that the tag
+/// is read only or the value out of range (EI-ASCII reference, section 4; access errors 3 and 4 of
+/// HA463561U002).
+enum class WritableWhen : std::uint8_t {
+    not_said,
+    stopped,       ///< "stopped": the drive does not run
+    configuration, ///< "configuration": it is in configuration mode
+};
 
 /// A name for one value (value=label) or for one bit (bitN=label).
 struct Label {
@@ -38,19 +48,31 @@ struct Tag {
     std::uint16_t number = 0;
     std::string name;
     TagType type = TagType::number;
-    std::uint8_t decimals = 0; ///< 0..4, of a number
+    /// Of a number (REAL): a floating value of the instrument, which its IEEE area has as a single. Otherwise
+    /// a whole number or a time, which are no singles there (2000 series; EI-ASCII reference, section 5).
+    bool is_real = false;
+    std::uint8_t decimals = 0;    ///< 0..4, of a number
+    bool follows_display = false; ///< `decimals` are those of the instrument's display (column: "display")
     bool is_unsigned = false;
     std::optional<std::int32_t> min; ///< in counts: displayed value x 10^decimals
     std::optional<std::int32_t> max;
     Access access = Access::unknown;
-    std::string mnemonic;                         ///< two characters; empty = by the profile's rule
-    std::optional<std::uint16_t> modbus_register; ///< none = the tag's number
+    WritableWhen when = WritableWhen::not_said;
+    std::string mnemonic; ///< two characters; empty = by the profile's rule
+    /// None = the tag's number. From 8000h on the IEEE area of the 2000 series: two registers, IEEE single.
+    std::optional<std::uint16_t> modbus_register;
     std::vector<Label> labels;
     std::string section;
     std::string notes;
     std::vector<std::string> aliases; ///< further names of the same tag
     bool listed = true;               ///< false: in no table; its type is what the drive's answer shows
+    std::size_t position = 0;         ///< of its row in the table, from 0
 };
+
+/// As the table's column spells the type of this row: also tells REAL from INT.
+std::string_view type_name(const Tag& tag) noexcept;
+/// "stopped", "configuration"; empty where nothing is said.
+std::string_view text(WritableWhen when) noexcept;
 
 /// The row of a tag that is in no table: a WORD without a name.
 Tag unlisted_tag(std::uint16_t number);
@@ -68,6 +90,9 @@ struct ParsedValue {
 };
 ParsedValue parse_value(const Tag& tag, std::string_view text);
 
+/// Within the type and the limits of the row.
+bool is_within_limits(const Tag& tag, std::uint16_t word);
+
 class TagTable {
 public:
     TagTable() = default;
@@ -77,6 +102,8 @@ public:
     const Tag* find(std::uint16_t number) const;                 ///< nullptr = not in the table
     std::vector<const Tag*> search(std::string_view name) const; ///< part of a name or alias, any case
     const std::vector<Tag>& all() const { return tags_; }        ///< ascending by number
+    /// In the order of the table, which is that of the manual's chapter (C-048); valid as long as this.
+    std::vector<const Tag*> in_table_order() const;
 
 private:
     std::vector<Tag> tags_;

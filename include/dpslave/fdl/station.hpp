@@ -51,6 +51,10 @@ public:
     /// T_bit). The user outlives the station. max_tsdr has one value per rate, in the order of kBauds. False,
     /// and nothing is attached, if the address is no station address (0..126).
     bool attach(std::uint8_t address, SapUser& user, const std::array<Tbit, kBauds.size()>& max_tsdr);
+    /// From now on nobody lives at `address`: it is silent, and a reply of it that is under way is not given
+    /// any more (octets that take_transmit() handed out stay valid). The others notice nothing. An address
+    /// where nobody lives stays so. Call on_time() after it.
+    void detach(std::uint8_t address);
 
     /// Octets read from the line in one go; `read_at` is taken right after the read. `more_follows`: what was
     /// read goes on in the next call, so a request at the end of these octets is not the newest thing heard.
@@ -97,6 +101,7 @@ private:
     };
     /// A reply that waits for its window.
     struct Pending {
+        std::uint8_t address = 0; ///< whose it is
         Bytes octets;
         Instant not_before;
         Instant not_after;
@@ -117,13 +122,15 @@ private:
     void on_request(std::uint8_t address, const Telegram& request, Instant at);
     void on_counted_request(std::uint8_t address, const Telegram& request, Instant at, const Pending& window);
     Frame execute(std::uint8_t address, const Telegram& request, Instant at);
-    Pending window_of(const Place& place, Instant at) const;
+    Pending window_of(std::uint8_t address, Instant at) const;
     void reply_with(const Frame& frame, const Pending& window);
     static bool is_retry(const Place& place, const Telegram& request);
 
     // After a user was called.
     void called(std::uint8_t address, Instant at);
     void sample(Place& place, Instant at);
+    void count_supervision(Place& place, Supervision now);
+    void tell_search(Instant at);
     void wake_users(Instant now);
     void follow_search();
 

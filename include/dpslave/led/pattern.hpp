@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The LED language of a device: what is the case -> which lamp shows what, at which moment. Pure.
-/// Source: HA389815 ch. 9 (acceptance row A-084).
+/// Source: HA389815 ch. 9 (acceptance row A-084); HA463561U002, "Understanding the LED Indications" (B-030 to
+/// B-035); 2408f/2404f handbook ch. 4 (C-009).
 #pragma once
 
+#include "dpslave/base/option_state.hpp"
 #include "dpslave/base/units.hpp"
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -16,6 +19,11 @@ struct Condition {
     bool running = false;       ///< the gateway serves this station at all
     bool data_exchange = false; ///< with the master
     bool drive_answers = true;  ///< the link to the drive
+    // Of a technology box only:
+    OptionFault fault = OptionFault::none;
+    NetworkState network = NetworkState::disabled;
+    bool health = false; ///< of the drive, mirrored while it answers
+    bool run = false;    ///< likewise
 };
 
 /// How one lamp looks: a square wave. period 0 = steady.
@@ -26,7 +34,7 @@ struct Pattern {
 };
 
 struct Lamp {
-    std::string_view name; ///< "red", "green": the key of [station.leds]
+    std::string_view name; ///< "red", "network" ...: the key of [station.leds]
     Pattern pattern;
 };
 
@@ -34,13 +42,20 @@ struct Lamp {
 enum class Language : std::uint8_t {
     option_board,     ///< 584S, 590: red steady for an internal fault
     option_board_620, ///< red flashes 2 Hz for an internal fault (X-32)
+    technology_box,   ///< network, module, health, run (HA463561U002; B-030 to B-035)
+    controller,       ///< rem: the REM beacon of a 2408f/2404f flashes while data exchange runs (C-009)
 };
 
-/// The lamps of this language, in the order of their places on the board (red left, green right).
+/// The lamps of this language. Of the option board in the order of their places (red left, green right), of
+/// the technology box network, module, health, run.
 std::vector<Lamp> lamps(Language language, const Condition& condition);
 
 /// In words, for `dpctl leds`: "normal operation: data exchange with the master" ...
 std::string_view meaning(Language language, const Condition& condition);
+
+/// What a lamp shows, as the manual of this language calls it: "off", "on", "flashing 2 Hz"; of a technology
+/// box "short flash (10 % of 1 s)", "flash (50 % of 1 s)", "long flash (90 % of 1 s)" (B-034).
+std::string words(Language language, const Pattern& pattern);
 
 /// Is a lamp with this pattern lit at `now`? All lamps share the time line: equal patterns flash together.
 bool lit(const Pattern& pattern, Instant now);

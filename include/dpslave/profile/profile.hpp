@@ -13,9 +13,49 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dpslave::profile {
+
+/// What the extended diagnosis of a device type tells.
+enum class DiagForm : std::uint8_t {
+    none,
+    trip_code,   ///< four octets: trip code of the drive, EXT DIAGNOSTIC (HA463561U002)
+    tripped,     ///< the same, the trip code only 0 or 31 (590+)
+    status_word, ///< three octets: a status word of the device (2408f/2404f handbook ch. 4)
+};
+
+/// A lamp of the drive as one bit of a tag: "272.3", "!272.3" (lit while the bit is 0), "12" (any bit);
+/// "none".
+struct MirroredLamp {
+    std::uint16_t tag = 0; ///< 0 = none
+    std::uint16_t mask = 0xFFFF;
+    bool inverted = false;
+    friend bool operator==(const MirroredLamp&, const MirroredLamp&) = default;
+};
+/// Nothing: the text is no such lamp.
+std::optional<MirroredLamp> parse_lamp(std::string_view text);
+
+/// What a GSD says beyond the personality, key by key.
+struct GsdFacts {
+    std::string vendor;                    ///< Vendor_Name
+    std::string model;                     ///< Model_Name
+    std::string revision;                  ///< Revision
+    std::string hardware;                  ///< Hardware_Release
+    std::string software;                  ///< Software_Release
+    std::string description;               ///< Info_Text; may be empty
+    std::uint16_t min_slave_interval = 20; ///< Min_Slave_Intervall, 100 us
+    std::uint8_t family = 0;               ///< Slave_Family: 0 general, 1 drives, 5 controllers
+    std::uint8_t repeater = 2;             ///< Repeater_Ctrl_Sig: 2 = TTL
+    std::string demand_module;             ///< names of the modules, by what they do
+    std::string in_module;
+    std::string out_module;
+    std::string in_out_module;          ///< empty where no identifier does both
+    std::string file;                   ///< name of the file that is shipped; empty: none, the ident is open
+    std::vector<std::uint16_t> in_tags; ///< mapping that `dpctl gsd make` uses when none is given
+    std::vector<std::uint16_t> out_tags;
+};
 
 struct Profile {
     std::string name;                   ///< "590"
@@ -30,7 +70,16 @@ struct Profile {
     std::filesystem::path tag_file;
     bool tags_only_from_table = false;
     drive::MnemonicRule mnemonics = drive::MnemonicRule::none;
-    drive::OutputLoss output_loss = drive::OutputLoss::zero;
+    drive::ZeroAfter zero_after = std::chrono::nanoseconds{0}; ///< with a TEC OPTION block RIDE THROUGH rules
+    bool has_tec = false;                                      ///< the device has a TEC OPTION function block
+    MirroredLamp health, run; ///< of a TEC OPTION block; a station may say otherwise
+    DiagForm diagnosis = DiagForm::none;
+    std::uint16_t status_tag = 0;             ///< of DiagForm::status_word
+    std::uint16_t fault_mask = 0;             ///< bits of the status word that are faults (Ext_Diag, X-15)
+    bool selectable_resolution = false;       ///< key `resolution` of a station
+    std::vector<std::uint16_t> never_written; ///< tags that no one may write
+    std::string option_software; ///< release of the option that is emulated: "Version 3.x" (B-011)
+    GsdFacts gsd;
     led::Language leds = led::Language::option_board;
     std::optional<std::uint32_t> recommended_baud; ///< of the drive line; another rate is a warning (A-037)
     std::vector<std::string> protocols;            ///< legal back-ends: "ei-ascii"

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// GetTec and SetTec: the TEC OPTION function block of the stations that have one.
+#include "dpslave/app/main_thread.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+namespace dpslave::app {
+
+using control::Done;
+using control::Error;
+using control::Json;
+using control::Reply;
+
+Reply MainThread::on_tec(const Json& parameters)
+{
+    const Choice choice = choose(parameters, false);
+    if (choice.error) return *choice.error;
+    const bool is_named = parameters.contains("station");
+    if (is_named && !devices_[*choice.station].has_tec())
+        return Error{"NoTecOption", {{"station", config_.stations[*choice.station].name}}};
+    Json all = Json::array();
+    for (std::size_t i = 0; i < devices_.size(); ++i)
+        if ((!choice.station || *choice.station == i) && devices_[i].has_tec())
+            all.push_back(tec_json(config_.stations[i].name, devices_[i]));
+    return Done{{{"stations", std::move(all)}}};
+}
+
+Reply MainThread::on_set_tec(const Json& parameters)
+{
+    const Choice choice = choose(parameters, true);
+    if (choice.error) return *choice.error;
+    const StationConfig& station = config_.stations[*choice.station];
+    DeviceState& device = devices_[*choice.station];
+    if (!device.has_tec()) return Error{"NoTecOption", {{"station", station.name}}};
+
+    const auto parameter = parameters["parameter"].get<std::string>();
+    const auto value = parameters["value"].get<std::string>();
+    const auto refused = [&](const std::string& reason) {
+        return Error{"BadTecValue", {{"parameter", parameter}, {"value", value}, {"reason", reason}}};
+    };
+    // Two stations at one address would speak at the same time; only who knows all of them can tell.
+    if (const auto address = device.address_after(parameter, value))
+        for (std::size_t i = 0; i < devices_.size(); ++i)
+            if (i != *choice.station && devices_[i].address() == *address)
+                return refused(fmt::format("address {} is that of station {}: choose another", *address,
+                                           config_.stations[i].name));
+    if (const auto reason = device.set(parameter, value)) return refused(*reason);
+    spdlog::info("{}: {} set to {} by hand", station.name, parameter, value);
+    follow_device(*choice.station);
+    Json all = Json::array();
+    all.push_back(tec_json(station.name, device));
+    return Done{{{"stations", std::move(all)}}};
+}
+
+} // namespace dpslave::app

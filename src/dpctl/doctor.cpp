@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "doctor.hpp"
+
+#include "ask.hpp"
+#include "words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace dpslave::dpctl {
+namespace {
+
+/// The object of `array` with this name; an empty one without.
+const Json& named(const Json& array, const std::string& name)
+{
+    static const Json nothing = Json::object();
+    for (const Json& item : array)
+        if (text(item, "name") == name) return item;
+    return nothing;
+}
+
+Family family_of(const Json& info, const Json& tec)
+{
+    if (!tec.empty()) return Family::technology_box;
+    return text(info, "comms_status", "").empty() ? Family::option_board : Family::controller;
+}
+
+bool is_known(const Json& status, const std::string& wanted)
+{
+    const Json& stations = list(status, "stations");
+    return std::any_of(stations.begin(), stations.end(),
+                       [&](const Json& one) { return is_meant(one, wanted); });
+}
+
+} // namespace
+
+bool is_meant(const Json& station, const std::string& wanted)
+{
+    return wanted.empty() || text(station, "name") == wanted || number(station, "address") == wanted;
+}
+
+std::vector<Finding> diagnose(const Replies& replies, const std::string& wanted)
+{
+    static const Json nothing = Json::object();
+    const Json& bus = part(replies.status, "bus");
+    const Json& counters = named(list(replies.counters, "groups"), "bus");
+    const std::int64_t uptime = integer(replies.status, "uptime_ms").value_or(0);
+    std::vector<Finding> findings;
+    for (const Rule& rule : rules()) {
+        if (rule.scope == Scope::bus) {
+            const Facts facts{bus,     counters, uptime, Family::option_board, nothing, nothing,
+                              nothing, nothing,  nothing};
+            if (std::string seen = rule.seen(facts); !seen.empty())
+                findings.push_back({"", &rule, std::move(seen)});
+            continue;
+        }
+        for (const Json& station : list(replies.status, "stations")) {
+            if (!station.is_object() || !is_meant(station, wanted)) continue;
+            const std::string name = text(station, "name");
+            const Json& info = named(list(replies.info, "stations"), name);
+            const Json& tec = named(list(replies.tec, "stations"), name);
+            const Facts facts{bus,
+                              counters,
+                              uptime,
+                              family_of(info, tec),
+                              station,
+                              info,
+                              named(list(replies.diagnosis, "stations"), name),
+                              tec,
+                              named(list(replies.io, "stations"), name)};
+            if (std::string seen = rule.seen(facts); !seen.empty())
+                findings.push_back({name, &rule, std::move(seen)});
+        }
+    }
+    return findings;
+}
+
+std::optional<LineLimit> line_limit(const Json& bus)
+{
+    if (text(bus, "baud_state") == "Baud_Search") return std::nullopt;
+    const auto baud = integer(bus, "baud");
+    for (const LineLimit& limit : kLineLimits)
+        if (limit.baud == baud) return limit;
+    return std::nullopt;
+}
+
+int do_doctor(const Options& options, Terminal& terminal)
+{
+    if (options.all) {
+        terminal.out << (options.json ? json_text(rules_json()) + '\n' : render_rules(terminal.colour));
+        return kFine;
+    }
+    Replies replies;
+    const std::array<std::pair<const char*, Json*>, 7> questions = {{{"GetStatus", &replies.status},
+                                                                     {"GetInfo", &replies.info},
+                                                                     {"GetDiagnosis", &replies.diagnosis},
+                                                                     {"GetCounters", &replies.counters},
+                                                                     {"GetLeds", &replies.leds},
+                                                                     {"GetTec", &replies.tec},
+                                                                     {"GetIo", &replies.io}}};
+    for (const auto& [method, reply] : questions) {
+        auto answer = ask(options, terminal, method, Json::object());
+        if (!answer) {
+            if (answer.error() == kNoDaemon)
+                terminal.err
+                    << "Without dpslaved no station is on the bus: the lamps are off, as without power.\n";
+            return answer.error();
+        }
+        *reply = *std::move(answer);
+    }
+    if (!is_known(replies.status, options.station)) {
+        terminal.err << (options.station.empty()
+                             ? std::string{"dpctl: there is no station\n"}
+                             : fmt::format("dpctl: there is no station '{}'\n", options.station));
+        return kNo;
+    }
+    const std::vector<Finding> findings = diagnose(replies, options.station);
+    terminal.out << (options.json ? json_text(doctor_json(replies, findings)) + '\n'
+                                  : render_doctor(replies, findings, options.station, terminal.colour))
+                 << std::flush;
+    const bool well =
+        std::all_of(findings.begin(), findings.end(), [](const Finding& f) { return f.rule->note; });
+    return well ? kFine : kNo;
+}
+
+} // namespace dpslave::dpctl

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gsd.hpp"
+
+#include "gsd_commands.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+namespace dpslave::dpctl {
+namespace {
+
+constexpr const char* kExits = "Exit codes: 0 fine, 1 faulty or refused, 2 usage; no daemon is needed.";
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  dpctl gsd check EURO0533.GSD\n"
+    "  dpctl gsd make --profile 590 --output 590_0533.GSD\n"
+    "  dpctl gsd make --profile 590 --in 55,57 --out 56 --demand --output UNWI0533.GSD\n"
+    "  dpctl gsd make --mapping gain-scheduling.toml --ident 0x1234 --output GAIN1234.GSD\n"
+    "  dpctl gsd show UNWI0533.GSD --profile 590\n"
+    "  dpctl gsd types --output /media/disc\n";
+
+void add_profiles(CLI::App& app, GsdOptions& options)
+{
+    app.add_option("--profiles", options.profiles, "Folder of the device profiles")
+        ->type_name("DIR")
+        ->capture_default_str();
+}
+
+void add_tags(CLI::App& app, const char* name, std::vector<std::string>& tags, const char* help)
+{
+    app.add_option(name, tags, help)->type_name("TAG,TAG,...")->delimiter(',');
+}
+
+void add_check(CLI::App& app, GsdOptions& options)
+{
+    app.add_option("FILE", options.file, "A GSD file")->required()->type_name("");
+    app.add_flag("--strict", options.strict, "Every deviation from the standard is an error");
+}
+
+void add_show(CLI::App& app, GsdOptions& options)
+{
+    app.add_option("FILE", options.file, "A GSD file")->required()->type_name("");
+    app.add_option("--profile", options.profile, "Name the tags as the tag table of this profile does")
+        ->type_name("NAME");
+    add_profiles(app, options);
+}
+
+void add_make(CLI::App& app, GsdOptions& options)
+{
+    app.add_option("--profile", options.profile, "Profile of the device")->type_name("NAME");
+    add_profiles(app, options);
+    app.add_option(
+           "--mapping", options.mapping,
+           "A TOML file that says profile, in, out, in_out, demand, ident, max_tsdr, description, model; "
+           "what stands on the command line goes before")
+        ->type_name("FILE");
+    add_tags(app, "--in", options.in, "Tags that the master reads, in the order of the telegram");
+    add_tags(app, "--out", options.out, "Tags that the master writes");
+    add_tags(app, "--in-out", options.in_out, "Tags that it reads and writes, behind those");
+    app.add_flag("--demand", options.demand, "Demand Data in front of the parameters");
+    app.add_option("--ident", options.ident,
+                   "Ident_Number: 0x1649 or decimal; needed where the profile has none")
+        ->type_name("N");
+    app.add_option(
+           "--max-tsdr", options.max_tsdr,
+           "Bit times, as [bus] max_tsdr of the daemon says: where this machine needs more than the profile")
+        ->type_name("N");
+    app.add_option("--description", options.description,
+                   "What the file is for, 56 characters at most (Info_Text)")
+        ->type_name("TEXT");
+    app.add_option("--model", options.model, "Name in the master's device list, 32 characters at most")
+        ->type_name("TEXT");
+    app.add_option("--output", options.output, "File to write; without it: standard output")
+        ->type_name("FILE");
+    app.add_flag("--force", options.force, "Replace a file that is there already");
+}
+
+void add_types(CLI::App& app, GsdOptions& options)
+{
+    app.add_option("--output", options.output, "Folder to write the five files to")
+        ->required()
+        ->type_name("DIR");
+    app.add_flag("--brief", options.brief,
+                 "Type name in 17 characters, the width that STEP 7 has (V5); else in 21, as the manual has "
+                 "it (V4.0)");
+    app.add_flag("--force", options.force, "Replace files that are there already");
+}
+
+} // namespace
+
+void add_gsd(CLI::App& app, Action& chosen)
+{
+    const auto options = std::make_shared<GsdOptions>();
+    CLI::App& gsd =
+        *app.add_subcommand("gsd", "GSD and type files for the master's tool: checks, makes, shows them");
+    gsd.require_subcommand(1);
+    gsd.footer(std::string{kExamples} + kExits);
+    const struct {
+        const char* name;
+        const char* help;
+        void (*arguments)(CLI::App&, GsdOptions&);
+        int (*run)(const GsdOptions&, Terminal&);
+    } kCommands[] = {
+        {"check", "Is this file what a master's tool expects? Errors and warnings with their lines",
+         add_check, gsd_check},
+        {"show", "Where each value stands in the telegrams (I/O map)", add_show, gsd_show},
+        {"make", "Writes the GSD file of a device, as it is or with your own mapping", add_make, gsd_make},
+        {"types", "Writes the type files for COM ET200 in five languages", add_types, gsd_types},
+    };
+    for (const auto& command : kCommands) {
+        CLI::App& own = *gsd.add_subcommand(command.name, command.help);
+        own.footer(kExits);
+        command.arguments(own, *options);
+        own.callback([&chosen, options, run = command.run] {
+            chosen = [options, run](const Options&, Terminal& terminal) { return run(*options, terminal); };
+        });
+    }
+}
+
+} // namespace dpslave::dpctl

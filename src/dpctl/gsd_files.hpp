@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Small files read whole and written whole or not at all.
+#pragma once
+
+#include "dpslave/base/result.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace dpslave::dpctl {
+
+/// No GSD is longer; what is, is a wrong path.
+inline constexpr std::size_t kMaxGsdFile = 1024U * 1024U;
+
+/// The reason of a failure, without the file's name.
+struct FileError {
+    std::string why;
+};
+
+Result<std::string, FileError> read_file(const std::filesystem::path& file);
+
+/// Under a temporary name beside `file`, then renamed: nobody ever sees half of it. `replace` = false: a file
+/// that is there already is left alone, and that is the error.
+std::optional<FileError> write_file(const std::filesystem::path& file, std::string_view content,
+                                    bool replace);
+
+} // namespace dpslave::dpctl

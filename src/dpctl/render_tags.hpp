@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Rows of tag tables as text and as JSON.
+#pragma once
+
+#include "fields.hpp"
+#include "tag_search.hpp"
+
+#include <string>
+
+namespace dpslave::dpctl {
+
+Json tags_json(const TagHits& hits);
+/// All about each; of more than kMostTagsInFull one line each.
+inline constexpr std::size_t kMostTagsInFull = 10;
+std::string render_tags(const TagHits& hits, bool colour);
+
+Json tables_json(const std::vector<TagFile>& files);
+/// The tables, and the devices for which none is public.
+std::string render_tables(const std::vector<TagFile>& files, bool colour);
+
+} // namespace dpslave::dpctl

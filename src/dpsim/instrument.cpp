@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dpsim/instrument.hpp"
+
+#include "dpsim/instrument_registers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace dpslave::sim {
+namespace {
+
+constexpr std::uint16_t kIeeeArea = 0x8000;
+constexpr std::uint16_t kNoSecondWord = 0x8000; ///< of a value that is no floating point number
+constexpr std::uint16_t kMostRegisters = 125;
+
+/// Registers that can be written only while another one has a certain value (handbook chapters 7 and 8).
+struct Interlock {
+    std::uint16_t first, last, tag;
+    std::int32_t value;
+};
+constexpr std::array kWritableWhile{
+    Interlock{kOutputPower, kOutputPower, kManual, 1},
+    Interlock{kManualValve, kManualValve, kManual, 1},
+    Interlock{kStore, kStore + kProgramWords - 1, kProgramStatus, kHold},
+};
+
+bool is_unsigned(const SimTag& tag)
+{
+    return tag.type != TagKind::number || (!tag.follows_display && tag.max > 32767);
+}
+
+/// Of a segment in the normal area the duration is in seconds.
+std::uint32_t ms_per_count(const SimTag& tag)
+{
+    return tag.ms_per_count > 0 ? static_cast<std::uint32_t>(tag.ms_per_count) : 1'000U;
+}
+
+bool is_in_store(std::uint16_t tag)
+{
+    return tag >= kStore && tag < kStore + (kPrograms + 1) * kProgramWords;
+}
+
+std::vector<Parameter> registers_of(const std::vector<SimTag>& tags, unsigned programs)
+{
+    const unsigned store_ends = programs == 0 ? kStore : kStore + (programs + 1) * kProgramWords;
+    std::vector<Parameter> registers;
+    for (const SimTag& tag : tags)
+        if (!is_in_store(tag.number) || tag.number < store_ends)
+            registers.push_back({tag, {}, tag.start, std::nullopt});
+    for (Parameter& p :
+         registers) // a table marks it ro so that no one writes it; an instrument does not mind
+        if (p.tag.number == kMode) p.tag.access = TagAccess::read_write;
+    return registers;
+}
+
+std::optional<std::int32_t> counts_of_single(const SimTag& tag, std::uint32_t bits)
+{
+    double value = std::bit_cast<float>(bits);
+    for (unsigned i = 0; i < tag.decimals; ++i) value *= 10.0;
+    if (!(std::abs(value) <= 2'000'000'000.0)) return std::nullopt; // not a number is caught here too
+    return static_cast<std::int32_t>(std::llround(value));
+}
+
+} // namespace
+
+std::optional<std::uint16_t> instrument_ident(std::string_view name)
+{
+    if (name == "2408f") return std::uint16_t{0x2480};
+    if (name == "2404f") return std::uint16_t{0x2440};
+    return std::nullopt;
+}
+
+Instrument::Instrument(std::uint8_t unit, std::uint16_t ident, const std::vector<SimTag>& tags,
+                       unsigned programs)
+    : Device(fmt::format("{}", unit), registers_of(tags, programs)), unit_(unit)
+{
+    start_values(ident, programs);
+}
+
+// ---- values ----
+
+std::int32_t Instrument::counts_at(std::uint16_t tag)
+{
+    const Parameter* const p = find(tag);
+    return p == nullptr ? 0 : p->value.counts;
+}
+
+std::uint8_t Instrument::fast_status()
+{
+    return static_cast<std::uint8_t>(counts_at(find(kFastStatus) != nullptr ? kFastStatus : kSummaryStatus) &
+                                     0xFF);
+}
+
+bool Instrument::integer_resolution()
+{
+    return counts_at(kResolution) == 1;
+}
+
+/// How the IEEE area has it (reference, section 5). Word 2 of a segment is a rate or a duration, as word 0
+/// says.
+Instrument::IeeeForm Instrument::ieee_form(const SimTag& tag)
+{
+    const unsigned word = (unsigned{tag.number} - kStore) % kProgramWords;
+    if (is_in_store(tag.number) && word >= kSegmentWords && word % kSegmentWords == kDurationOrRate) {
+        switch (counts_at(static_cast<std::uint16_t>(tag.number - kDurationOrRate + kSegmentType))) {
+            case kRampRate: return IeeeForm::single;
+            case kRampTime:
+            case kDwell: return IeeeForm::milliseconds;
+            default: return IeeeForm::word;
+        }
+    }
+    if (tag.type != TagKind::number) return IeeeForm::word;
+    if (tag.ms_per_count > 0) return IeeeForm::milliseconds;
+    return tag.is_real ? IeeeForm::single : IeeeForm::word;
+}
+
+/// The two registers of a parameter in the IEEE area.
+std::uint32_t Instrument::ieee_of(const Parameter& parameter, Instant now)
+{
+    const std::int32_t counts = parameter.at(now).counts;
+    double value = counts;
+    switch (ieee_form(parameter.tag)) {
+        case IeeeForm::word: break;
+        case IeeeForm::milliseconds: return static_cast<std::uint32_t>(counts) * ms_per_count(parameter.tag);
+        case IeeeForm::single:
+            for (unsigned i = 0; i < parameter.tag.decimals; ++i) value /= 10.0;
+            return std::bit_cast<std::uint32_t>(static_cast<float>(value));
+    }
+    return std::uint32_t{word_of(parameter, now)} << 16 | kNoSecondWord;
+}
+
+std::optional<std::int32_t> Instrument::counts_of_ieee(const Parameter& parameter, std::uint32_t bits)
+{
+    switch (ieee_form(parameter.tag)) {
+        case IeeeForm::word: break;
+        case IeeeForm::milliseconds: return static_cast<std::int32_t>(bits / ms_per_count(parameter.tag));
+        case IeeeForm::single: return counts_of_single(parameter.tag, bits);
+    }
+    return counts_of(parameter, static_cast<std::uint16_t>(bits >> 16));
+}
+
+/// The scaled integer of the register; beyond what a word can say it stays at the end of the range.
+std::uint16_t Instrument::word_of(const Parameter& parameter, Instant now)
+{
+    const SimTag& tag = parameter.tag;
+    std::int32_t counts = parameter.at(now).counts;
+    if (integer_resolution()) counts = rescaled(counts, tag.decimals, 0);
+    if (!is_unsigned(tag)) counts = std::clamp(counts, -32767, 32767);
+    return static_cast<std::uint16_t>(counts & 0xFFFF);
+}
+
+std::int32_t Instrument::counts_of(const Parameter& parameter, std::uint16_t word)
+{
+    const SimTag& tag = parameter.tag;
+    const std::int32_t counts = is_unsigned(tag) ? std::int32_t{word} : static_cast<std::int16_t>(word);
+    return integer_resolution() ? rescaled(counts, 0, tag.decimals) : counts;
+}
+
+// ---- over the line ----
+
+Exception Instrument::read(std::uint16_t address, std::uint16_t count, std::vector<std::uint16_t>& words,
+                           Instant now)
+{
+    settle(now);
+    words.clear();
+    if (count == 0 || count > kMostRegisters) return Exception::illegal_value;
+    ++counters.reads;
+    counters.words += count;
+    if (address >= kIeeeArea) return read_ieee(address, count, words, now);
+    for (unsigned tag = address; tag < address + unsigned{count}; ++tag) {
+        const Parameter* const p = tag < kIeeeArea ? find(static_cast<std::uint16_t>(tag)) : nullptr;
+        if (p == nullptr) return Exception::illegal_address;
+        words.push_back(word_of(*p, now));
+    }
+    return Exception::none;
+}
+
+Exception Instrument::read_ieee(std::uint16_t address, std::uint16_t count, std::vector<std::uint16_t>& words,
+                                Instant now)
+{
+    if (address % 2 != 0) return Exception::illegal_address;
+    if (count % 2 != 0) return Exception::illegal_value;
+    if (unsigned{address} + count > 0x10000U) return Exception::illegal_address;
+    for (unsigned at = address; at < address + unsigned{count}; at += 2) {
+        const Parameter* const p = find(static_cast<std::uint16_t>((at - kIeeeArea) / 2));
+        if (p == nullptr) return Exception::illegal_address;
+        const std::uint32_t bits = ieee_of(*p, now);
+        words.insert(words.end(),
+                     {static_cast<std::uint16_t>(bits >> 16), static_cast<std::uint16_t>(bits & 0xFFFFU)});
+    }
+    return Exception::none;
+}
+
+bool Instrument::is_writable(const Parameter& parameter)
+{
+    const SimTag& tag = parameter.tag;
+    if (tag.access == TagAccess::read_only || tag.type == TagKind::string) return false;
+    return std::all_of(kWritableWhile.begin(), kWritableWhile.end(), [&](const Interlock& c) {
+        return tag.number < c.first || tag.number > c.last || counts_at(c.tag) == c.value;
+    });
+}
+
+Exception Instrument::write(Parameter& parameter, std::int32_t counts, Instant now)
+{
+    const SimTag& tag = parameter.tag;
+    if (!is_writable(parameter) || counts < tag.min || counts > tag.max) {
+        log_.push_back(fmt::format("write of tag {} refused", tag.number));
+        return Exception::illegal_value;
+    }
+    parameter.put({counts, {}});
+    ++counters.writes;
+    log_.push_back(fmt::format("tag {} written {}", tag.number, displayed(tag, parameter.value)));
+    if (tag.number == kMode && counts > 2)
+        warnings_.push_back(fmt::format(
+            "tag 199 written {}: a real instrument would have started a factory function", counts));
+    changed(tag.number, now);
+    return Exception::none;
+}
+
+Exception Instrument::write_one(std::uint16_t address, std::uint16_t word, Instant now)
+{
+    settle(now);
+    Parameter* const p = address < kIeeeArea ? find(address) : nullptr;
+    return p == nullptr ? Exception::illegal_address : write(*p, counts_of(*p, word), now);
+}
+
+Exception Instrument::write_member(std::uint16_t tag, Parameter& parameter,
+                                   std::optional<std::int32_t> counts, Instant now)
+{
+    if (!counts) return Exception::illegal_value;
+    if (parameter.tag.access == TagAccess::read_only && counts_at(kSkipReadOnly) == 1) {
+        log_.push_back(fmt::format("tag {} is read only and skipped", tag));
+        return Exception::none;
+    }
+    return write(parameter, *counts, now);
+}
+
+Exception Instrument::write_block(std::uint16_t address, std::span<const std::uint16_t> words, Instant now)
+{
+    settle(now);
+    if (words.empty() || words.size() > kMostRegisters) return Exception::illegal_value;
+    if (address >= kIeeeArea) return write_block_ieee(address, words, now);
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const auto tag = static_cast<std::uint16_t>(address + i);
+        Parameter* const p = find(tag);
+        if (p == nullptr) {
+            log_.push_back(fmt::format("tag {} is not there, its value is dropped", tag));
+            continue;
+        }
+        const Exception refused = write_member(tag, *p, counts_of(*p, words[i]), now);
+        if (refused != Exception::none) return refused;
+    }
+    return Exception::none;
+}
+
+Exception Instrument::write_block_ieee(std::uint16_t address, std::span<const std::uint16_t> words,
+                                       Instant now)
+{
+    if (address % 2 != 0) return Exception::illegal_address;
+    if (words.size() % 2 != 0) return Exception::illegal_value;
+    for (std::size_t i = 0; i < words.size(); i += 2) {
+        const auto tag = static_cast<std::uint16_t>((address - kIeeeArea + i) / 2);
+        Parameter* const p = find(tag);
+        if (p == nullptr) {
+            log_.push_back(fmt::format("tag {} is not there, its value is dropped", tag));
+            continue;
+        }
+        const auto counts = counts_of_ieee(*p, std::uint32_t{words[i]} << 16 | words[i + 1]);
+        const Exception refused = write_member(tag, *p, counts, now);
+        if (refused != Exception::none) return refused;
+    }
+    return Exception::none;
+}
+
+Exception Instrument::panel(std::uint16_t tag, std::int32_t counts, Instant now)
+{
+    settle(now);
+    Parameter* const p = find(tag);
+    if (p == nullptr) return Exception::illegal_address;
+    if (!is_writable(*p) || counts < p->tag.min || counts > p->tag.max) return Exception::illegal_value;
+    p->put({counts, {}});
+    changed(tag, now);
+    return Exception::none;
+}
+
+} // namespace dpslave::sim

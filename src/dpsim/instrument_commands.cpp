@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dpsim/instrument_commands.hpp"
+
+#include "dpsim/values.hpp"
+
+#include <fmt/format.h>
+
+namespace dpslave::sim {
+
+std::vector<std::string> InstrumentCommands::all_help()
+{
+    std::vector<std::string> lines{
+        "  silence                    hears nothing, as if it were off",
+        "  exception 2|3              answers every request so: 2 illegal address, 3 illegal value",
+        "  refuse [2|3]               answers every write so, 3 if nothing is said",
+        "  bad-crc                    replies carry a wrong CRC",
+        "  garbage                    replies are random octets",
+        "  short                      replies end one octet early",
+        "  slow MS                    replies come so much later",
+        "  ok                         ends all faults",
+        "  panel TAG VALUE            as the operator does at the front panel: limits and access hold",
+        "  bit TAG N on|off           one bit, 0 to 15; of tag 75 the summary output status",
+        "  tune TIME [fails]          how long the next autotune takes (3s); 'fails' sets bit 3 of tag 76",
+    };
+    const auto common = common_help();
+    lines.insert(lines.end(), common.begin(), common.end());
+    return lines;
+}
+
+std::vector<std::string> InstrumentCommands::special(const Words& words, Instant now)
+{
+    if (words[0] == "panel") return one(panel(words, now));
+    if (words[0] == "bit") return one(bit(words, now));
+    if (words[0] == "tune") return one(tune(words));
+    return one(fault(words));
+}
+
+/// Empty = done.
+std::string InstrumentCommands::panel(const Words& words, Instant now)
+{
+    const auto number = tag_number(words);
+    if (words.size() < 3) return "write it as: panel 2 50.0";
+    bool found = false;
+    for (Instrument& instrument : line_.instruments()) {
+        const Parameter* const p = number && is_meant(instrument) ? instrument.find(*number) : nullptr;
+        if (p == nullptr) continue;
+        const std::string wanted = rest_of(words, 2);
+        const auto value = value_of_text(p->tag, wanted);
+        if (!value) return fmt::format("'{}' is no value of tag {} within its limits", wanted, *number);
+        if (instrument.panel(*number, value->counts, now) != Exception::none)
+            return fmt::format("tag {} cannot be changed at present", *number);
+        found = true;
+    }
+    return found ? std::string{} : no_tag(words);
+}
+
+std::string InstrumentCommands::bit(const Words& words, Instant now)
+{
+    const auto number = tag_number(words);
+    const auto bit = words.size() == 4 ? number_of(words[2]) : std::nullopt;
+    if (!bit || *bit < 0 || *bit > 15 || (words[3] != "on" && words[3] != "off"))
+        return "write it as: bit 75 5 on";
+    bool found = false;
+    for (Instrument& instrument : line_.instruments()) {
+        Parameter* const p = number && is_meant(instrument) ? instrument.find(*number) : nullptr;
+        if (p == nullptr || p->tag.type == TagKind::string) continue;
+        const std::int32_t mask = 1 << *bit, before = p->at(now).counts;
+        p->put({words[3] == "on" ? before | mask : before & ~mask, {}});
+        instrument.changed(*number, now);
+        found = true;
+    }
+    return found ? std::string{} : no_tag(words);
+}
+
+std::string InstrumentCommands::tune(const Words& words)
+{
+    const auto time = words.size() > 1 ? duration_of_text(words[1]) : std::nullopt;
+    const bool fails = words.size() == 3 && words[2] == "fails";
+    if (!time || words.size() > 3 || (words.size() == 3 && !fails))
+        return "write it as: tune 5s, or tune 5s fails";
+    for (Instrument& instrument : line_.instruments())
+        if (is_meant(instrument)) instrument.prepare_tune(*time, fails);
+    return {};
+}
+
+std::string InstrumentCommands::fault(const Words& words)
+{
+    InstrumentFaults faults;
+    const std::string& name = words[0];
+    if (name == "silence") {
+        faults.silence = true;
+    } else if (name == "bad-crc") {
+        faults.bad_crc = true;
+    } else if (name == "garbage") {
+        faults.garbage = true;
+    } else if (name == "short") {
+        faults.too_short = true;
+    } else if (name == "exception" || name == "refuse") {
+        const std::string code = words.size() == 1 && name == "refuse" ? "3" : rest_of(words, 1);
+        if (code != "2" && code != "3") return fmt::format("write it as: {} 2, or {} 3", name, name);
+        (name == "refuse" ? faults.no_writes : faults.refuse) =
+            code == "2" ? Exception::illegal_address : Exception::illegal_value;
+    } else if (name == "slow") {
+        const auto ms = words.size() == 2 ? number_of(words[1]) : std::nullopt;
+        if (!ms || *ms < 0 || *ms > 60'000) return "write it as: slow 50 (milliseconds)";
+        faults.slow = std::chrono::milliseconds{*ms};
+    } else if (name != "ok") {
+        return fmt::format("there is no command '{}'; help lists them", name);
+    }
+    for (Instrument& instrument : line_.instruments())
+        if (is_meant(instrument)) instrument.faults = faults;
+    return {};
+}
+
+std::vector<std::string> InstrumentCommands::stats()
+{
+    std::vector<std::string> lines;
+    for (const Instrument& instrument : line_.instruments()) {
+        if (!is_meant(instrument)) continue;
+        const InstrumentCounters& c = instrument.counters;
+        lines.push_back(fmt::format("unit {}: {} reads of {} words, {} values written, {} exceptions",
+                                    instrument.address(), c.reads, c.words, c.writes, c.exceptions));
+    }
+    lines.push_back(fmt::format("line: {} requests with a wrong CRC, {} of functions that get no answer",
+                                line_.bad_crc(), line_.unsupported()));
+    return lines;
+}
+
+} // namespace dpslave::sim

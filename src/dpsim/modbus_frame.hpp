@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Modbus RTU in the judge's own hand (EI-ASCII and Modbus reference, section 5): it shares nothing with the
+/// library that the daemon speaks through.
+#pragma once
+
+#include "dpsim/telegram.hpp"
+
+namespace dpslave::sim {
+
+/// CRC-16 of Modbus: polynomial A001h, begun with FFFFh; goes over the line low octet first.
+std::uint16_t crc16(Bytes octets);
+
+/// The octets with their CRC behind them.
+Octets with_crc(Octets octets);
+
+/// Octets of the request that begins with `head`, CRC included. 0: too few are known to tell. Nothing: no
+/// function whose length is known, so that only silence can end it.
+std::optional<std::size_t> request_length(Bytes head);
+
+/// The instruments of the 2000 series know these two and no others.
+enum class Exception : std::uint8_t { none = 0, illegal_address = 2, illegal_value = 3 };
+
+inline constexpr std::uint8_t kReadHolding = 3, kReadInput = 4, kWriteOne = 6, kReadFastStatus = 7,
+                              kLoopback = 8, kWriteBlock = 16;
+
+} // namespace dpslave::sim

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What became of a transaction, and what can be seen of it.
+#include "poller_unit.hpp"
+
+#include <algorithm>
+
+namespace dpslave::drive {
+namespace {
+
+/// Several dead drives on one line must not eat it: their probes come more and more seldom.
+constexpr int kMaxProbeFactor = 8;
+
+bool is_refusal(AccessError error)
+{
+    return error != AccessError::none && error != AccessError::no_answer;
+}
+
+/// What the answer to an order tells: the word that was read or written.
+std::uint16_t word_of(const Transaction& transaction, const Outcome& outcome)
+{
+    if (transaction.kind == Transaction::Kind::write) return transaction.words.front();
+    return outcome.error == AccessError::none ? outcome.words.front() : std::uint16_t{0};
+}
+
+/// A drive that refuses because it runs, or is not in configuration mode, says the same as for a tag that is
+/// read only or a value out of range; only the row of the table tells (EI-ASCII reference, section 4).
+AccessError with_reason(const Transaction& transaction, AccessError error)
+{
+    if (transaction.kind != Transaction::Kind::write || transaction.words.size() != 1) return error;
+    const Tag& tag = *transaction.tag;
+    const bool may_be = error == AccessError::read_only ||
+                        (error == AccessError::out_of_range && is_within_limits(tag, transaction.words[0]));
+    if (!may_be) return error;
+    switch (tag.when) {
+        case WritableWhen::not_said: break;
+        case WritableWhen::stopped: return AccessError::not_stopped;
+        case WritableWhen::configuration: return AccessError::not_config_mode;
+    }
+    return error;
+}
+
+} // namespace
+
+void Poller::Unit::done(const Transaction& transaction, const Outcome& outcome, Instant now)
+{
+    Outcome what = outcome;
+    if (transaction.kind == Transaction::Kind::read && what.error == AccessError::none &&
+        what.words.size() < transaction.count)
+        what.error = AccessError::no_answer; // half an answer is none
+    what.error = with_reason(transaction, what.error);
+    ever_asked_ = true;
+    asked_at_ = now;
+    count(transaction, what.error);
+    switch (transaction.purpose) {
+        case Purpose::output:
+            if (transaction.kind == Transaction::Kind::write) {
+                done_output(what.error, now);
+                break;
+            }
+            [[fallthrough]];
+        case Purpose::input:
+        case Purpose::watch: done_read(what, now); break;
+        case Purpose::safe_state: done_zero(transaction.tag, what.error, now); break;
+        case Purpose::demand: done_demand(transaction, what); break;
+        case Purpose::operate: done_operate(transaction, what); break;
+        case Purpose::probe: break;
+    }
+    link(what.error != AccessError::no_answer, now);
+    show();
+}
+
+void Poller::Unit::count(const Transaction& transaction, AccessError error)
+{
+    if (error == AccessError::no_answer)
+        ++snapshot_.silences;
+    else if (error != AccessError::none)
+        ++snapshot_.refusals;
+    else if (transaction.kind == Transaction::Kind::read)
+        ++snapshot_.reads;
+    else if (transaction.kind == Transaction::Kind::write)
+        ++snapshot_.writes;
+}
+
+/// What the drive did not understand is repeated like silence. When that does not help it is left to later:
+/// the drive is there, and the others go on.
+bool Poller::Unit::is_repeated(AccessError error, int& not_understood) const
+{
+    not_understood = error == AccessError::not_understood ? not_understood + 1 : 0;
+    if (not_understood <= settings_.retries) return not_understood > 0;
+    not_understood = 0;
+    return false;
+}
+
+void Poller::Unit::done_read(const Outcome& outcome, Instant now)
+{
+    if (job_.layout != serial_) return; // read for a layout that is gone
+    if (outcome.error == AccessError::no_answer) {
+        if (silences_ >= settings_.retries)
+            reads_.skip(job_.block); // lost on it: after the return another one goes first
+        return;
+    }
+    if (is_repeated(outcome.error, inputs_not_understood_)) return;
+    if (reads_.done(job_.block, outcome.error, outcome.words, now)) inputs_changed_ = true;
+    if (writing_) compare(outcome);
+}
+
+/// The outputs with what the drive was found to hold.
+void Poller::Unit::compare(const Outcome& outcome)
+{
+    const std::uint16_t from = reads_.items()[job_.block.first].row->number;
+    for (std::size_t i = job_.block.first; i <= job_.block.last; ++i) {
+        const ReadPlan::Item& item = reads_.items()[i];
+        if (!item.compared) continue;
+        if (outcome.error == AccessError::none)
+            outputs_.observed(item.row, outcome.words[static_cast<std::size_t>(item.row->number - from)],
+                              job_.began);
+        else if (job_.block.first == job_.block.last)
+            outputs_.unreadable(item.row);
+    }
+}
+
+/// A block is not repeated as such: single writes show what is wrong with which word.
+void Poller::Unit::done_output(AccessError error, Instant now)
+{
+    if (job_.layout != serial_) return;
+    if (error == AccessError::no_answer) return outputs_.not_answered(silences_ >= settings_.retries);
+    if (!outputs_.writes_block() && is_repeated(error, outputs_not_understood_)) return;
+    outputs_.done(error, now);
+}
+
+void Poller::Unit::done_zero(const Tag* row, AccessError error, Instant now)
+{
+    zero_waits_ = error == AccessError::no_answer || error == AccessError::not_understood;
+    if (error == AccessError::no_answer || is_repeated(error, zeros_not_understood_)) return;
+    if (error == AccessError::not_understood)
+        safe_state_.postpone(row, now);
+    else
+        safe_state_.remove(row);
+}
+
+void Poller::Unit::done_demand(const Transaction& transaction, const Outcome& outcome)
+{
+    if (outcome.error == AccessError::no_answer) return;
+    if (outcome.error == AccessError::not_understood) {
+        demand_.not_understood(job_.order, settings_.retries);
+        return;
+    }
+    demand_.done(job_.order, outcome.error, word_of(transaction, outcome));
+}
+
+void Poller::Unit::done_operate(const Transaction& transaction, const Outcome& outcome)
+{
+    WaitingOperate& waiting = operates_.front();
+    const bool may_pass =
+        outcome.error == AccessError::no_answer || outcome.error == AccessError::not_understood;
+    if (may_pass && ++waiting.attempts <= settings_.retries) return;
+    operate_answers_.push_back({waiting.order.number, outcome.error, word_of(transaction, outcome)});
+    operates_.pop_front();
+}
+
+void Poller::Unit::link(bool answered, Instant now)
+{
+    if (!answered) {
+        if (lost_)
+            probe_wait_ = std::min(2 * probe_wait_, kMaxProbeFactor * settings_.probe_interval);
+        else if (++silences_ > settings_.retries)
+            lose();
+        return;
+    }
+    silences_ = 0;
+    if (lost_) {
+        lost_ = false;
+        probe_wait_ = settings_.probe_interval;
+        reads_.drive_returned(now);
+        outputs_.drive_returned();
+        safe_state_.drive_returned();
+        outputs_.begin_round(); // they go before the rest of the reads
+        round_began_.reset();
+        order_was_last_ = zero_waits_ = false;
+    }
+    if (!snapshot_.answers) inputs_changed_ = true;
+    snapshot_.known = true;
+    snapshot_.answers = true;
+}
+
+void Poller::Unit::lose()
+{
+    lost_ = true;
+    silences_ = 0;
+    in_round_ = false;
+    snapshot_.known = true;
+    snapshot_.answers = false;
+    ++snapshot_.losses;
+    inputs_changed_ = true;
+    reads_.drive_lost();
+    outputs_.drive_lost();
+    demand_.drop_superseded();
+    for (const WaitingOperate& waiting : operates_)
+        operate_answers_.push_back({waiting.order.number, AccessError::no_answer, 0});
+    operates_.clear();
+}
+
+// ---- what can be seen
+
+std::optional<InputImage> Poller::Unit::take_inputs()
+{
+    if (!inputs_changed_ || !snapshot_.known) return std::nullopt;
+    inputs_changed_ = false;
+    InputImage image;
+    image.generation = image_.layout.generation;
+    image.drive_answers = snapshot_.answers;
+    image.every_input_tried = reads_.every_input_tried();
+    const std::span<const Parameter> parameters = parameters_of(image_.layout);
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+        const Parameter& parameter = parameters[i];
+        if (!parameter.reads) continue;
+        if (const auto item = reads_.find(parameter.tag)) image.words[i] = reads_.items()[*item].word;
+    }
+    return image;
+}
+
+std::optional<OperateAnswer> Poller::Unit::take_operate_answer()
+{
+    if (operate_answers_.empty()) return std::nullopt;
+    const OperateAnswer first = operate_answers_.front();
+    operate_answers_.pop_front();
+    return first;
+}
+
+void Poller::Unit::show()
+{
+    snapshot_.generation = image_.layout.generation;
+    snapshot_.orders_dropped = demand_.dropped();
+    for (const OutputPlan::Item& item : outputs_.items()) {
+        snapshot_.words[item.parameter] = item.written;
+        snapshot_.states[item.parameter] = item.state;
+        snapshot_.errors[item.parameter] = item.error;
+        snapshot_.updated_at[item.parameter] = item.updated_at;
+    }
+    show_inputs();
+    show_watched();
+}
+
+/// Of a parameter that is both read and written the refusal of a write is shown, else the read.
+void Poller::Unit::show_inputs()
+{
+    const std::span<const Parameter> parameters = parameters_of(image_.layout);
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+        const Parameter& parameter = parameters[i];
+        const auto found = parameter.reads ? reads_.find(parameter.tag) : std::nullopt;
+        if (!found) continue;
+        const ReadPlan::Item& item = reads_.items()[*found];
+        snapshot_.words[i] = item.word;
+        snapshot_.updated_at[i] = item.updated_at;
+        if (parameter.writes && is_refusal(snapshot_.errors[i])) continue;
+        snapshot_.states[i] = item.state;
+        snapshot_.errors[i] = item.error;
+    }
+}
+
+/// A new layout reads them anew: until then, and while the drive is silent, the last word stands.
+void Poller::Unit::show_watched()
+{
+    const std::vector<std::uint16_t>& tags = tags_.watched();
+    for (std::size_t i = 0; i < tags.size(); ++i) {
+        const auto found = reads_.find(tags[i]);
+        if (!found) continue;
+        const ReadPlan::Item& item = reads_.items()[*found];
+        if (item.state == WordState::untried) continue;
+        snapshot_.watched[i].state = item.state;
+        if (item.state == WordState::good) snapshot_.watched[i].word = item.word;
+    }
+}
+
+} // namespace dpslave::drive

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The outputs of layouts that have ended and that nobody writes any more: each is written 0 once when its
+/// ride through the loss of the master is over (RIDE THROUGH of HA463561U002, X-46).
+#pragma once
+
+#include "read_plan.hpp"
+
+#include "dpslave/drive/poller.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace dpslave::drive {
+
+class SafeState {
+public:
+    explicit SafeState(ZeroAfter after) : after_(after) {}
+
+    /// Also for rides that are under way: they count from the loss, whenever that was.
+    void set_zero_after(ZeroAfter after) { after_ = after; }
+    /// What would be zeroed later is zeroed now; what never would is still left alone.
+    void ride_no_longer() { rides_ = false; }
+
+    /// The layout that wrote it has ended. The moment of the loss is the next time that is told.
+    void add(const Tag* row);
+    /// It was zeroed, or the drive refused that, or the present layout writes it.
+    void remove(const Tag* row);
+    void tell_time(Instant now);
+
+    const Tag* next(Instant now) const;         ///< the tag to be zeroed now; nullptr = none
+    void postpone(const Tag* row, Instant now); ///< not understood: another one goes first
+    void drive_returned();                      ///< what was postponed is tried at once
+    bool untold() const;                        ///< the time is to be told, whatever comes next
+    Instant next_due() const;
+    bool pending() const; ///< one of them waits for its zero, now or after its ride
+
+private:
+    struct Zero {
+        const Tag* row = nullptr;
+        std::optional<Instant> lost_at; ///< none: not told yet
+        Instant not_before = kAtOnce;
+    };
+
+    Instant due_at(const Zero& zero) const;
+
+    ZeroAfter after_;
+    bool rides_ = true;
+    std::vector<Zero> zeros_; ///< with "never" they stay: the time may be set to another one later
+};
+
+} // namespace dpslave::drive

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "check_parts.hpp"
+#include "keywords.hpp"
+#include "text.hpp"
+
+#include <map>
+#include <utility>
+
+namespace dpslave::gsd {
+namespace {
+
+void unknown(Judge& judge, const Entry& entry)
+{
+    const std::string_view nearest = nearest_keyword(entry.keyword);
+    judge.say(entry.line, Weight::warning,
+              "unknown keyword " + quoted(entry.keyword) + ", which tools pass over in silence: " +
+                  (nearest.empty() ? std::string{"remove it, or look how the standard spells it."}
+                                   : "the standard spells it " + quoted(nearest) + '.'));
+}
+
+void check_number(Judge& judge, const Entry& entry, const Keyword& keyword)
+{
+    const auto number = parse_number(entry.value);
+    const std::string range = std::to_string(keyword.min) + " to " + std::to_string(keyword.max);
+    if (!number)
+        judge.say(entry.line, Weight::error,
+                  std::string{keyword.name} + " = " + entry.value + " is no number: write one from " + range +
+                      ", decimal or as 0x1AF.");
+    else if (*number < keyword.min || *number > keyword.max)
+        judge.say(entry.line, Weight::error,
+                  std::string{keyword.name} + " = " + entry.value + " is out of range: it may be " + range +
+                      '.');
+}
+
+void check_text(Judge& judge, const Entry& entry, const Keyword& keyword)
+{
+    const auto text = parse_quoted(entry.value);
+    if (!text)
+        judge.say(entry.line, Weight::error,
+                  std::string{keyword.name} + " is a text: put its value between \" and \".");
+    else if (!text->rest.empty())
+        judge.say(entry.line, Weight::error,
+                  std::string{text->rest} + " stands behind the text of " + std::string{keyword.name} +
+                      ": remove it; a text cannot have a \" inside.");
+    else if (text->text.size() > keyword.max)
+        judge.say(entry.line, Weight::error,
+                  "the text of " + std::string{keyword.name} + " has " + std::to_string(text->text.size()) +
+                      " characters: the standard allows " + std::to_string(keyword.max) + '.');
+}
+
+void check_family(Judge& judge, const Entry& entry)
+{
+    const auto number = parse_number(trimmed(std::string_view{entry.value}.substr(0, entry.value.find('@'))));
+    if (!number || *number > 12)
+        judge.say(entry.line, Weight::error,
+                  "Slave_Family = " + entry.value +
+                      ": write a number from 0 to 12 (0 general, 1 drives, 5 controllers), if wanted with "
+                      "@text behind it.");
+}
+
+void check_value(Judge& judge, const Entry& entry, const Keyword& keyword)
+{
+    switch (keyword.kind) {
+        case Kind::boolean:
+            if (entry.value != "0" && entry.value != "1")
+                judge.say(entry.line,
+                          parse_number(entry.value).value_or(2) < 2 ? Weight::pedantic : Weight::error,
+                          std::string{keyword.name} + " = " + entry.value + ": write 0 or 1.");
+            break;
+        case Kind::number: check_number(judge, entry, keyword); break;
+        case Kind::text: check_text(judge, entry, keyword); break;
+        case Kind::family: check_family(judge, entry); break;
+        case Kind::octets:
+            if (!parse_octets(entry.value))
+                judge.say(
+                    entry.line, Weight::error,
+                    std::string{keyword.name} +
+                        " is a list of octets: write numbers from 0 to 255 with one comma between two of "
+                        "them.");
+            break;
+        case Kind::other: break;
+    }
+}
+
+using Seen = std::map<std::pair<std::string, std::uint32_t>, unsigned>; ///< keyword and index: line
+
+void check_one(Judge& judge, const Entry& entry, Place place, Seen& seen)
+{
+    if (entry.keyword.empty()) return;
+    const Keyword* keyword = find_keyword(entry.keyword);
+    if (keyword == nullptr) return unknown(judge, entry);
+    if ((keyword->places & place) == 0)
+        return judge.say(entry.line, Weight::error,
+                         std::string{keyword->name} + " belongs into a module: move it there.");
+    if (entry.keyword != keyword->name)
+        judge.say(entry.line, Weight::pedantic,
+                  quoted(entry.keyword) + ": the standard spells it " + quoted(keyword->name) + '.');
+    if (keyword->indexed && !entry.index)
+        judge.say(entry.line, Weight::error,
+                  std::string{keyword->name} + " needs a number in ( and ): write " +
+                      std::string{keyword->name} + "(0) and the like.");
+    check_value(judge, entry, *keyword);
+    const auto [first, is_first] =
+        seen.try_emplace({lower(entry.keyword), entry.index.value_or(0)}, entry.line);
+    const bool may_repeat = same(keyword->name, "Ext_User_Prm_Data_Ref"); // bits of one octet
+    if (!is_first && !may_repeat)
+        judge.say(entry.line, Weight::warning,
+                  std::string{keyword->name} + " stands here a second time (first in line " +
+                      std::to_string(first->second) + "): tools take the last one. Remove one of them.");
+    if (judge.revision > 0 && keyword->revision > judge.revision)
+        judge.say(entry.line, Weight::warning,
+                  std::string{keyword->name} + " exists from GSD_Revision " +
+                      std::to_string(keyword->revision) + " on, and the file says " +
+                      std::to_string(judge.revision) + ": raise GSD_Revision or remove the keyword.");
+    if (keyword->dpv1 && !judge.dpv1 && parse_number(entry.value).value_or(1) != 0)
+        judge.say(entry.line, Weight::warning,
+                  std::string{keyword->name} +
+                      " has a meaning with DPV1_Slave = 1 only: add that, or remove this line.");
+}
+
+} // namespace
+
+void check_keywords(Judge& judge)
+{
+    Seen seen;
+    for (const Entry& entry : judge.document.keywords) check_one(judge, entry, kUnit, seen);
+    if (judge.document.modules.empty()) return;
+    const unsigned first_module = judge.document.modules.front().line;
+    for (const Entry& entry : judge.document.keywords)
+        if (entry.line > first_module)
+            judge.say(entry.line, Weight::pedantic,
+                      entry.keyword + " stands behind the first module: the standard wants it before.");
+}
+
+void check_module_keywords(Judge& judge, const Block& module)
+{
+    Seen seen;
+    for (const Entry& entry : module.body) check_one(judge, entry, kModule, seen);
+}
+
+} // namespace dpslave::gsd

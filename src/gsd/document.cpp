@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dpslave/gsd/document.hpp"
+
+#include "keywords.hpp"
+#include "lines.hpp"
+#include "text.hpp"
+
+#include <algorithm>
+
+namespace dpslave::gsd {
+namespace {
+
+constexpr std::string_view kSection = "#Profibus_DP";
+
+/// `keyword(index) = value` taken apart. The index may be anything; only a number is kept.
+Entry entry_of(const LogicalLine& line, Remarks& remarks)
+{
+    Entry entry;
+    entry.line = line.number;
+    const std::string_view text = line.text;
+    const auto equals = text.find('=');
+    const auto quote = text.find('"');
+    if (equals == std::string_view::npos || quote < equals || trimmed(text.substr(0, equals)).empty()) {
+        entry.value = std::string{trimmed(text)};
+        return entry;
+    }
+    std::string_view name = trimmed(text.substr(0, equals));
+    entry.value = std::string{trimmed(text.substr(equals + 1))};
+    if (const auto open = name.find('('); open != std::string_view::npos) {
+        const auto close = name.find(')', open);
+        entry.index = parse_number(trimmed(name.substr(open + 1, close - open - 1)));
+        if (!entry.index || close == std::string_view::npos)
+            remarks.push_back(
+                {line.number, Weight::error, quoted(name) + " has no number between ( and ): write one."});
+        name = trimmed(name.substr(0, open));
+    }
+    entry.keyword = std::string{name};
+    return entry;
+}
+
+class Parser {
+public:
+    Document parse(std::string_view content)
+    {
+        const std::vector<LogicalLine> lines = logical_lines(content, document_.remarks);
+        auto line = lines.begin();
+        for (; line != lines.end() && !same(line->text, kSection); ++line) before_section(*line);
+        if (line == lines.end()) {
+            remark(0, Weight::error,
+                   "there is no line #Profibus_DP: this is no GSD file, or its first line is spelt wrongly.");
+            return std::move(document_);
+        }
+        document_.has_section = true;
+        if (line->text != kSection)
+            remark(line->number, Weight::pedantic, "the standard spells this line #Profibus_DP.");
+        for (++line; line != lines.end() && line->text.front() != '#'; ++line) take(*line);
+        if (open_) unclosed("the end of the section");
+        for (const Block& block : document_.blocks)
+            if (block.kind == "Module") module(block);
+        return std::move(document_);
+    }
+
+private:
+    void remark(unsigned line, Weight weight, std::string what)
+    {
+        document_.remarks.push_back({line, weight, std::move(what)});
+    }
+
+    void before_section(const LogicalLine& line)
+    {
+        Remarks ignored;
+        const Entry entry = entry_of(line, ignored);
+        if (find_keyword(entry.keyword) != nullptr)
+            remark(line.number, Weight::error,
+                   quoted(entry.keyword) + " stands before #Profibus_DP, where tools do not read it: move it "
+                                           "below.");
+        else
+            remark(line.number, Weight::warning,
+                   "text before #Profibus_DP that is no comment: put a ; in front of it.");
+    }
+
+    void take(const LogicalLine& line)
+    {
+        Entry entry = entry_of(line, document_.remarks);
+        const std::string_view word = entry.keyword.empty() ? std::string_view{entry.value} : entry.keyword;
+        if (const BlockKind* kind = find_closing(word)) return close(*kind, line.number);
+        if (const BlockKind* kind = find_opening(word)) {
+            if (open_) unclosed("line " + std::to_string(line.number));
+            open_ = Block{std::string{kind->opens},
+                          entry.keyword.empty() ? std::string{} : std::move(entry.value),
+                          line.number,
+                          {}};
+            return;
+        }
+        if (open_ && open_->kind == "Module" && belongs_to_unit(entry))
+            unclosed(quoted(entry.keyword) + " in line " + std::to_string(line.number));
+        if (open_)
+            open_->body.push_back(std::move(entry));
+        else if (!entry.keyword.empty())
+            document_.keywords.push_back(std::move(entry));
+        else
+            remark(line.number, Weight::error,
+                   quoted(entry.value) +
+                       " is neither Keyword = value nor part of a module: remove it, or add "
+                       "what is missing.");
+    }
+
+    static bool belongs_to_unit(const Entry& entry)
+    {
+        const Keyword* keyword = find_keyword(entry.keyword);
+        return keyword != nullptr && (keyword->places & kModule) == 0;
+    }
+
+    void close(const BlockKind& kind, unsigned line)
+    {
+        if (!open_)
+            return remark(line, Weight::error,
+                          std::string{kind.closes} + " without a " + std::string{kind.opens} +
+                              " before it: remove it, or look for the line that is missing.");
+        if (open_->kind != kind.opens)
+            return remark(line, Weight::error,
+                          std::string{kind.closes} + " inside the " + open_->kind + " of line " +
+                              std::to_string(open_->line) + ": remove it.");
+        document_.blocks.push_back(std::move(*open_));
+        open_.reset();
+    }
+
+    void unclosed(const std::string& before)
+    {
+        const std::string closes{find_opening(open_->kind)->closes};
+        remark(open_->line, Weight::error,
+               open_->kind + (open_->head.empty() ? "" : ' ' + open_->head) + " has no " + closes +
+                   ": write " + closes + " before " + before + '.');
+        document_.blocks.push_back(std::move(*open_));
+        open_.reset();
+    }
+
+    void module(const Block& block)
+    {
+        Module module;
+        module.line = block.line;
+        std::string_view octets = block.head;
+        if (const auto name = parse_quoted(block.head)) {
+            module.name = name->text;
+            octets = name->rest;
+        } else {
+            remark(block.line, Weight::error,
+                   "the module has no name in quotes: write Module = \"name\" 0x50 and the like.");
+            if (const auto blank = octets.find_first_of(" \t"); blank != std::string_view::npos)
+                octets = trimmed(octets.substr(blank));
+        }
+        if (const auto identifiers = parse_octets(octets))
+            module.identifiers = *identifiers;
+        else
+            remark(block.line, Weight::error,
+                   "the module's identifiers " + quoted(octets) +
+                       " are no octets: write them as 0x50 or 80, with commas between.");
+        for (const Entry& entry : block.body) {
+            if (same(entry.keyword, "Preset")) module.preset = entry.value == "1";
+            if (!entry.keyword.empty()) continue;
+            if (!module.reference && parse_number(entry.value))
+                module.reference = parse_number(entry.value);
+            else if (!same(entry.value, "Data_Area_Beg") && !same(entry.value, "Data_Area_End"))
+                remark(entry.line, Weight::error,
+                       quoted(entry.value) +
+                           " is neither the module's reference number nor Keyword = value: remove "
+                           "it, or add what is missing.");
+        }
+        document_.modules.push_back(std::move(module));
+    }
+
+    Document document_;
+    std::optional<Block> open_;
+};
+
+} // namespace
+
+const Entry* Document::find(std::string_view keyword) const
+{
+    const auto found = std::find_if(keywords.rbegin(), keywords.rend(),
+                                    [&](const Entry& entry) { return same(entry.keyword, keyword); });
+    return found == keywords.rend() ? nullptr : &*found;
+}
+
+std::optional<std::uint32_t> Document::number(std::string_view keyword) const
+{
+    const Entry* entry = find(keyword);
+    if (entry == nullptr) return std::nullopt;
+    return parse_number(entry->value);
+}
+
+std::string Document::text(std::string_view keyword) const
+{
+    const Entry* entry = find(keyword);
+    if (entry == nullptr) return {};
+    const auto found = parse_quoted(entry->value);
+    return found ? found->text : std::string{};
+}
+
+std::vector<std::uint8_t> Document::octets(std::string_view keyword) const
+{
+    const Entry* entry = find(keyword);
+    if (entry == nullptr) return {};
+    return parse_octets(entry->value).value_or(std::vector<std::uint8_t>{});
+}
+
+std::vector<std::uint8_t> Document::user_prm_data() const
+{
+    constexpr std::uint32_t kLongest = 237;
+    if (const auto length = number("Max_User_Prm_Data_Len")) {
+        std::vector<std::uint8_t> out(std::min(*length, kLongest));
+        for (const Entry& entry : keywords) {
+            if (!same(entry.keyword, "Ext_User_Prm_Data_Const") || !entry.index) continue;
+            const auto constants = parse_octets(entry.value).value_or(std::vector<std::uint8_t>{});
+            for (std::size_t i = 0; i < constants.size() && *entry.index + i < out.size(); ++i)
+                out[*entry.index + i] = constants[i];
+        }
+        return out;
+    }
+    std::vector<std::uint8_t> out = octets("User_Prm_Data");
+    out.resize(std::min(number("User_Prm_Data_Len").value_or(0), kLongest));
+    return out;
+}
+
+std::vector<const Module*> Document::plugged() const
+{
+    const bool modular = number("Modular_Station").value_or(0) == 1;
+    std::vector<const Module*> out;
+    for (const Module& module : modules)
+        if (!modular || module.preset) out.push_back(&module);
+    return out;
+}
+
+Document parse(std::string_view content)
+{
+    return Parser{}.parse(content);
+}
+
+} // namespace dpslave::gsd

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dpslave/gsd/io_map.hpp"
+
+#include "text.hpp"
+
+#include "dpslave/gsd/identifier.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace dpslave::gsd {
+namespace {
+
+/// Demand Data as HA389815 chapter 7 and the handbook of the 2408f/2404f name its four words.
+constexpr std::array<std::string_view, 4> kDemandIn{"Demand Data: answer and tag",
+                                                    "Demand Data: extended tag", "Demand Data: reserved",
+                                                    "Demand Data: value or error code"};
+constexpr std::array<std::string_view, 4> kDemandOut{"Demand Data: command and tag",
+                                                     "Demand Data: extended tag", "Demand Data: reserved",
+                                                     "Demand Data: value"};
+
+class MapMaker {
+public:
+    MapMaker(const Document& document, const MapHints& hints)
+        : hints_(hints), plugged_(document.plugged()), prm_(document.user_prm_data())
+    {
+        at_ = hints.tags_at.value_or(prm_.size() % 2 == 1 ? 3 : 0);
+        if (!hints.tags_at && !looks_like_tags()) prm_.clear();
+    }
+
+    IoMap make()
+    {
+        map_.fixed = !plugged_.empty();
+        for (const Module* module : plugged_) add(*module);
+        map_.advice = advice_on_lengths(map_.in_octets, map_.out_octets);
+        return std::move(map_);
+    }
+
+private:
+    /// Of a file that says nothing of tags: as many words as there are parameters, none zero, then zeros
+    /// only.
+    bool looks_like_tags() const
+    {
+        std::vector<std::uint8_t> octets;
+        for (const Module* module : plugged_)
+            octets.insert(octets.end(), module->identifiers.begin(), module->identifiers.end());
+        const bool demand = !octets.empty() && octets.front() == hints_.demand_identifier;
+        const std::size_t end = at_ + 2 * (octets.size() - (demand ? 1 : 0));
+        if (end > prm_.size()) return false;
+        for (std::size_t at = at_; at < end; at += 2)
+            if (be16(prm_, at) == 0) return false;
+        return std::all_of(prm_.begin() + static_cast<std::ptrdiff_t>(end), prm_.end(),
+                           [](std::uint8_t octet) { return octet == 0; });
+    }
+
+    void add(const Module& module)
+    {
+        Bytes octets = module.identifiers;
+        while (const auto next = first_identifier(octets)) {
+            if (is_first_ && octets[0] == hints_.demand_identifier) {
+                demand();
+            } else if (next->in + next->out > 0) {
+                parameter(module, *next);
+            }
+            is_first_ = false;
+            octets = octets.subspan(next->length);
+        }
+    }
+
+    void demand()
+    {
+        for (std::size_t i = 0; i < kDemandIn.size(); ++i) {
+            put(map_.inputs, map_.in_octets, 2, std::string{kDemandIn[i]}, std::nullopt);
+            put(map_.outputs, map_.out_octets, 2, std::string{kDemandOut[i]}, std::nullopt);
+        }
+    }
+
+    void parameter(const Module& module, const Identifier& identifier)
+    {
+        const auto tag = next_tag();
+        std::string what = module.name;
+        if (tag) {
+            const auto name = hints_.names.find(*tag);
+            what = name == hints_.names.end() ? "tag " + std::to_string(*tag) : name->second;
+        }
+        if (identifier.in > 0) put(map_.inputs, map_.in_octets, identifier.in, what, tag);
+        if (identifier.out > 0) put(map_.outputs, map_.out_octets, identifier.out, what, tag);
+    }
+
+    static void put(std::vector<IoValue>& values, std::size_t& length, std::size_t octets, std::string what,
+                    std::optional<std::uint16_t> tag)
+    {
+        values.push_back({length, octets, std::move(what), tag});
+        length += octets;
+    }
+
+    /// Tags stand in the order of the identifiers; a zero is none.
+    std::optional<std::uint16_t> next_tag()
+    {
+        if (at_ + 2 > prm_.size()) return std::nullopt;
+        const std::uint16_t tag = be16(prm_, at_);
+        at_ += 2;
+        if (tag == 0) return std::nullopt;
+        return tag;
+    }
+
+    const MapHints& hints_;
+    std::vector<const Module*> plugged_;
+    std::vector<std::uint8_t> prm_;
+    std::size_t at_ = 0; ///< of the next tag
+    bool is_first_ = true;
+    IoMap map_;
+};
+
+/// Two limits of two manuals, so two sentences where both are passed.
+void advise(std::vector<std::string>& advice, std::size_t octets, const std::string& direction)
+{
+    const std::string begin = std::to_string(octets) + ' ' + direction + " octets are more than 32 ";
+    const std::string end = ", which some masters cannot take: look into the manual of yours.";
+    if (octets > 32) advice.push_back(begin + "octets" + end);
+    if (octets > 64) advice.push_back(begin + "words" + end);
+}
+
+} // namespace
+
+IoMap io_map(const Document& document, const MapHints& hints)
+{
+    return MapMaker{document, hints}.make();
+}
+
+std::vector<std::string> advice_on_lengths(std::size_t in_octets, std::size_t out_octets)
+{
+    constexpr std::size_t kConfiguratorWords = 117;
+    std::vector<std::string> advice;
+    advise(advice, in_octets, "input");
+    advise(advice, out_octets, "output");
+    if (in_octets + out_octets > 2 * kConfiguratorWords)
+        advice.push_back(std::to_string((in_octets + out_octets) / 2) +
+                         " input and output words together are more than 117, the limit of the 2408f/2404f.");
+    return advice;
+}
+
+} // namespace dpslave::gsd

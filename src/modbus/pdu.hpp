@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Requests of Modbus from the function code on, without address and check sum, and what answers them. Pure.
+/// Source: MODBUS Application Protocol V1.1b3, ch. 6.3, 6.6, 6.12 and 7.
+#pragma once
+
+#include "dpslave/base/bytes.hpp"
+#include "dpslave/base/process_image.hpp"
+#include "dpslave/drive/tag.hpp"
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace dpslave::modbus {
+
+/// Registers that one request may read or write. The protocol allows 125 to read, but 123 fit both ways.
+inline constexpr std::uint16_t kMostRegisters = 123;
+
+using Request = ByteBuffer<6 + 2 * kMostRegisters>;
+
+Request read_registers(std::uint16_t first, std::uint16_t count);                   ///< function 3
+Request write_register(std::uint16_t reg, std::uint16_t word);                      ///< function 6
+Request write_registers(std::uint16_t first, std::span<const std::uint16_t> words); ///< function 16
+
+/// Octets of the longest answer that this request can have, from the function code on.
+std::size_t longest_answer(Bytes request);
+
+/// Can this be the answer to the request, an exception included? Of function 6 the register has to be echoed;
+/// the value is echoed_word()'s business.
+bool answers(Bytes request, Bytes answer);
+
+/// Of an answer that fits: its exception code; 0 = it is none.
+std::uint8_t exception_of(Bytes answer);
+
+/// "exception 2 (illegal data address)"
+std::string exception_text(std::uint8_t code);
+
+/// What an exception means for the access of one tag. `row` is its row; nullptr: several tags.
+AccessError error_of_exception(std::uint8_t code, bool is_write, const drive::Tag* row);
+
+/// Word `index` in the answer to function 3.
+std::uint16_t word_read(Bytes answer, std::size_t index);
+/// The value in the answer to function 6.
+std::uint16_t echoed_word(Bytes answer);
+
+} // namespace dpslave::modbus

@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dpslave/profile/gsd_device.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace dpslave::profile {
+namespace {
+
+constexpr std::size_t kDemandOctets = 8; ///< in either direction (HA389815 ch. 7)
+constexpr std::size_t kMaxOctets = 244;  ///< of one direction (wire reference 4.6)
+
+std::string hex_of(std::uint16_t word)
+{
+    constexpr std::string_view digits = "0123456789ABCDEF";
+    return {'0', 'x', digits[word >> 12], digits[word >> 8 & 15], digits[word >> 4 & 15], digits[word & 15]};
+}
+
+std::string list_of(const std::vector<std::uint16_t>& tags)
+{
+    std::string out;
+    for (const std::uint16_t tag : tags) out += (out.empty() ? "" : ",") + std::to_string(tag);
+    return out;
+}
+
+/// A word of the telegrams as the selection has it.
+struct Word {
+    std::uint16_t tag = 0;
+    bool reads = false, writes = false;
+};
+
+class DeviceMaker {
+public:
+    DeviceMaker(const Profile& profile, const Selection& selection)
+        : profile_(profile), personality_(profile.personality), facts_(profile.gsd), wanted_(selection)
+    {
+        const bool none = selection.in.empty() && selection.out.empty() && selection.in_out.empty();
+        const bool own = !facts_.in_tags.empty() || !facts_.out_tags.empty();
+        standard_ = none && own;
+        generic_ = none && !own && !selection.demand;
+        add(standard_ ? facts_.in_tags : selection.in, true, false);
+        add(standard_ ? facts_.out_tags : selection.out, false, true);
+        add(selection.in_out, true, true);
+    }
+
+    Result<GsdDevice, std::vector<std::string>> make()
+    {
+        identity();
+        rates();
+        behaviour();
+        if (generic_) {
+            generic();
+        } else {
+            check_tags();
+            check_lengths();
+            if (refused_.empty()) fixed();
+        }
+        head();
+        if (!refused_.empty()) return Failure{std::move(refused_)};
+        return std::move(made_);
+    }
+
+private:
+    void refuse(std::string sentence) { refused_.push_back(std::move(sentence)); }
+    void warn(std::string sentence) { made_.warnings.push_back(std::move(sentence)); }
+
+    void add(const std::vector<std::uint16_t>& tags, bool reads, bool writes)
+    {
+        for (const std::uint16_t tag : tags) words_.push_back({tag, reads, writes});
+    }
+
+    std::string text_of(std::string_view what, const std::string& text, std::size_t longest)
+    {
+        std::string out = gsd::latin1(text);
+        if (out.size() > longest)
+            refuse("the " + std::string{what} + " has " + std::to_string(out.size()) +
+                   " characters: a GSD has room for " + std::to_string(longest) + '.');
+        if (out.find('?') != std::string::npos && text.find('?') == std::string::npos)
+            warn("a character of the " + std::string{what} +
+                 " is none of ISO 8859-1, the character set of a GSD, and becomes a question mark.");
+        return out;
+    }
+
+    void identity()
+    {
+        device_.vendor = text_of("vendor", facts_.vendor, gsd::kMaxText);
+        device_.model = text_of("model", wanted_.model.value_or(facts_.model), gsd::kMaxText);
+        device_.revision = text_of("revision", facts_.revision, gsd::kMaxText);
+        device_.hardware = text_of("hardware release", facts_.hardware, gsd::kMaxText);
+        device_.software = text_of("software release", facts_.software, gsd::kMaxText);
+        const bool chosen = !generic_ && !standard_; // the profile's description speaks of its own mapping
+        device_.description =
+            text_of("description", wanted_.description.value_or(chosen ? "" : facts_.description),
+                    gsd::kMaxDescription);
+        const auto ident = wanted_.ident ? wanted_.ident : profile_.ident;
+        if (!ident)
+            refuse("the profile " + profile_.name +
+                   " has no Ident_Number, for no source states it: give it with --ident. It stands in the "
+                   "GSD file that "
+                   "came with the device, in the present project of the master, and in octets 5 and 6 of the "
+                   "device's "
+                   "diagnosis. Write the same into the station (ident = 0x...).");
+        else if (*ident == 0)
+            refuse("the Ident_Number 0 belongs to no device: give that of yours.");
+        else if (profile_.ident && *ident != *profile_.ident)
+            warn("the Ident_Number is not that of the profile " + profile_.name + ", " +
+                 hex_of(*profile_.ident) + ": write ident = " + hex_of(*ident) +
+                 " into the station, else it refuses the master.");
+        device_.ident = ident.value_or(0);
+    }
+
+    void rates()
+    {
+        const std::uint32_t own = wanted_.max_tsdr.value_or(0);
+        bool larger = false;
+        for (const Baud baud : kBauds) {
+            const Tbit bits = personality_.max_tsdr[index_of(baud)];
+            if (bits.count == 0 || baud == Baud::k45_45)
+                continue; // only ever fixed by hand, so no tool offers it
+            device_.max_tsdr[index_of(baud)] = std::max(bits, Tbit{own});
+            larger = larger || own > bits.count;
+        }
+        if (own > 0xFFFF)
+            refuse("MaxTsdr is " + std::to_string(own) + ": a GSD has room for 65535 bit times.");
+        if (wanted_.max_tsdr && !larger)
+            refuse("MaxTsdr " + std::to_string(own) + " is at no rate larger than that of the profile " +
+                   profile_.name + ": leave --max-tsdr out, or give what [bus] max_tsdr of the daemon says.");
+        if (own > 1000)
+            warn("MaxTsdr is above 1000 bit times: many masters do not wait that long; see that yours does.");
+    }
+
+    void behaviour()
+    {
+        device_.family = facts_.family;
+        device_.repeater = facts_.repeater;
+        device_.freeze = personality_.freeze;
+        device_.sync = personality_.sync;
+        device_.fail_safe = personality_.fail_safe;
+        device_.min_slave_interval = facts_.min_slave_interval;
+        device_.max_diag_length = static_cast<std::uint8_t>(personality_.max_diag_length);
+    }
+
+    const dp::Identifier* identifier(bool reads, bool writes) const
+    {
+        const auto found = std::find_if(
+            personality_.identifiers.begin(), personality_.identifiers.end(),
+            [&](const dp::Identifier& each) { return each.reads == reads && each.writes == writes; });
+        return found == personality_.identifiers.end() ? nullptr : &*found;
+    }
+
+    /// The modules by their names; the master's tool puts them together, the engineer enters the tags.
+    void generic()
+    {
+        const std::size_t parameters = personality_.max_parameters;
+        const bool demand = personality_.demand_identifier != 0;
+        const std::size_t longest = (demand ? kDemandOctets : 0) + 2 * parameters;
+        const std::size_t both = identifier(true, true) != nullptr ? 2 : 1;
+        std::size_t sum = 2 * (demand ? kDemandOctets : 0) + 2 * both * parameters;
+        if (personality_.max_words > 0) sum = std::min(sum, 2 * personality_.max_words);
+        const dp::PrmLayout& prm = personality_.prm;
+        if (prm.list == dp::TagList::exact)
+            refuse("the tags of a " + profile_.name +
+                   " stand in the GSD, one for each word, and the profile has no mapping of its own: choose "
+                   "tags with "
+                   "--in and --out, or Demand Data alone with --demand.");
+        device_.choice_of_modules = true;
+        device_.max_module = static_cast<std::uint8_t>(parameters + (demand ? 1 : 0));
+        device_.max_in = device_.max_out = static_cast<std::uint8_t>(std::min(longest, kMaxOctets));
+        device_.max_data = static_cast<std::uint16_t>(std::min(sum, 2 * kMaxOctets));
+        if (demand) device_.modules.push_back({facts_.demand_module, {personality_.demand_identifier}});
+        for (const dp::Identifier& each : personality_.identifiers)
+            device_.modules.push_back({gsd::latin1(module_name(each)), {each.octet}});
+        device_.user_prm_data.assign(prm.list == dp::TagList::none ? prm.min_length : prm.max_length, 0);
+        if (prm.list == dp::TagList::none) return;
+        device_.prm_comments.push_back(
+            "User_Prm_Data: the tags of the parameters in the order of the modules,");
+        device_.prm_comments.push_back("two octets each, high octet first, from octet " +
+                                       std::to_string(prm.tags_at) + " on; the rest stays zero.");
+    }
+
+    const std::string& module_name(const dp::Identifier& each) const
+    {
+        if (each.reads && each.writes) return facts_.in_out_module;
+        return each.reads ? facts_.in_module : facts_.out_module;
+    }
+
+    void check_tags()
+    {
+        std::set<std::uint16_t> read, written;
+        for (const Word& word : words_) {
+            const std::string name = "tag " + std::to_string(word.tag);
+            if (identifier(word.reads, word.writes) == nullptr)
+                refuse(name + ": the profile " + profile_.name +
+                       " has no identifier for a parameter that is both read and written: give it once with "
+                       "--in and "
+                       "once with --out.");
+            if (personality_.prm.list == dp::TagList::none)
+                refuse(name + ": the device of the profile " + profile_.name +
+                       " takes no tags from the master.");
+            else if (word.tag == 0 || word.tag > personality_.prm.max_tag)
+                refuse(name + " is none: tags of the profile " + profile_.name + " go from 1 to " +
+                       std::to_string(personality_.prm.max_tag) + '.');
+            if (word.reads && !read.insert(word.tag).second) refuse(name + " is read twice: remove it once.");
+            if (word.writes && !written.insert(word.tag).second)
+                refuse(name + " is written twice, and the two values would fight: remove it once.");
+            check_access(word, name);
+        }
+    }
+
+    void check_access(const Word& word, const std::string& name)
+    {
+        const drive::Tag* tag = profile_.tags.find(word.tag);
+        if (tag == nullptr && profile_.tags_only_from_table)
+            refuse(name + " is not in the tag table of the profile " + profile_.name +
+                   ", and the profile allows no other: look for it with dpctl tag.");
+        const auto& never = profile_.never_written;
+        const bool locked = std::find(never.begin(), never.end(), word.tag) != never.end();
+        if (word.writes && locked)
+            refuse(name + " must never be written: the profile " + profile_.name + " says so.");
+        else if (word.writes && tag != nullptr && tag->access == drive::Access::read_only)
+            warn(name + " (" + tag->name + ") is read only: the drive will refuse what the master writes.");
+        if (tag != nullptr && tag->type == drive::TagType::string)
+            warn(name + " (" + tag->name + ") is a text, which is not transported.");
+    }
+
+    void check_lengths()
+    {
+        for (const Word& word : words_) {
+            in_ += word.reads ? 2 : 0;
+            out_ += word.writes ? 2 : 0;
+        }
+        if (wanted_.demand) {
+            in_ += kDemandOctets;
+            out_ += kDemandOctets;
+            if (personality_.demand_identifier == 0)
+                refuse("the device of the profile " + profile_.name +
+                       " has no Demand Data: leave --demand out.");
+        }
+        if (words_.size() > personality_.max_parameters)
+            refuse(std::to_string(words_.size()) + " parameters are more than a " + profile_.name + " has, " +
+                   std::to_string(personality_.max_parameters) +
+                   ": take some away, and use Demand Data for them.");
+        if (words_.empty() && !personality_.may_have_no_parameters)
+            refuse("a " + profile_.name + " needs at least one parameter: choose one with --in or --out.");
+        const std::size_t words = (in_ + out_) / 2;
+        if (personality_.max_words > 0 && words > personality_.max_words)
+            refuse(std::to_string(words) + " words in and out" +
+                   (wanted_.demand ? ", 8 of them Demand Data," : "") + " are more than a " + profile_.name +
+                   " has, " + std::to_string(personality_.max_words) + ": take " +
+                   std::to_string(words - personality_.max_words) + " away.");
+        if (in_ > kMaxOctets || out_ > kMaxOctets)
+            refuse("more than 244 octets in one direction fit in no telegram: take parameters away.");
+    }
+
+    /// The mapping as it was chosen: User_Prm_Data holds the tags, the modules all identifiers in their
+    /// order. Up to 17 octets they are one module of a compact station, which every tool knows and no one can
+    /// plug in a wrong order (two inputs that change places have the same identifiers, so the slave could not
+    /// tell). More become several modules in a fixed order.
+    void fixed()
+    {
+        const dp::PrmLayout& prm = personality_.prm;
+        std::vector<std::uint8_t> identifiers;
+        if (wanted_.demand) identifiers.push_back(personality_.demand_identifier);
+        const bool none_sent = words_.empty() && prm.may_be_absent;
+        if (!none_sent) device_.user_prm_data.assign(prm.tags_at, 0);
+        for (const Word& word : words_) {
+            identifiers.push_back(identifier(word.reads, word.writes)->octet);
+            device_.user_prm_data.push_back(static_cast<std::uint8_t>(word.tag >> 8));
+            device_.user_prm_data.push_back(static_cast<std::uint8_t>(word.tag & 0xFF));
+        }
+        if (!none_sent && device_.user_prm_data.size() < prm.min_length)
+            device_.user_prm_data.resize(prm.min_length, 0);
+
+        device_.choice_of_modules = false;
+        for (std::size_t at = 0; at < identifiers.size(); at += gsd::kMaxModuleOctets) {
+            const std::size_t end = std::min(at + gsd::kMaxModuleOctets, identifiers.size());
+            device_.modules.push_back({name_of_module(at, end),
+                                       {identifiers.begin() + static_cast<std::ptrdiff_t>(at),
+                                        identifiers.begin() + static_cast<std::ptrdiff_t>(end)}});
+        }
+        device_.max_module = static_cast<std::uint8_t>(device_.modules.size());
+        device_.max_in = static_cast<std::uint8_t>(in_);
+        device_.max_out = static_cast<std::uint8_t>(out_);
+        device_.max_data = static_cast<std::uint16_t>(in_ + out_);
+        describe_words();
+    }
+
+    /// "Demand Data, parameters 1 to 16": the longest is 31 characters while there are below 100.
+    std::string name_of_module(std::size_t at, std::size_t end) const
+    {
+        const bool demand = wanted_.demand && at == 0;
+        const std::size_t shift = wanted_.demand ? 1 : 0;
+        const std::size_t first = at + (demand ? 1 : 0) + 1 - shift;
+        const std::size_t last = end - shift;
+        if (last < first) return "Demand Data";
+        std::string name = demand ? "Demand Data, p" : "P";
+        name += first == last ? "arameter " + std::to_string(first)
+                              : "arameters " + std::to_string(first) + " to " + std::to_string(last);
+        return name;
+    }
+
+    void describe_words()
+    {
+        if (words_.empty()) return;
+        device_.prm_comments.push_back("User_Prm_Data: the tags of the parameters, from octet " +
+                                       std::to_string(personality_.prm.tags_at) + " on, high octet first:");
+        std::size_t number = 0;
+        for (const Word& word : words_) {
+            const drive::Tag* tag = profile_.tags.find(word.tag);
+            std::string line = std::to_string(++number) +
+                               (word.reads && word.writes ? " in/out"
+                                : word.reads              ? " in"
+                                                          : " out") +
+                               " tag " + std::to_string(word.tag);
+            if (tag != nullptr) line += ' ' + gsd::latin1(tag->name);
+            device_.prm_comments.push_back(std::move(line));
+        }
+    }
+
+    /// The command that makes the file again; where it is written to is not part of it.
+    void head()
+    {
+        std::string command = "dpctl gsd make --profile " + profile_.name;
+        const auto option = [&](const char* name, const std::string& value) {
+            if (!value.empty()) command += std::string{" --"} + name + ' ' + value;
+        };
+        const auto in_quotes = [](const std::optional<std::string>& text) {
+            return text ? '"' + gsd::latin1(*text) + '"' : std::string{};
+        };
+        option("in", list_of(wanted_.in));
+        option("out", list_of(wanted_.out));
+        option("in-out", list_of(wanted_.in_out));
+        if (wanted_.demand) command += " --demand";
+        option("ident", wanted_.ident ? hex_of(*wanted_.ident) : "");
+        option("max-tsdr", wanted_.max_tsdr ? std::to_string(*wanted_.max_tsdr) : "");
+        option("model", in_quotes(wanted_.model));
+        option("description", in_quotes(wanted_.description));
+        device_.comments.push_back("Made for the profile " + profile_.name + " of dpslaved by the command");
+        device_.comments.push_back(std::move(command));
+    }
+
+    const Profile& profile_;
+    const dp::Personality& personality_;
+    const GsdFacts& facts_;
+    const Selection& wanted_;
+    bool standard_ = false; ///< the profile's own mapping
+    bool generic_ = false;  ///< no mapping at all
+    std::vector<Word> words_;
+    std::size_t in_ = 0, out_ = 0; ///< octets
+    GsdDevice made_;
+    gsd::Device& device_ = made_.device;
+    std::vector<std::string> refused_;
+};
+
+} // namespace
+
+Result<GsdDevice, std::vector<std::string>> device_of(const Profile& profile, const Selection& selection)
+{
+    return DeviceMaker{profile, selection}.make();
+}
+
+} // namespace dpslave::profile

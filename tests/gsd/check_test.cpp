@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is wrong in a file is told with its line and what to do (B-092, C-047; wire reference 9.2, 9.4).
+#include "gsd/second_hand.hpp"
+
+#include <gmock/gmock.h>
+
+namespace dpslave {
+namespace {
+
+using gsd::Reading;
+using test::told;
+using test::with;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+/// A file that a strict reader likes; the tests spoil it.
+const std::string kGood = R"(#Profibus_DP
+GSD_Revision = 3
+Vendor_Name = "EXAMPLE"
+Model_Name = "Modular"
+Revision = "1"
+Ident_Number = 0x4711
+Protocol_Ident = 0
+Station_Type = 0
+Hardware_Release = "1"
+Software_Release = "1"
+9.6_supp = 1
+500_supp = 1
+MaxTsdr_9.6 = 60
+MaxTsdr_500 = 100
+Slave_Family = 3@Example@Words
+Fail_Safe = 0
+Min_Slave_Intervall = 20
+Max_Diag_Data_Len = 8
+Unit_Diag_Bit(7) = "tripped"
+User_Prm_Data_Len = 3
+User_Prm_Data = 0x00,\
+  0x01,2
+Modular_Station = 1
+Max_Module = 2
+Max_Input_Len = 8
+Max_Output_Len = 8
+Max_Data_Len = 16
+Module = "a word in" 0x50
+1
+EndModule
+Module = "four words" 0x73
+2
+Info_Text = "both ways"
+EndModule
+)";
+
+std::string crlf(const std::string& text)
+{
+    std::string out;
+    for (const char each : text) out += each == '\n' ? std::string{"\r\n"} : std::string{each};
+    return out;
+}
+
+std::string file(const std::string& from = "Fail_Safe = 0", const std::string& to = "Fail_Safe = 0")
+{
+    return crlf(with(kGood, from, to));
+}
+
+TEST(GsdCheck, FindsNothingInAGoodFile)
+{
+    EXPECT_THAT(told(file(), Reading::strict, "EXMP4711.GSD"), IsEmpty());
+}
+
+TEST(GsdCheck, TakesTheDecimalAndTheHexadecimalFormForTheSame)
+{
+    EXPECT_THAT(told(file("Max_Input_Len = 8", "Max_Input_Len = 0x08"), Reading::strict), IsEmpty());
+}
+
+/// A change of the good file, and what a tolerant reader then tells.
+struct Bad {
+    const char* name;
+    const char* from;
+    const char* to;
+    const char* told; ///< begins so
+};
+void PrintTo(const Bad& bad, std::ostream* out)
+{
+    *out << bad.name;
+}
+
+class BadGsd : public testing::TestWithParam<Bad> {};
+
+TEST_P(BadGsd, IsToldWithItsLineAndWhatToDo)
+{
+    EXPECT_THAT(told(file(GetParam().from, GetParam().to)), ElementsAre(StartsWith(GetParam().told)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Keywords, BadGsd,
+    testing::Values(
+        Bad{"UnknownKeyword", "Fail_Safe = 0", "Colour = 5", "16: warning: unknown keyword \"Colour\""},
+        Bad{"KeywordOfAModuleInTheDevice", "Fail_Safe = 0", "Preset = 1",
+            "16: error: Preset belongs into a module"},
+        Bad{"BooleanInWords", "Fail_Safe = 0", "Fail_Safe = FALSE",
+            "16: error: Fail_Safe = FALSE: write 0 or 1."},
+        Bad{"BooleanTooLarge", "Fail_Safe = 0", "Fail_Safe = 2", "16: error: Fail_Safe = 2: write 0 or 1."},
+        Bad{"NoNumber", "Min_Slave_Intervall = 20", "Min_Slave_Intervall = 2ms",
+            "17: error: Min_Slave_Intervall = 2ms is no number"},
+        Bad{"NumberOutOfRange", "Max_Diag_Data_Len = 8", "Max_Diag_Data_Len = 245",
+            "18: error: Max_Diag_Data_Len = 245 is out of range: it may be 6 to 244."},
+        Bad{"TextWithoutQuotes", "\"EXAMPLE\"", "EXAMPLE", "3: error: Vendor_Name is a text"},
+        Bad{"TextOf33Characters", "\"EXAMPLE\"", "\"012345678901234567890123456789012\"",
+            "3: error: the text of Vendor_Name has 33 characters: the standard allows 32."},
+        Bad{"QuoteInAText", "\"EXAMPLE\"", "\"EX\"AMPLE",
+            "3: error: AMPLE stands behind the text of Vendor_Name"},
+        Bad{"UnknownFamily", "3@Example@Words", "13",
+            "15: error: Slave_Family = 13: write a number from 0 to 12"},
+        Bad{"OctetTooLarge", "0x01,2", "0x101,2", "21: error: User_Prm_Data is a list of octets"},
+        Bad{"EmptyOctet", "0x01,2", "0x01,,2", "21: error: User_Prm_Data is a list of octets"},
+        Bad{"RepeatedKeyword", "Fail_Safe = 0", "Fail_Safe = 0\nFail_Safe = 0",
+            "17: warning: Fail_Safe stands here a second time (first in line 16)"},
+        Bad{"RepeatedDiagnosisBit", "Fail_Safe = 0", "Fail_Safe = 0\nUnit_Diag_Bit(7) = \"other\"",
+            "20: warning: Unit_Diag_Bit stands here a second time (first in line 17)"},
+        Bad{"IndexMissing", "Unit_Diag_Bit(7)", "Unit_Diag_Bit",
+            "19: error: Unit_Diag_Bit needs a number in ( and )"},
+        Bad{"KeywordNewerThanTheRevision", "Fail_Safe = 0", "Fail_Safe = 0\nIsochron_Mode_supp = 1",
+            "17: warning: Isochron_Mode_supp exists from GSD_Revision 4 on, and the file says 3"},
+        Bad{"Dpv1KeywordWithoutDpv1", "Fail_Safe = 0", "Fail_Safe = 0\nC1_Max_Data_Len = 240",
+            "17: warning: C1_Max_Data_Len has a meaning with DPV1_Slave = 1 only"}),
+    [](const auto& one) { return std::string{one.param.name}; });
+
+INSTANTIATE_TEST_SUITE_P(
+    Device, BadGsd,
+    testing::Values(
+        Bad{"NoVendor", "Vendor_Name = \"EXAMPLE\"\n", "",
+            "0: error: Vendor_Name is missing: add Vendor_Name = \"...\"."},
+        Bad{"NoIdent", "Ident_Number = 0x4711\n", "", "0: error: Ident_Number is missing"},
+        Bad{"NoInterval", "Min_Slave_Intervall = 20\n", "", "0: error: Min_Slave_Intervall is missing"},
+        Bad{"NoFamilyInRevision3", "Slave_Family = 3@Example@Words\n", "",
+            "0: error: Slave_Family is missing"},
+        Bad{"NoDiagnosisLengthInRevision3", "Max_Diag_Data_Len = 8\n", "",
+            "0: error: Max_Diag_Data_Len is missing"},
+        Bad{"RateWithoutMaxTsdr", "MaxTsdr_500 = 100\n", "",
+            "12: error: 500_supp = 1, but MaxTsdr_500 is missing"},
+        Bad{"MaxTsdrWithoutRate", "500_supp = 1\n", "",
+            "13: warning: MaxTsdr_500 stands here, but 500_supp is not 1"},
+        Bad{"MaxTsdrThatNoSlaveMayKeep", "MaxTsdr_500 = 100", "MaxTsdr_500 = 10",
+            "14: warning: MaxTsdr_500 is below 11 bit times"},
+        Bad{"NoMaxModule", "Max_Module = 2\n", "",
+            "23: error: Max_Module is missing, which a modular station needs"},
+        Bad{"DataBelowInput", "Max_Data_Len = 16", "Max_Data_Len = 7", "27: error: Max_Data_Len is below"},
+        Bad{"DataAboveBoth", "Max_Data_Len = 16", "Max_Data_Len = 17",
+            "27: warning: Max_Data_Len is above Max_Input_Len and Max_Output_Len together: write 16 or "
+            "less."},
+        Bad{"DiagnosisBitBeyondTheLength", "Unit_Diag_Bit(7)", "Unit_Diag_Bit(8)",
+            "19: error: this bit of the diagnosis lies beyond Max_Diag_Data_Len, which would have to be 9"},
+        Bad{"UserPrmDataTooShort", "User_Prm_Data_Len = 3", "User_Prm_Data_Len = 4",
+            "21: error: User_Prm_Data has 3 octets, but User_Prm_Data_Len in line 20 says 4"},
+        Bad{"UserPrmDataWithoutLength", "User_Prm_Data_Len = 3\n", "",
+            "20: error: User_Prm_Data without User_Prm_Data_Len"},
+        Bad{"BothStylesOfUserPrmData", "User_Prm_Data_Len = 3",
+            "Max_User_Prm_Data_Len = 3\nUser_Prm_Data_Len = 3",
+            "22: warning: User_Prm_Data and Max_User_Prm_Data_Len exclude each other"}),
+    [](const auto& one) { return std::string{one.param.name}; });
+
+INSTANTIATE_TEST_SUITE_P(
+    Modules, BadGsd,
+    testing::Values(
+        Bad{"MissingEndModule", "EndModule\nModule = \"four", "Module = \"four",
+            "28: error: Module \"a word in\" 0x50 has no EndModule: write EndModule before line 30."},
+        Bad{"MissingReferenceInRevision3", "0x73\n2\n", "0x73\n",
+            "31: error: the module \"four words\" has no reference number"},
+        Bad{"RepeatedReference", "0x73\n2\n", "0x73\n1\n",
+            "31: error: the reference number 1 of the module \"four words\" belongs to the one of line 28 "
+            "already"},
+        Bad{"RepeatedName", "\"four words\"", "\"a word in\"",
+            "31: error: the module \"a word in\" is there already (line 28)"},
+        Bad{"NameOf33Characters", "\"four words\"", "\"012345678901234567890123456789012\"",
+            "31: error: the module's name has 33 characters"},
+        Bad{"IdentifierCutShort", "0x73", "0xC2,0x00,0x01,0xAA",
+            "31: error: the identifiers of the module \"four words\" are cut short"},
+        Bad{"IdentifierLongerThanTheDevice", "0x50", "0x54",
+            "28: error: the module \"a word in\" has 10 input octets, more than Max_Input_Len"},
+        Bad{"OutputLongerThanTheDevice", "0x50", "0x64",
+            "28: error: the module \"a word in\" has 10 output octets, more than Max_Output_Len"},
+        Bad{"EighteenIdentifiers", "0x50", "0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0x50",
+            "28: error: the module \"a word in\" has 18 identifier octets: the standard allows 17."},
+        Bad{"CompactStationWithTwoModules", "Modular_Station = 1\nMax_Module = 2",
+            "Modular_Station = 0\nMax_Module = 1", "31: error: a compact station has one module"},
+        Bad{"UnknownKeywordInAModule", "Info_Text", "Infotext", "33: warning: unknown keyword \"Infotext\""},
+        Bad{"LongTextInAModule", "Info_Text = \"both ways\"",
+            "Channel_Diag(16) = \"012345678901234567890123456789012\"",
+            "33: error: the text of Channel_Diag has 33 characters"}),
+    [](const auto& one) { return std::string{one.param.name}; });
+
+TEST(GsdCheck, TellsWhenMorePresetModulesThanAllowedAreThere)
+{
+    std::string text =
+        with(with(kGood, "Max_Module = 2", "Max_Module = 1"), "0x50\n1", "0x50\n1\nPreset = 1");
+    text = with(text, "0x73\n2", "0x73\n2\nPreset = 1");
+    EXPECT_THAT(told(crlf(text)),
+                ElementsAre(StartsWith("32: error: more modules are preset than Max_Module allows"),
+                            StartsWith("32: error: the preset modules have 10 input and 8 output octets")));
+}
+
+TEST(GsdCheck, TellsWhenThereIsNoModuleAndNoRate)
+{
+    std::string text = kGood.substr(0, kGood.find("Module = \"a word"));
+    for (const char* line : {"9.6_supp = 1\n", "500_supp = 1\n", "MaxTsdr_9.6 = 60\n", "MaxTsdr_500 = 100\n"})
+        text = with(text, line, "");
+    EXPECT_THAT(told(crlf(text)), ElementsAre(StartsWith("0: error: no rate is supported"),
+                                              StartsWith("0: error: there is no module")));
+}
+
+/// Misspellings that files in the field have, and what the standard spells.
+TEST(GsdCheck, NamesTheKeywordThatWasMeant)
+{
+    const std::pair<const char*, const char*> pairs[] = {
+        {"Min_Slave_Interval = 20", "Min_Slave_Intervall"},
+        {"Module_Offset = 1", "Modul_Offset"},
+        {"Max_Tsdr_9.6 = 60", "MaxTsdr_9.6"},
+        {"Autobaud_supp = 1", "Auto_Baud_supp"},
+        {"User_Prm_DataLen = 3", "User_Prm_Data_Len"},
+        {"1,5M_supp = 1", "1.5M_supp"},
+    };
+    for (const auto& [line, meant] : pairs)
+        EXPECT_THAT(told(file("Fail_Safe = 0", line)),
+                    Contains(HasSubstr("the standard spells it \"" + std::string{meant} + "\"")))
+            << line;
+}
+
+TEST(GsdCheck, WarnsWhereAStrictReaderRefuses)
+{
+    const std::string text = file("Fail_Safe = 0", "Colour = 5");
+    EXPECT_THAT(told(text, Reading::tolerant), ElementsAre(StartsWith("16: warning: unknown keyword")));
+    EXPECT_THAT(told(text, Reading::strict), ElementsAre(StartsWith("0: error: Fail_Safe is missing"),
+                                                         StartsWith("16: error: unknown keyword")));
+}
+
+TEST(GsdCheck, LetsAFileWithoutRevisionPassWithAWarning)
+{
+    EXPECT_THAT(told(file("GSD_Revision = 3\n", "")),
+                ElementsAre(StartsWith("0: warning: GSD_Revision is missing")));
+}
+
+TEST(GsdCheck, PutsFindingsInTheOrderOfTheirLines)
+{
+    std::string text = with(kGood, "\"EXAMPLE\"", "EXAMPLE");
+    text = with(text, "Fail_Safe = 0", "Colour = 5");
+    text = with(text, "Module = \"a word in\" 0x50\n1\nEndModule", "Module = \"a word in\" 0x50\n1");
+    EXPECT_THAT(told(crlf(text)), ElementsAre(StartsWith("3:"), StartsWith("16:"), StartsWith("28:")));
+}
+
+TEST(GsdCheck, DoesNotAskAMasterForWhatASlaveNeeds)
+{
+    std::string text = with(kGood, "Station_Type = 0", "Station_Type = 1");
+    text = text.substr(0, text.find("Slave_Family"));
+    EXPECT_THAT(told(crlf(text)), IsEmpty());
+}
+
+TEST(GsdCheck, SaysOnlyThatThereIsNoSectionWhereThereIsNone)
+{
+    EXPECT_THAT(told("MZ this is a program\r\n"),
+                ElementsAre(StartsWith("0: error: there is no line #Profibus_DP"),
+                            StartsWith("1: warning: text before")));
+}
+
+TEST(GsdCheck, ComparesTheFilesNameWithTheIdent)
+{
+    EXPECT_THAT(told(file(), Reading::tolerant, "exmp4711.gsd"), IsEmpty());
+    EXPECT_THAT(told(file(), Reading::tolerant, "EXMP4711.GSG"), IsEmpty());
+    EXPECT_THAT(told(file(), Reading::tolerant, "EURO0533.GSD"),
+                ElementsAre(StartsWith("6: warning: the file's name \"EURO0533.GSD\" does not end in 4711")));
+    EXPECT_THAT(
+        told(file(), Reading::tolerant, "drive.gsd"),
+        ElementsAre(StartsWith("0: warning: the file's name \"drive.gsd\" is not of the form VVVVIIII.GSD")));
+    EXPECT_THAT(told(file(), Reading::tolerant, "EXMP4711.txt"),
+                ElementsAre(StartsWith("0: warning: the file's name \"EXMP4711.txt\" does not end in .GSD")));
+}
+
+} // namespace
+} // namespace dpslave

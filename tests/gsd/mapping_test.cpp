@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Mapping files: several for one instrument are a site's library (C-045).
+#include "gsd/second_hand.hpp"
+
+#include <gmock/gmock.h>
+
+namespace dpslave {
+namespace {
+
+using profile::load_mapping;
+using test::Folder;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(MappingFile, SaysAllThatTheCommandLineCan)
+{
+    const Folder folder;
+    const auto mapping =
+        load_mapping(folder.write("m.toml", "profile = \"605\"\nin = [1, 2]\nout = [3]\nin_out = [4]\n"
+                                            "demand = true\nident = 0x1234\nmax_tsdr = 400\n"
+                                            "description = \"d\"\nmodel = \"m\"\n"));
+    ASSERT_TRUE(mapping);
+    EXPECT_EQ(mapping->profile, "605");
+    EXPECT_THAT(mapping->selection.in, ElementsAre(1, 2));
+    EXPECT_THAT(mapping->selection.out, ElementsAre(3));
+    EXPECT_THAT(mapping->selection.in_out, ElementsAre(4));
+    EXPECT_TRUE(mapping->selection.demand);
+    EXPECT_EQ(mapping->selection.ident, 0x1234);
+    EXPECT_EQ(mapping->selection.max_tsdr, 400U);
+    EXPECT_EQ(mapping->selection.description, "d");
+    EXPECT_EQ(mapping->selection.model, "m");
+}
+
+TEST(MappingFile, NeedsNothingButTheProfile)
+{
+    const Folder folder;
+    const auto mapping = load_mapping(folder.write("m.toml", "profile = \"590\"\n"));
+    ASSERT_TRUE(mapping);
+    EXPECT_THAT(mapping->selection.in, IsEmpty());
+    EXPECT_FALSE(mapping->selection.demand);
+    EXPECT_EQ(mapping->selection.ident, std::nullopt);
+}
+
+TEST(MappingFile, IsRefusedWithEveryFaultAtItsPlace)
+{
+    const Folder folder;
+    const auto mapping = load_mapping(folder.write("m.toml", "in = [0]\nident = 70000\ncolour = 5\n"));
+    ASSERT_FALSE(mapping);
+    const auto faults = test::short_forms(mapping.error());
+    EXPECT_THAT(faults, testing::Contains(HasSubstr("'profile' is missing")));
+    EXPECT_THAT(faults, testing::Contains(testing::StartsWith("1:")));
+    EXPECT_THAT(faults, testing::Contains(testing::StartsWith("2:")));
+    EXPECT_THAT(faults, testing::Contains(HasSubstr("colour")));
+    EXPECT_FALSE(load_mapping(folder.path() / "not there.toml"));
+}
+
+} // namespace
+} // namespace dpslave

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gsd/second_hand.hpp"
+
+#include "dpslave/gsd/device.hpp"
+
+#include <algorithm>
+
+namespace dpslave::test {
+namespace {
+
+std::string without_blanks(std::string text)
+{
+    text.erase(std::remove(text.begin(), text.end(), ' '), text.end());
+    return text;
+}
+
+std::vector<std::uint8_t> list(const std::string& text)
+{
+    std::vector<std::uint8_t> out;
+    std::istringstream parts{text};
+    for (std::string part; std::getline(parts, part, ',');)
+        out.push_back(static_cast<std::uint8_t>(std::stoi(part, nullptr, 0)));
+    return out;
+}
+
+} // namespace
+
+int SecondHand::number(const std::string& key) const
+{
+    EXPECT_TRUE(keys.count(key)) << key;
+    return keys.count(key) ? std::stoi(keys.at(key), nullptr, 0) : -1;
+}
+
+std::vector<std::uint8_t> SecondHand::octets(const std::string& key) const
+{
+    EXPECT_TRUE(keys.count(key)) << key;
+    return keys.count(key) ? list(keys.at(key)) : std::vector<std::uint8_t>{};
+}
+
+std::vector<std::uint8_t> SecondHand::cfg() const
+{
+    std::vector<std::uint8_t> out;
+    for (const Module& module : modules)
+        if (module.preset || number("Modular_Station") == 0)
+            out.insert(out.end(), module.identifiers.begin(), module.identifiers.end());
+    return out;
+}
+
+SecondHand second_hand(const std::string& content)
+{
+    std::string joined = content;
+    for (auto at = joined.find("\\\r\n"); at != std::string::npos; at = joined.find("\\\r\n"))
+        joined.erase(at, 3);
+    SecondHand found;
+    std::istringstream lines{joined};
+    for (std::string line; std::getline(lines, line);) {
+        line = line.substr(0, line.find_first_of(";\r"));
+        const auto equals = line.find('=');
+        if (equals == std::string::npos) continue;
+        const std::string key = without_blanks(line.substr(0, equals));
+        std::string value = line.substr(equals + 1);
+        if (key == "Module") {
+            const auto open = value.find('"');
+            const auto close = value.find('"', open + 1);
+            found.modules.push_back({value.substr(open + 1, close - open - 1),
+                                     list(without_blanks(value.substr(close + 1))), false});
+        } else if (key == "Preset") {
+            found.modules.back().preset = without_blanks(value) == "1";
+        } else if (value.find('"') != std::string::npos) {
+            found.keys[key] = value.substr(value.find('"'));
+        } else {
+            found.keys[key] = without_blanks(value);
+        }
+    }
+    return found;
+}
+
+profile::Profile load(const std::string& name)
+{
+    auto profile = profile::load_profile(kSource / "config/profiles", name);
+    EXPECT_TRUE(profile) << to_string(profile.error().at(0));
+    return profile ? *std::move(profile) : profile::Profile{};
+}
+
+std::string made(const profile::Profile& profile, profile::Selection selection)
+{
+    if (!profile.ident && !selection.ident) selection.ident = kOwnIdent;
+    const auto device = profile::device_of(profile, selection);
+    EXPECT_TRUE(device) << (device ? "" : device.error().at(0));
+    return device ? gsd::write(device->device) : "";
+}
+
+std::vector<std::string> told(const gsd::Findings& findings)
+{
+    std::vector<std::string> out;
+    for (const gsd::Finding& finding : findings)
+        out.push_back(std::to_string(finding.line) +
+                      (finding.severity == gsd::Severity::error ? ": error: " : ": warning: ") +
+                      finding.what);
+    return out;
+}
+
+std::vector<std::string> told(const std::string& content, gsd::Reading reading, const std::string& file_name)
+{
+    return told(gsd::check(gsd::parse(content), reading, file_name));
+}
+
+} // namespace dpslave::test

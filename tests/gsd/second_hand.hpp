@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A small GSD reader of the tests' own, so that the files are judged by a second hand; the profiles and
+/// files of this tree; and octets written out.
+#pragma once
+
+#include "profile/files.hpp"
+
+#include "dpslave/gsd/check.hpp"
+#include "dpslave/profile/gsd_device.hpp"
+#include "dpslave/profile/profile.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dpslave::test {
+
+inline const std::filesystem::path kSource{DPSLAVE_SOURCE_DIR};
+
+/// Every profile that is shipped, and those whose ident is open.
+inline const std::vector<std::string> kProfiles{"584s", "590",     "620",   "584sv", "590plus",
+                                                "605",  "690plus", "2408f", "2404f"};
+
+/// An ident that no profile has, for those that have none.
+inline constexpr std::uint16_t kOwnIdent = 0x7EA5;
+
+struct SecondHand {
+    std::map<std::string, std::string> keys; ///< as printed; the last one counts, as in the masters' tools
+    struct Module {
+        std::string name;
+        std::vector<std::uint8_t> identifiers;
+        bool preset = false;
+    };
+    std::vector<Module> modules;
+
+    /// A key that is not there is a failure of the test.
+    int number(const std::string& key) const;
+    std::vector<std::uint8_t> octets(const std::string& key) const;
+    /// All identifiers of the plugged modules: those of a compact station, and the preset ones.
+    std::vector<std::uint8_t> cfg() const;
+};
+SecondHand second_hand(const std::string& content);
+
+profile::Profile load(const std::string& name);
+
+/// The file for `selection`, with kOwnIdent where the profile leaves it open. A refusal is a failure of the
+/// test.
+std::string made(const profile::Profile& profile, profile::Selection selection);
+
+/// "12: error: sentence" for each finding.
+std::vector<std::string> told(const gsd::Findings& findings);
+/// The same for a file's content.
+std::vector<std::string> told(const std::string& content, gsd::Reading reading = gsd::Reading::tolerant,
+                              const std::string& file_name = {});
+
+} // namespace dpslave::test

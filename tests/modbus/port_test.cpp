@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The port itself: not there at the start, pulled in service, plugged in again.
+#include "scripted_slave.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <termios.h>
+
+#include <array>
+#include <filesystem>
+#include <optional>
+
+namespace dpslave::modbus::test {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// A port under one name, whatever is plugged in there.
+class Socket {
+public:
+    Socket()
+    {
+        std::string folder = (std::filesystem::temp_directory_path() / "dpslave-modbus-XXXXXX").string();
+        if (::mkdtemp(folder.data()) == nullptr)
+            throw std::system_error{errno, std::system_category(), "mkdtemp"};
+        folder_ = folder;
+        plug();
+    }
+    ~Socket()
+    {
+        slave_.reset();
+        std::filesystem::remove_all(folder_);
+    }
+    Socket(const Socket&) = delete;
+    Socket& operator=(const Socket&) = delete;
+
+    std::string path() const { return folder_ / "port"; }
+    void plug()
+    {
+        cable_.emplace();
+        std::filesystem::create_symlink(cable_->path(), path());
+        slave_ = std::make_unique<ScriptedSlave>(cable_->fd());
+    }
+    void pull()
+    {
+        slave_.reset();
+        std::filesystem::remove(path());
+        cable_.reset();
+    }
+    ScriptedSlave& slave() { return *slave_; }
+
+private:
+    std::filesystem::path folder_;
+    std::optional<io::Pty> cable_;
+    std::unique_ptr<ScriptedSlave> slave_;
+};
+
+TEST(ModbusPort, IsRefusedWithASentenceWhenItIsNotThere)
+{
+    std::atomic<bool> is_open{false};
+
+    const auto none = ModbusRtu::open({.port = "/dev/no-such-port"}, is_open);
+    const auto no_tty = ModbusRtu::open({.port = "/dev/null"}, is_open);
+
+    ASSERT_FALSE(none);
+    EXPECT_THAT(none.error(), AllOf(StartsWith("/dev/no-such-port is not there"), HasSubstr("check `port`")));
+    ASSERT_FALSE(no_tty);
+    EXPECT_THAT(no_tty.error(), HasSubstr("no serial port"));
+    EXPECT_FALSE(is_open);
+}
+
+TEST(ModbusPort, IsRefusedWhileAnotherProgramUsesIt)
+{
+    io::Pty cable;
+    std::atomic<bool> is_open{false};
+    const auto first = ModbusRtu::open({.port = cable.path()}, is_open);
+    ASSERT_TRUE(first) << first.error();
+
+    const auto second = ModbusRtu::open({.port = cable.path()}, is_open);
+
+    ASSERT_FALSE(second);
+    EXPECT_THAT(second.error(), HasSubstr("used by another program"));
+}
+
+TEST(ModbusPort, GivesEveryOctetThroughUnchanged)
+{
+    Bench line;
+    line.slave().answers("01 03 08 0D 0A 11 13 03 04 00 7F"); // CR, LF, XON, XOFF, end of text, end of file
+    std::array<std::uint16_t, 4> words{};
+
+    ASSERT_EQ(line.drive().read({.unit = 1}, number(0x0D0A), words), AccessError::none);
+
+    EXPECT_THAT(words, testing::ElementsAre(0x0D0A, 0x1113, 0x0304, 0x007F));
+    EXPECT_THAT(line.slave().requested()[0], StartsWith("01 03 0D 0A 00 04"));
+}
+
+TEST(ModbusPort, ThatDoesNotTakeTheRequestIsStillThere)
+{
+    Socket socket;
+    std::atomic<bool> is_open{false};
+    const auto drive = ModbusRtu::open({.port = socket.path(), .timeout = 20s}, is_open);
+    ASSERT_TRUE(drive) << drive.error();
+    const io::Fd same_port{::open(socket.path().c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC)};
+    std::uint16_t word = 0;
+
+    ASSERT_EQ(::tcflow(same_port.get(), TCOOFF), 0); // as a UART without its clear-to-send
+    EXPECT_EQ((*drive)->read({.unit = 1}, number(1), {&word, 1}), AccessError::no_answer);
+    EXPECT_EQ((*drive)->last_trouble(), "the line does not take the request");
+    EXPECT_TRUE(is_open);
+
+    ASSERT_EQ(::tcflow(same_port.get(), TCOON), 0);
+    socket.slave().answers("01 03 02 00 B7");
+    EXPECT_EQ((*drive)->read({.unit = 1}, number(2), {&word, 1}), AccessError::none);
+    EXPECT_EQ(word, 183);
+    EXPECT_EQ(socket.slave().requests().size(), 1U);
+}
+
+TEST(ModbusPort, IsUsedAgainWhenItReturns)
+{
+    Socket socket;
+    std::atomic<bool> is_open{false};
+    const auto drive = ModbusRtu::open({.port = socket.path(), .timeout = 20s, .reopen_after = 0ms}, is_open);
+    ASSERT_TRUE(drive) << drive.error();
+    std::uint16_t word = 0;
+    EXPECT_TRUE(is_open);
+
+    socket.pull();
+    EXPECT_EQ((*drive)->read({.unit = 1}, number(1), {&word, 1}), AccessError::no_answer);
+    EXPECT_FALSE(is_open);
+    EXPECT_EQ((*drive)->last_trouble(), socket.path() + " has gone");
+    EXPECT_FALSE((*drive)->probe({.unit = 1})); // still gone
+    EXPECT_FALSE(is_open);
+
+    socket.plug();
+    socket.slave().answers("01 03 02 00 B7");
+    EXPECT_EQ((*drive)->read({.unit = 1}, number(1), {&word, 1}), AccessError::none);
+    EXPECT_EQ(word, 183);
+    EXPECT_TRUE(is_open);
+}
+
+TEST(ModbusPort, ThatVanishesWhileAnAnswerIsAwaitedIsNotWaitedForAnyLonger)
+{
+    Socket socket;
+    std::atomic<bool> is_open{false};
+    const auto drive = ModbusRtu::open({.port = socket.path(), .timeout = 1h, .reopen_after = 0ms}, is_open);
+    ASSERT_TRUE(drive) << drive.error();
+    std::thread puller{[&socket] {
+        static_cast<void>(socket.slave().requests(1));
+        socket.pull();
+    }};
+    std::uint16_t word = 0;
+
+    EXPECT_EQ((*drive)->read({.unit = 1}, number(1), {&word, 1}), AccessError::no_answer);
+
+    puller.join();
+    EXPECT_FALSE(is_open);
+}
+
+TEST(ModbusPort, IsTriedAgainOnlyAfterAWhile)
+{
+    Socket socket;
+    std::atomic<bool> is_open{false};
+    const auto drive = ModbusRtu::open({.port = socket.path(), .timeout = 20s, .reopen_after = 1h}, is_open);
+    ASSERT_TRUE(drive) << drive.error();
+    socket.pull();
+    EXPECT_FALSE((*drive)->probe({.unit = 1}));
+    socket.plug();
+
+    EXPECT_FALSE((*drive)->probe({.unit = 1}));
+
+    EXPECT_FALSE(is_open);
+    EXPECT_TRUE(socket.slave().requests().empty());
+}
+
+} // namespace
+} // namespace dpslave::modbus::test
