@@ -105,9 +105,8 @@ constexpr const char* kFooter =
     "STATION is a name or an address. Values are in the drive's displayed units: dpctl write 56 -12.5\n"
     "--json prints the parameters of the daemon's reply as they come (an error with its name and "
     "parameters).\n"
-    "Their description is the Varlink interface org.dpslaved.Control: see org.dpslaved.Control.varlink in\n"
-    "/usr/share/dpslaved, or ask the daemon: varlinkctl introspect /run/dpslaved/control.sock "
-    "org.dpslaved.Control\n"
+    "Their description is the Varlink interface org.dpslaved.Control; the daemon tells it:\n"
+    "varlinkctl introspect /run/dpslaved/control.sock org.dpslaved.Control\n"
     "What needs no daemon (tag, hex, decode) or judges its replies (doctor) says the form of its --json in "
     "its\n"
     "own --help.\n"
@@ -271,6 +270,10 @@ int run(const std::vector<std::string>& arguments, Terminal& terminal)
         app.parse(std::move(reversed));
     } catch (const CLI::ParseError& error) {
         return app.exit(error, terminal.out, terminal.err) == 0 ? kFine : kUsage;
+    }
+    if (options.json && app.got_subcommand("gsd")) {
+        terminal.err << "dpctl gsd prints text only: leave --json out\n";
+        return kUsage;
     }
     return chosen(options, terminal);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The option board: HA389815 ch. 9 (acceptance ).
+// The option board: HA389815 ch. 9 (rows ).
 #include "doctor_rules.hpp"
 #include "words.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The technology box: HA463561U002, "Troubleshooting" (acceptance B-090). Its pictures of the lamps are lost:
+// The technology box: HA463561U002, "Troubleshooting" (rows B-090). Its pictures of the lamps are lost:
 // the pairs are those of B-030 and B-031.
 #include "doctor_rules.hpp"
 #include "words.hpp"

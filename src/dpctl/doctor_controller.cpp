@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The controller: 2408f/2404f handbook ch. 6 (acceptance C-021).
+// The controller: 2408f/2404f handbook ch. 6 (rows C-021).
 #include "doctor_rules.hpp"
 #include "words.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Numbers of 16 bits as the tools of the masters want them (HA389815 app. C; HA463561U002, hex table and
-/// "Data encoding"). Computed, because the printed tables have errors (acceptance X-29).
+/// "Data encoding"). Computed, because the printed tables have errors (rows X-29).
 #pragma once
 
 #include "fields.hpp"

@@ -78,6 +78,7 @@ std::string type_text(const Tag& tag)
 /// A limit as the drive shows it; labels would only disturb.
 std::string limit(const Tag& tag, std::int32_t counts)
 {
+    if (tag.type == drive::TagType::word) return fmt::format("0x{:04X}", static_cast<std::uint16_t>(counts));
     Tag bare = tag;
     bare.labels.clear();
     return drive::displayed(bare, static_cast<std::uint16_t>(counts));

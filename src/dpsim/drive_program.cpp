@@ -26,7 +26,7 @@ std::string shipped_table(const std::string& name)
     std::error_code error;
     const fs::path self = fs::read_symlink("/proc/self/exe", error);
     if (!error) places.emplace_back(self.parent_path() / "../../../config/tags" / name);
-    places.emplace_back(fs::path{"/usr/share/dpslaved/tags"} / name);
+    places.emplace_back(fs::path{DPSLAVE_DATA_FOLDER "/tags"} / name); // given by CMake
     for (const fs::path& place : places)
         if (fs::is_regular_file(place, error)) return place.lexically_normal().string();
     return places.back().string();

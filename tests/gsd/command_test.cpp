@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `dpctl gsd` as a person calls it: exit codes, what is printed, files whole or not at all.
+#include "cli.hpp"
 #include "gsd.hpp"
 #include "gsd/second_hand.hpp"
 
@@ -278,6 +279,16 @@ TEST(GsdTypesCommand, WritesAllFiveOrNone)
     EXPECT_EQ(gsd_command({"types", "--brief", "--force", "--output", folder.path()}).exit, dpctl::kFine);
     EXPECT_THAT(content_of(folder.path() / "EU0533TF.200"), HasSubstr("\r\nEURO 584/590/620 ;\r\n"));
     EXPECT_EQ(gsd_command({"types", "--output", folder.path() / "none"}).exit, dpctl::kNo);
+}
+
+TEST(GsdCommand, HasNoJsonAndSaysSo)
+{
+    std::ostringstream out, err;
+    dpctl::Terminal terminal{out, err};
+    const std::string file = kSource / "gsd/590/590_0533.GSD";
+    EXPECT_EQ(dpctl::run({"--json", "gsd", "check", file}, terminal), dpctl::kUsage);
+    EXPECT_EQ(err.str(), "dpctl gsd prints text only: leave --json out\n");
+    EXPECT_THAT(out.str(), IsEmpty());
 }
 
 TEST(GsdCommand, NeedsASubcommandAndHelpsWithEach)

@@ -2,7 +2,7 @@
 /// What a device says and lets set beyond plain DP: its TEC OPTION function block, its extended diagnosis and
 /// the lamps that mirror the drive. One per station, the main thread's own. Pure: snapshots in; orders for
 /// the bus and the drive line, conditions of the lamps and sentences for the log out. Source: HA463561U002
-/// (acceptance B-040 to B-055, B-080 to B-084), handbook ch. 4 (C-015 to C-017, X-15).
+/// (rows B-040 to B-055, B-080 to B-084), handbook ch. 4 (C-015 to C-017, X-15).
 #pragma once
 
 #include "dpslave/app/config.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Demand Data: access to any tag through the first eight octets of the cyclic exchange.
-/// Source: HA389815 ch. 7; 2408f/2404f handbook ch. 7; acceptance rows, C-060 to C-069.
+/// Source: HA389815 ch. 7; 2408f/2404f handbook ch. 7; rows, C-060 to C-069.
 #pragma once
 
 #include "dpslave/base/process_image.hpp"
@@ -14,7 +14,7 @@
 namespace dpslave::dp {
 
 /// The error code of Demand Data for a failed access, 0 to 2; nothing where no code stands for it (success,
-/// silence, noise). Source: HA389815 ch. 7; for the finer reasons acceptance X-34.
+/// silence, noise). Source: HA389815 ch. 7; for the finer reasons rows X-34.
 std::optional<std::uint16_t> demand_code(AccessError error) noexcept;
 
 /// The eight octets as words: command and tag, extended tag, reserved, value or error code.

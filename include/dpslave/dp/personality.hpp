@@ -73,7 +73,7 @@ struct Personality {
     bool fail_safe = false;          ///< zero-length Data_Exchange in Clear is legal
     std::size_t max_diag_length = 6; ///< octets of Slave_Diag, 6..244
     /// Octets (1..62) behind the header of the one device-related block that is always sent, from the start
-    /// on and then as zeros (acceptance B-080, C-017). max_diag_length is at least diag_octets + 7. 0 = no
+    /// on and then as zeros (rows B-080, C-017). max_diag_length is at least diag_octets + 7. 0 = no
     /// block of its own.
     std::uint8_t diag_octets = 0;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The LED language of a device: what is the case -> which lamp shows what, at which moment. Pure.
-/// Source: HA389815 ch. 9 (acceptance row A-084); HA463561U002, "Understanding the LED Indications" (B-030 to
+/// Source: HA389815 ch. 9 (rows A-084); HA463561U002, "Understanding the LED Indications" (B-030 to
 /// B-035); 2408f/2404f handbook ch. 4 (C-009).
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Drives that speak Modbus RTU, all on one serial line. Tag = register, no offset (acceptance C-128), unless
+/// Drives that speak Modbus RTU, all on one serial line. Tag = register, no offset (rows C-128), unless
 /// its row names another register; words travel as the drive has them, only those of the IEEE area are
 /// converted. Source: EI-ASCII and Modbus reference, sections 4 to 6; MODBUS Application Protocol V1.1b3.
 #pragma once

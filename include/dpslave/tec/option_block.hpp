@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The TEC OPTION function block of a technology box: what is set, what it shows, and what INT DIAGNOSTIC
 /// tells. Pure: settings and snapshots in, numbers and words out.
-/// Source: HA463561U002, "Initial Set-up for Profibus", "Internal Diagnostics"; acceptance B-040 to B-055,
+/// Source: HA463561U002, "Initial Set-up for Profibus", "Internal Diagnostics"; rows B-040 to B-055,
 /// B-080 to B-094.
 #pragma once
 
