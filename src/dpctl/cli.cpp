@@ -105,7 +105,8 @@ constexpr const char* kFooter =
     "STATION is a name or an address. Values are in the drive's displayed units: dpctl write 56 -12.5\n"
     "--json prints the parameters of the daemon's reply as they come (an error with its name and "
     "parameters).\n"
-    "Their description is the Varlink interface org.dpslaved.Control; the daemon tells it:\n"
+    "Their description is the Varlink interface org.dpslaved.Control: see\n" DPSLAVE_DATA_FOLDER
+    "/org.dpslaved.Control.varlink, or ask the daemon:\n"
     "varlinkctl introspect /run/dpslaved/control.sock org.dpslaved.Control\n"
     "What needs no daemon (tag, hex, decode) or judges its replies (doctor) says the form of its --json in "
     "its\n"
