@@ -162,7 +162,8 @@ TagFiles load_tables(const fs::path& profiles)
         if (entry->path().extension() == ".csv") paths.push_back(entry->path().lexically_normal());
     if (error)
         result.faults.push_back((profiles / ".." / "tags").lexically_normal().string() + ": " +
-                                error.message());
+                                error.message() +
+                                "; name the folder of profiles beside it with --profiles DIR");
     std::sort(paths.begin(), paths.end());
     for (const fs::path& path : paths) {
         TagFiles one = load_table(path);

@@ -78,6 +78,13 @@ TEST_F(Report, OfDemandDataShowsValuesAsTheTagTableHasThem)
     EXPECT_EQ(demand({0x200F, 0, 0, 1}, {0x100F, 0, 0, 1}), "write 1 (SP2) to tag 15: done, value 1 (SP2)");
 }
 
+TEST_F(Report, OfOneTagNamesItsValue) // as dpctl read and write show it
+{
+    EXPECT_EQ(app::shown_value(*bench.station.tags, 15, 1), "1 (SP2)");
+    EXPECT_EQ(app::shown_value(*bench.station.tags, 1, 9999), "999.9");
+    EXPECT_EQ(app::shown_value(*bench.station.tags, 4711, 0x12), ">0012") << "in no table";
+}
+
 TEST_F(Report, OfAParameterThatIsReadAndWrittenHasARowForEachDirection)
 {
     bench.view.bus.layout.generation = bench.view.drive.generation = 1;

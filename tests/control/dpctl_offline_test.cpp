@@ -124,7 +124,9 @@ TEST(DpctlTag, EndsWith1WhenNothingIsFound)
 
     const Ran no_tables = dpctl({"tag", "7", "--profiles", "/nonexistent/profiles"});
     EXPECT_EQ(no_tables.exit, 1);
-    EXPECT_EQ(no_tables.err, "dpctl: /nonexistent/tags: No such file or directory\n");
+    EXPECT_EQ(no_tables.err,
+              "dpctl: /nonexistent/tags: No such file or directory; name the folder of profiles beside it "
+              "with --profiles DIR\n");
 
     const Ran no_profile = dpctl({"tag", "7", "--profile", "591", "--profiles", kShipped});
     EXPECT_EQ(no_profile.exit, 1);

@@ -241,7 +241,9 @@ TEST(ShippedTables, AFolderWithoutTablesIsAFault)
 
     EXPECT_TRUE(none.files.empty());
     ASSERT_EQ(none.faults.size(), 1u);
-    EXPECT_EQ(none.faults[0], "/nonexistent/tags: No such file or directory");
+    EXPECT_EQ(none.faults[0],
+              "/nonexistent/tags: No such file or directory; name the folder of profiles beside it with "
+              "--profiles DIR");
 }
 
 } // namespace
