@@ -16,6 +16,7 @@ die() {
 build_packages=(
     g++ cmake ninja-build pkg-config
     libspdlog-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libsystemd-dev libmodbus-dev
+    libgpiod-dev scdoc
 )
 # What the tests need beside that.
 test_packages=(libgtest-dev libgmock-dev binutils python3 python3-pymodbus python3-serial python3-serial-asyncio)

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+// The loop: octets, replies, and what everybody else wants to know. Who is on the bus: bus_roster.cpp.
 #include "dpslave/app/bus_thread.hpp"
 
 #include "dpslave/io/clock.hpp"
+#include "dpslave/io/realtime.hpp"
 
 #include <sys/epoll.h>
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace dpslave::app {
 
@@ -16,12 +19,8 @@ constexpr std::uint64_t kTtyKey = 0;
 constexpr std::uint64_t kWakeKey = 1;
 constexpr std::uint64_t kTickKey = 2;
 
-fdl::StationSettings station_settings(const Config& config)
-{
-    fdl::StationSettings settings;
-    settings.baud = config.bus.baud;
-    return settings;
-}
+/// Where a search begins to be prepared: every UART can do this rate.
+constexpr Baud kEveryUart = Baud::k9_6;
 
 /// Calls `visit(n)` for every bit n that is set, without looking at the others one by one.
 template <class Visit>
@@ -37,104 +36,105 @@ void for_each(const std::bitset<128>& bits_set, Visit visit)
     }
 }
 
+fdl::StationSettings station_settings(const BusConfig& config, io::Port& port, const io::DriverEnable& driver)
+{
+    fdl::StationSettings settings;
+    settings.start_up_latency = driver.edge_time(); // the driver goes on before the first bit
+    if (config.baud) {
+        settings.baud = *config.baud;
+        return settings;
+    }
+    settings.baud = Baud::k1500; // if it can be done, else the next lower one
+    settings.search.emplace();
+    if (port.is_open()) settings.search->rates = port.tty().bauds().can;
+    return settings;
+}
+
+/// How long the echo of a reply may take to be read after its last bit: the FIFO of the UART and the kernel's
+/// own workers are in it, as in the gap that ends an unfinished telegram (wire reference 1.5).
+std::chrono::nanoseconds echo_latency(Baud baud)
+{
+    using std::chrono::milliseconds;
+    return duration_of(fdl::kTsyn, baud) + (baud >= Baud::k93_75 ? milliseconds{5} : milliseconds{20});
+}
+
 } // namespace
 
 io::TtySettings bus_tty_settings(const Config& config)
 {
     io::TtySettings settings;
-    settings.baud = static_cast<std::uint32_t>(config.bus.baud);
+    settings.baud = static_cast<std::uint32_t>(config.bus.baud.value_or(kEveryUart));
     settings.mark_errors = true;
+    settings.prompt = true;
     return settings;
 }
 
-BusStation::BusStation(const StationConfig& config, StationLink& link)
-    : link_(link), slave_(*config.personality, config.address)
+BusThread::BusThread(const BusConfig& config, io::Port port, io::DriverEnable& driver,
+                     std::unique_ptr<Roster> roster, BusLink& link)
+    : port_(std::move(port)),
+      driver_(driver),
+      sender_(driver),
+      echo_(config.echo),
+      station_(station_settings(config, port_, driver)),
+      link_(link),
+      roster_(std::move(roster))
 {
-    orders_.address = config.address;
-}
-
-void BusStation::fetch()
-{
-    if (link_.inputs.fresh()) slave_.set_inputs(link_.inputs.latest());
-    if (link_.demand_answer.fresh()) slave_.set_demand_answer(link_.demand_answer.latest());
-    take_orders();
-}
-
-bool BusStation::take_orders()
-{
-    if (!link_.bus_orders.fresh()) return false;
-    orders_ = link_.bus_orders.latest();
-    slave_.set_ext_diag(orders_.ext_diag, orders_.ext_diag_fault);
-    return true;
-}
-
-fdl::Answer BusStation::srd(const fdl::Indication& request, fdl::ReplyData& reply)
-{
-    fetch();
-    return slave_.srd(request, reply);
-}
-
-void BusStation::sdn(const fdl::Indication& request)
-{
-    fetch(); // Freeze holds the inputs as they are at the command
-    slave_.sdn(request);
-}
-
-void BusStation::on_time(Instant now)
-{
-    fetch();
-    slave_.on_time(now);
-}
-
-bool BusStation::hand_on()
-{
-    while (const auto left = slave_.take_left())
-        link_.ended.store(left->generation, std::memory_order_release);
-    if (const auto outputs = slave_.take_outputs()) link_.outputs.publish(*outputs);
-
-    if (!waiting_order_) waiting_order_ = slave_.take_demand_order();
-    while (waiting_order_ && link_.demand_orders.push(*waiting_order_))
-        waiting_order_ = slave_.take_demand_order();
-
-    while (const auto event = slave_.take_event()) {
-        link_.events.push(*event); // full: counted by the ring; the log is not worth a lost telegram
-    }
-    return !waiting_order_;
-}
-
-BusThread::BusThread(const Config& config, io::Tty tty, std::vector<std::unique_ptr<StationLink>>& stations,
-                     BusLink& link)
-    : config_(config), tty_(std::move(tty)), station_(station_settings(config)), link_(link)
-{
-    for (std::size_t i = 0; i < config.stations.size(); ++i)
-        stations_.push_back(std::make_unique<BusStation>(config.stations[i], *stations[i]));
-    address_.resize(stations_.size());
+    seat_newcomers();
 }
 
 void BusThread::run(std::stop_token stop, io::EventFd& wake)
 {
+    const io::ShallowIdle no_deep_sleep;
     epoll_.add(wake.fd(), EPOLLIN, kWakeKey);
     epoll_.add(ticker_.fd(), EPOLLIN, kTickKey);
-    watch_port();
-    for (std::size_t i = 0; i < stations_.size(); ++i) unseen_.set(i);
+    if (port_.is_open()) watch_port();
+    follow_rate(); // a search tells where it begins
+    faults_at_start_ = io::page_faults_of_thread();
 
     while (!stop.stop_requested()) {
-        if (orders_due_) obey_orders();
-        const Instant next_show = unseen_.any() ? next_snapshot_ : kNever;
-        look(octets_before(std::min(station_.next_deadline(), next_show)));
+        if (orders_due_ && !sender_.is_sending()) {
+            follow_roster();
+            obey_orders();
+        }
+        look(octets_before(next_wake()));
         if (station_.next_deadline() - io::monotonic_now() < kSpin) wait_for_window();
         send();
+        finish_sending(); // a short reply is over before anything else could be done
         hand_on();
-        show(io::monotonic_now());
-        if (!tty_) try_reopen(io::monotonic_now());
+        finish_sending();
+        follow_rate();
+        const Instant now = io::monotonic_now();
+        if (!in_a_hurry(now)) show(now);
+        if (!port_.is_open()) try_reopen(now);
+        mind_driver(now);
         link_.heartbeat.fetch_add(1, std::memory_order_relaxed);
     }
+    epoll_.remove(wake.fd()); // it has said its word
+    leave_bus();
+}
 
-    for (const auto& one : stations_) {
-        one->slave().stop(io::monotonic_now());
-        one->hand_on();
-        one->publish_snapshot();
+/// The last reply is let out, then every slave leaves with all that leaving means.
+void BusThread::leave_bus()
+{
+    while (sender_.is_sending()) {
+        octets_before(next_wake());
+        finish_sending();
     }
+    for (const Place& place : places_) {
+        if (place.station == nullptr) continue;
+        place.station->slave().stop(io::monotonic_now());
+        place.station->hand_on();
+        place.station->publish_snapshot();
+    }
+}
+
+Instant BusThread::next_wake() const
+{
+    Instant next = station_.next_deadline();
+    if (unseen_.any()) next = std::min(next, next_snapshot_);
+    // Somewhat before: the driver is let go on the dot, and to wake up takes its time.
+    if (sender_.is_sending()) next = std::min(next, sender_.next_deadline() - 2 * kSpin);
+    return next;
 }
 
 /// Waits until `when` at most, not at all if that is near. True: the port has something to say.
@@ -159,7 +159,7 @@ bool BusThread::octets_before(Instant when)
 /// that finds nothing makes the kernel wait for its own workers, which takes milliseconds on a busy machine.
 void BusThread::look(bool octets)
 {
-    if (octets && tty_ && !read_line()) lose_port();
+    if (octets && port_.is_open() && !read_line()) lose_port();
     station_.on_time(io::monotonic_now());
 }
 
@@ -181,21 +181,66 @@ void BusThread::wait_for_window()
 bool BusThread::read_line()
 {
     for (;;) {
-        const auto chunk = tty_->read(buffer_);
+        const auto chunk = port_.tty().read(buffer_);
         if (!chunk) return false;
         const Instant read_at = io::monotonic_now();
         const bool more = chunk->more || chunk->bad_character;
-        if (!chunk->octets.empty()) station_.on_bytes(chunk->octets, read_at, more);
-        if (chunk->bad_character) station_.on_character_error(read_at);
+        if (!chunk->octets.empty()) hear(chunk->octets, read_at, more);
+        if (chunk->bad_character) {
+            if (const Bytes withheld = echo_.on_character_error(read_at); !withheld.empty())
+                station_.on_bytes(withheld, read_at, true);
+            station_.on_character_error(read_at);
+        }
         if (!chunk->more) return true;
     }
+}
+
+/// Octets from the line; our own do not reach layer 2.
+void BusThread::hear(Bytes octets, Instant read_at, bool more)
+{
+    const auto foreign = echo_.remove(octets, read_at);
+    if (foreign.octets.empty()) return;
+    heard_at_ = read_at;
+    if (!foreign.withheld.empty()) station_.on_bytes(foreign.withheld, read_at, true);
+    station_.on_bytes(foreign.octets, read_at, more);
 }
 
 void BusThread::send()
 {
     const auto reply = station_.take_transmit();
-    if (!reply || !tty_) return;
-    if (tty_->send(*reply)) ++write_errors_;
+    if (!reply || !port_.is_open()) return;
+    const Baud baud = station_.baud();
+    const auto written = sender_.send(*reply, port_.tty(), baud);
+    if (!written) return;
+    const Tbit length{static_cast<std::uint32_t>(reply->size()) * kCharacter.count};
+    const Instant over = *written + duration_of(length, baud);
+    echo_.sent(*reply, over + duration_of(fdl::kTsyn, baud), over + echo_latency(baud));
+    count_turnaround(*written, baud);
+}
+
+/// From the read of the request's last octet to the end of the write: the newest octets heard are that
+/// request, or there would be no reply to it.
+void BusThread::count_turnaround(Instant written, Baud baud)
+{
+    const auto took = static_cast<std::uint64_t>(std::max(written - heard_at_, {}).count());
+    const auto in = [took](std::uint64_t units_in_second) {
+        constexpr std::uint64_t kSecond = 1'000'000'000;
+        const std::uint64_t units = (took * units_in_second + kSecond - 1) / kSecond;
+        return static_cast<std::uint32_t>(std::min<std::uint64_t>(units, UINT32_MAX));
+    };
+    turnaround_us_.add(in(1'000'000));
+    turnaround_tbit_.add(in(static_cast<std::uint64_t>(baud)));
+    if (written > station_.window_ended()) ++too_late_;
+}
+
+void BusThread::finish_sending()
+{
+    if (sender_.is_sending() && port_.is_open()) sender_.finish(port_.tty());
+}
+
+bool BusThread::in_a_hurry(Instant now) const
+{
+    return sender_.is_sending() && sender_.next_deadline() - now < kHurry;
 }
 
 /// Outputs, orders and events of the stations that were spoken to.
@@ -209,47 +254,20 @@ void BusThread::hand_on()
         waiting_.set(*at_[address]);
         unseen_.set(*at_[address]);
     });
-    for_each(waiting_, [this](unsigned station) { waiting_.set(station, !stations_[station]->hand_on()); });
+    for_each(waiting_, [this](unsigned place) { waiting_.set(place, !places_[place].station->hand_on()); });
 }
 
-/// Puts stations on the bus, takes them off, and gives them another address, as the main thread wants it.
-/// Between two telegrams and not inside one: layer 2 may be in the middle of a call to the station.
-void BusThread::obey_orders()
+/// The search for the rate has decided: the line is switched, and what it had brought at the old rate is
+/// gone.
+void BusThread::follow_rate()
 {
-    orders_due_ = false;
-    for (std::size_t i = 0; i < stations_.size(); ++i) {
-        BusStation& one = *stations_[i];
-        if (one.take_orders()) unseen_.set(i); // a new diagnosis is shown although nobody asks for it
-        const BusOrders& wanted = one.orders();
-        if (address_[i] && (!wanted.enabled || *address_[i] != wanted.address)) take_off(i);
-    }
-    for (std::size_t i = 0; i < stations_.size(); ++i) // an address that another one leaves is free by now
-        if (!address_[i] && stations_[i]->orders().enabled) put_on(i);
+    if (const auto baud = station_.take_baud_change()) set_baud(*baud);
 }
 
-void BusThread::take_off(std::size_t station)
+void BusThread::set_baud(Baud baud)
 {
-    BusStation& one = *stations_[station];
-    one.slave().stop(io::monotonic_now());
-    waiting_.set(station, !one.hand_on());
-    unseen_.set(station);
-    station_.detach(*address_[station]);
-    at_[*address_[station]].reset();
-    address_[station].reset();
-}
-
-void BusThread::put_on(std::size_t station)
-{
-    BusStation& one = *stations_[station];
-    const std::uint8_t address = one.orders().address;
-    if (at_[address]) return; // still somebody else's: with the next tick
-    one.slave().set_address(address);
-    if (!station_.attach(address, one, config_.stations[station].personality->max_tsdr)) return;
-    one.slave().start(io::monotonic_now());
-    at_[address] = static_cast<std::uint8_t>(station);
-    address_[station] = address;
-    waiting_.set(station, !one.hand_on());
-    unseen_.set(station);
+    sender_.abort();
+    if (port_.set_baud(static_cast<std::uint32_t>(baud))) lose_port();
 }
 
 /// Snapshots for the main thread, one station a round at most: what a telegram costs does not grow with their
@@ -258,11 +276,11 @@ void BusThread::show(Instant now)
 {
     if (now >= next_bus_snapshot_) show_bus(now);
     if (now < next_snapshot_ || unseen_.none()) return;
-    next_snapshot_ = now + kSnapshotInterval / stations_.size();
-    do turn_ = (turn_ + 1) % 128;
+    next_snapshot_ = now + kSnapshotInterval / std::max<std::size_t>(roster_->size(), 1);
+    do turn_ = (turn_ + 1) % kPlaces;
     while (!unseen_.test(turn_));
     unseen_.reset(turn_);
-    stations_[turn_]->publish_snapshot();
+    places_[turn_].station->publish_snapshot();
 }
 
 void BusThread::show_bus(Instant now)
@@ -272,10 +290,20 @@ void BusThread::show_bus(Instant now)
     telegrams_seen_ = station_.counters().telegrams;
     link_.snapshot.publish({.baud = station_.baud(),
                             .baud_state = station_.baud_state(),
-                            .port_open = tty_.has_value(),
+                            .port_open = port_.is_open(),
                             .last_telegram = last_telegram_,
                             .counters = station_.counters(),
-                            .write_errors = write_errors_,
+                            .write_errors = sender_.write_errors(),
+                            .turnaround_us = turnaround_us_,
+                            .turnaround_tbit = turnaround_tbit_,
+                            .too_late = too_late_,
+                            .driver_works = driver_.works(),
+                            .driver_errors = sender_.driver_errors(),
+                            .driver_guarded = sender_.driver_guarded(),
+                            .echo_heard = echo_.is_heard(),
+                            .echo_broken = echo_.broken(),
+                            .echo_missing = echo_.missing(),
+                            .page_faults = io::page_faults_of_thread() - faults_at_start_,
                             .valid = true});
 }
 
@@ -283,24 +311,50 @@ void BusThread::show_bus(Instant now)
 /// costs more than the reply.
 void BusThread::watch_port()
 {
-    epoll_.add(tty_->fd(), EPOLLIN | EPOLLET, kTtyKey);
+    epoll_.add(port_.tty().fd(), EPOLLIN | EPOLLET, kTtyKey);
 }
 
 void BusThread::lose_port()
 {
-    epoll_.remove(tty_->fd());
-    tty_.reset();
-    next_reopen_ = io::monotonic_now() + kReopenAfter;
+    if (!port_.is_open()) return;
+    close_port();
+    tell(PortNews::gone);
 }
 
+void BusThread::close_port()
+{
+    sender_.abort();
+    epoll_.remove(port_.tty().fd());
+    driver_.detach();
+    port_.lose(io::monotonic_now());
+}
+
+/// Nothing is sent through a port whose driver enable does not work: then it is as good as not there.
 void BusThread::try_reopen(Instant now)
 {
-    if (now < next_reopen_) return;
-    next_reopen_ = now + kReopenAfter;
-    auto again = io::Tty::open(config_.bus.port, bus_tty_settings(config_));
-    if (!again) return;
-    tty_.emplace(std::move(*again));
+    if (!port_.ready(now)) return;
     watch_port();
+    if (driver_.attach(port_.tty())) {
+        close_port();
+        if (!std::exchange(refusal_told_, true)) tell(PortNews::driver_refused);
+        return;
+    }
+    refusal_told_ = guard_told_ = false;
+    tell(PortNews::back);
+}
+
+/// An edge of the driver enable that failed is told once, and the way back is tried for. So is the first time
+/// that the guard was needed.
+void BusThread::mind_driver(Instant now)
+{
+    if (!port_.is_open()) return;
+    if (sender_.driver_guarded() != guarded_ && !std::exchange(guard_told_, true))
+        tell(PortNews::driver_guarded);
+    guarded_ = sender_.driver_guarded();
+    const bool works = driver_.works() || (!sender_.is_sending() && driver_.ready(now));
+    if (works == driver_worked_) return;
+    driver_worked_ = works;
+    tell(works ? PortNews::driver_back : PortNews::driver_gone);
 }
 
 } // namespace dpslave::app

@@ -36,7 +36,7 @@ ControlConfig read_control(Document& document, Table table, Faults& warnings)
         config.socket = *std::move(socket);
     }
     if (auto group = table.text("operator_group")) config.operator_group = *std::move(group);
-    if (::getgrnam(config.operator_group.c_str()) == nullptr) {
+    if (!operator_group_of(config)) {
         const profile::Place at = table.place_of("operator_group");
         warnings.push_back(
             {document.name(), at.line, at.column,
@@ -97,6 +97,12 @@ std::string canonical(const std::string& path)
     std::error_code error;
     const auto found = std::filesystem::weakly_canonical(path, error);
     return error ? std::filesystem::path{path}.lexically_normal().string() : found.string();
+}
+
+std::optional<gid_t> operator_group_of(const ControlConfig& control)
+{
+    const group* const found = ::getgrnam(control.operator_group.c_str());
+    return found != nullptr ? std::optional{found->gr_gid} : std::nullopt;
 }
 
 Result<Config, Faults> load_config(const std::filesystem::path& file, const std::filesystem::path& profiles)

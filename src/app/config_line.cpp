@@ -10,53 +10,69 @@ namespace {
 using profile::Document;
 using profile::Table;
 
+/// "auto", a rate that is searched, or the one that is only ever fixed.
 void read_baud(Table& bus, BusConfig& config)
 {
-    const std::string rates =
-        "set baud to the rate of the bus, 9600, 19200, 45450, 93750, 187500, 500000 or 1500000.";
-    const std::string no_search = "the search for the rate is not part of this release: " + rates;
-    if (!bus.has("baud")) {
-        if (bus.exists()) bus.refuse("baud", "'baud' is not set and then means \"auto\", but " + no_search);
-    } else if (bus.is_text("baud")) {
-        const bool automatic = bus.text("baud") == "auto";
-        bus.refuse("baud", automatic ? "'baud' is \"auto\", but " + no_search
-                                     : "'baud' must be a rate as a number, without quotes: " + rates);
+    const std::string remedy =
+        "write \"auto\", or a rate in bit/s without quotes: 9600, 19200, 45450, 93750, "
+        "187500, 500000 or 1500000.";
+    if (bus.is_text("baud")) {
+        const auto text = bus.text("baud");
+        if (text && *text != "auto") bus.refuse("baud", "'baud' \"" + *text + "\" is no rate: " + remedy);
     } else if (const auto rate = bus.integer("baud", 9600, 12'000'000)) {
-        if (const auto baud = baud_of(static_cast<std::uint32_t>(*rate)))
-            config.baud = *baud;
-        else
-            bus.refuse("baud", "'baud' " + std::to_string(*rate) + " is no rate that is served: " + rates);
+        config.baud = baud_of(static_cast<std::uint32_t>(*rate));
+        if (!config.baud)
+            bus.refuse("baud", "'baud' " + std::to_string(*rate) + " is no rate that is served: " + remedy);
     }
 }
 
-/// Only a transceiver that switches by itself is served yet; the keys of the other ways are judged all the
-/// same.
-void read_transceiver(Table& bus)
+/// A key that only another direction makes use of: whoever set it believes that it does something.
+void warn_unused(Document& document, const Table& bus, std::string_view key, std::string_view direction,
+                 profile::Faults& warnings)
 {
-    enum class Direction : std::uint8_t { gpio, kernel, rts, none };
-    const std::string remedy =
-        "switching the transceiver is not part of this release: set direction = \"none\" and use "
-        "a transceiver that switches by itself.";
+    if (!bus.has(key)) return;
+    const profile::Place at = bus.place_of(key);
+    warnings.push_back({document.name(), at.line, at.column,
+                        "'" + std::string{key} + "' means nothing with direction = \"" +
+                            std::string{direction} +
+                            "\": remove it, or choose the direction that it belongs to."});
+}
+
+void read_transceiver(Document& document, Table& bus, BusConfig& config, profile::Faults& warnings)
+{
+    using io::Direction;
+    io::DriverEnableSettings& driver = config.driver_enable;
     const auto direction = bus.choice<Direction>("direction", {{"gpio", Direction::gpio},
                                                                {"kernel", Direction::kernel},
                                                                {"rts", Direction::rts},
                                                                {"none", Direction::none}});
-    if (bus.exists() && !bus.has("direction"))
-        bus.refuse("direction", "'direction' is not set and then means \"gpio\", but " + remedy);
-    else if (direction && *direction != Direction::none)
-        bus.refuse("direction", "this 'direction' is not served: " + remedy);
-    bus.text("gpio_chip");
-    bus.integer("gpio_line", 0, 65535);
-    bus.boolean("gpio_active_low");
+    driver.direction = direction.value_or(Direction::gpio);
+    const bool by_gpio =
+        !bus.has("direction") || direction == Direction::gpio; // not of a direction that is wrong
+    if (by_gpio) {
+        constexpr const char* kHow = ", as `gpioinfo` shows it for the pin that enables the transceiver; or "
+                                     "direction = \"none\" for a transceiver that switches by itself";
+        bus.require("gpio_chip", std::string{R"(gpio_chip = "/dev/gpiochip0")"} + kHow);
+        bus.require("gpio_line", std::string{"gpio_line = 17"} + kHow);
+    }
+    driver.gpio_chip = bus.text("gpio_chip").value_or("");
+    driver.gpio_line = static_cast<unsigned>(bus.integer("gpio_line", 0, 65535).value_or(0));
+    driver.active_low = bus.boolean("gpio_active_low").value_or(false);
+    if (direction && !by_gpio) {
+        warn_unused(document, bus, "gpio_chip", text(*direction), warnings);
+        warn_unused(document, bus, "gpio_line", text(*direction), warnings);
+        if (*direction == Direction::none)
+            warn_unused(document, bus, "gpio_active_low", text(*direction), warnings);
+        driver.gpio_chip.clear();
+        driver.gpio_line = 0;
+    }
 
-    enum class Echo : std::uint8_t { off, on, automatic };
-    const auto echo =
-        bus.choice<Echo>("echo", {{"off", Echo::off}, {"on", Echo::on}, {"auto", Echo::automatic}});
-    if (echo && *echo != Echo::off)
-        bus.refuse(
-            "echo",
-            "removing the echo is not part of this release: set echo = \"off\" and use a transceiver that "
-            "does not hear itself.");
+    using fdl::EchoMode;
+    config.echo =
+        bus.choice<EchoMode>("echo",
+                             {{"off", EchoMode::off}, {"on", EchoMode::on}, {"auto", EchoMode::automatic}})
+            .value_or(EchoMode::off);
+    driver.receive_own = direction == Direction::kernel && config.echo == EchoMode::on;
 }
 
 std::optional<LineFormat> format_of(std::string_view text)
@@ -122,13 +138,14 @@ BusConfig read_bus(Document& document, profile::Faults& warnings)
 {
     BusConfig config;
     Table root = document.root();
-    root.require("bus", R"(the table [bus] with port = "/dev/ttyS1", baud = 187500 and direction = "none")");
+    root.require("bus",
+                 R"(the table [bus] with port = "/dev/ttyS1", and gpio_chip and gpio_line or a direction)");
     Table bus = root.table("bus");
     bus.require("port", R"(port = "/dev/ttyS1")");
     config.port = bus.text("port").value_or("");
     config.port_line = bus.place_of("port").line;
     read_baud(bus, config);
-    read_transceiver(bus);
+    read_transceiver(document, bus, config, warnings);
     if (const auto tbit = bus.integer("max_tsdr", 0, 65535)) {
         config.max_tsdr = static_cast<std::uint32_t>(*tbit);
         const profile::Place at = bus.place_of("max_tsdr");

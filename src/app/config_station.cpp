@@ -226,12 +226,10 @@ private:
                                                 "'extended_reply'.");
         if (extended) personality.extended_reply = *extended;
 
-        Table bus = document_.root().table("bus");
-        const bool rate_named = bus.has("baud") && !bus.is_text("baud");
-        if (rate_named && personality.max_tsdr[index_of(bus_.baud)].count == 0)
+        if (bus_.baud && personality.max_tsdr[index_of(*bus_.baud)].count == 0)
             table.refuse("profile", "profile " + in_quotes(station.profile->name) +
                                         " does not support the rate of the bus, " +
-                                        std::to_string(static_cast<std::uint32_t>(bus_.baud)) +
+                                        std::to_string(static_cast<std::uint32_t>(*bus_.baud)) +
                                         " bit/s: its [max_tsdr] does not list it.");
         if (bus_.max_tsdr > 0)
             for (Tbit& each : personality.max_tsdr)

@@ -52,8 +52,11 @@ std::string remedy(OptionFault fault, const tec::Settings& settings)
         case OptionFault::self_test:
             return "The self-test at the start has failed: start dpslaved again; its log says what failed.";
         case OptionFault::hardware:
-            return "The port of the bus or of the drive line is gone: look at the adapters and their cables; "
-                   "the log names the port, and it is opened again as soon as it returns.";
+            return "The port of the bus or of the drive line is gone, or the driver enable does not work: "
+                   "look "
+                   "at the adapters and their cables, and at the GPIO chip; the log names which it is, and "
+                   "it "
+                   "is opened again as soon as it returns.";
         case OptionFault::missing: return "There is no option: look at what the log says about the ports.";
     }
     return "";
@@ -85,7 +88,7 @@ void DeviceState::look(const StationView& station, const BusSnapshot& bus)
     if (tec.ext_diagnostic_tag != 0) settings_.ext_diagnostic = word_of(tec.ext_diagnostic_tag);
     if (settings_.address >= 0 && settings_.address <= kHighestAddress)
         address_ = static_cast<std::uint8_t>(settings_.address);
-    hardware_.ports_open = station.line_open && (!bus.valid || bus.port_open);
+    hardware_.ports_open = station.line_open && (!bus.valid || (bus.port_open && bus.driver_works));
     // "The slave has not detected valid communications": also where the rate is not searched for.
     hardware_.baud_search = bus.baud_state == fdl::BaudState::baud_search || bus.last_telegram == Instant{};
     fault_ = tec::fault(settings_, hardware_);

@@ -7,63 +7,80 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace dpslave::app {
 
 namespace {
 
-std::vector<drive::UnitSettings> unit_settings(const Config& config, std::size_t line)
+drive::UnitSettings unit_settings(const StationConfig& station, const LineConfig& line)
 {
-    std::vector<drive::UnitSettings> units;
-    for (const StationConfig& station : config.stations) {
-        if (station.line != line) continue;
-        drive::UnitSettings unit;
-        unit.address = station.unit;
-        unit.tags = station.tags.get();
-        unit.tags_only_from_table = station.profile->tags_only_from_table;
-        unit.output_refresh = station.output_refresh;
-        unit.zero_after = station.zero_after;
-        // Modbus instruments keep what they are told in a memory that wears: only what differs is written.
-        unit.compare_outputs = config.lines[line].protocol == kModbusRtu;
-        unit.never_written = station.profile->never_written;
-        unit.watched = station.watched;
-        unit.retries = config.lines[line].retries;
-        units.push_back(unit);
-    }
-    return units;
+    drive::UnitSettings unit;
+    unit.address = station.unit;
+    unit.tags = station.tags.get();
+    unit.tags_only_from_table = station.profile->tags_only_from_table;
+    unit.output_refresh = station.output_refresh;
+    unit.zero_after = station.zero_after;
+    // Modbus instruments keep what they are told in a memory that wears: only what differs is written.
+    unit.compare_outputs = line.protocol == kModbusRtu;
+    unit.never_written = station.profile->never_written;
+    unit.watched = station.watched;
+    unit.retries = line.retries;
+    return unit;
+}
+
+std::vector<drive::UnitSettings> settings_of(const std::vector<DriveUnit>& units, const LineConfig& line)
+{
+    std::vector<drive::UnitSettings> settings;
+    for (const DriveUnit& unit : units) settings.push_back(unit_settings(*unit.config, line));
+    return settings;
 }
 
 } // namespace
 
-DriveThread::DriveThread(const Config& config, std::size_t line, std::unique_ptr<drive::Backend> backend,
-                         std::vector<std::unique_ptr<StationLink>>& stations, LineLink& link)
-    : backend_(std::move(backend)),
-      poller_(unit_settings(config, line), backend_->block_rule()),
+DriveThread::Unit::Unit(const DriveUnit& made_of)
+    : number(made_of.number),
+      config(made_of.config),
+      link(made_of.link),
+      zero_after_ms(to_ms(made_of.config->zero_after))
+{}
+
+DriveThread::DriveThread(LineConfig line, std::unique_ptr<LineBackend> backend,
+                         const std::vector<DriveUnit>& units, LineLink& link)
+    : line_(std::move(line)),
+      backend_(std::move(backend)),
+      units_(units.begin(), units.end()),
+      poller_(settings_of(units, line_), block_rule()),
       link_(link),
-      words_(backend_->block_rule().max_tags)
+      words_(block_rule().max_tags)
 {
-    for (std::size_t i = 0; i < config.stations.size(); ++i)
-        if (config.stations[i].line == line)
-            units_.push_back({.config = &config.stations[i],
-                              .station = static_cast<std::uint32_t>(i),
-                              .link = stations[i].get(),
-                              .zero_after_ms = to_ms(config.stations[i].zero_after),
-                              .ended = 0,
-                              .has_layout = false,
-                              .was_known = false,
-                              .answered = false});
+    if (backend_)
+        backend_->set_units(units);
+    else
+        next_open_ = io::monotonic_now() + kOpenAgainAfter; // whoever has the port is about to let go of it
+}
+
+/// Of a port that is not open yet: one tag at a time, which every protocol takes.
+drive::BlockRule DriveThread::block_rule() const
+{
+    return backend_ ? backend_->backend().block_rule() : drive::BlockRule{};
 }
 
 void DriveThread::run(std::stop_token stop, io::EventFd& wake)
 {
     while (!stop.stop_requested()) {
+        take_work();
         fetch();
         const auto transaction = poller_.next(io::monotonic_now());
         if (transaction) carry_out(*transaction);
         publish(); // also what the poller has decided without the drive
-        if (!transaction) rest(wake.fd(), io::monotonic_now());
+        if (next_ && leaving_is_over())
+            take_over();
+        else if (!transaction)
+            rest(wake.fd(), io::monotonic_now());
     }
     farewell();
+    link_.ended.store(true, std::memory_order_release);
 }
 
 void DriveThread::fetch()
@@ -85,38 +102,64 @@ void DriveThread::fetch()
         }
         while (const auto order = unit.link->demand_orders.pop()) poller_.set_demand(i, *order);
     }
-    while (const auto order = link_.orders.pop())
-        if (!poller_.operate(*order))
-            link_.answers.push({.number = order->number, .error = AccessError::no_answer, .word = 0});
+    fetch_orders();
+}
+
+/// An order for a drive that is about to come waits for it: the highest numbers are the newest.
+void DriveThread::fetch_orders()
+{
+    while (const auto order = link_.orders.pop()) {
+        const bool is_early = std::all_of(units_.begin(), units_.end(),
+                                          [&](const Unit& unit) { return unit.number < order->station; });
+        if (is_early)
+            early_orders_.push_back(*order);
+        else
+            operate(*order);
+    }
+}
+
+void DriveThread::operate(LineOrder order)
+{
+    const auto unit = std::find_if(units_.begin(), units_.end(),
+                                   [&](const Unit& one) { return one.number == order.station; });
+    order.order.unit = static_cast<std::size_t>(unit - units_.begin());
+    if (!poller_.operate(order.order)) // also where the station has left the line in the meantime
+        link_.answers.push({.number = order.order.number, .error = AccessError::no_answer, .word = 0});
 }
 
 void DriveThread::carry_out(const drive::Transaction& transaction)
 {
-    using Kind = drive::Transaction::Kind;
     const Unit& unit = units_[transaction.unit];
+    const drive::Outcome outcome = is_open() ? exchange_with(unit, transaction)
+                                             : drive::Outcome{.error = AccessError::no_answer, .words = {}};
+    poller_.done(outcome, io::monotonic_now());
+}
+
+drive::Outcome DriveThread::exchange_with(const Unit& unit, const drive::Transaction& transaction)
+{
+    using Kind = drive::Transaction::Kind;
+    drive::Backend& backend = backend_->backend();
     const drive::UnitAddress address = unit.config->unit;
     drive::Outcome outcome;
     switch (transaction.kind) {
         case Kind::read: {
             const std::span<std::uint16_t> words = std::span{words_}.first(transaction.count);
-            outcome.error = backend_->read(address, *transaction.tag, words);
+            outcome.error = backend.read(address, *transaction.tag, words);
             outcome.words = words;
             break;
         }
-        case Kind::write:
-            outcome.error = backend_->write(address, *transaction.tag, transaction.words);
-            break;
+        case Kind::write: outcome.error = backend.write(address, *transaction.tag, transaction.words); break;
         case Kind::probe:
-            outcome.error = backend_->probe(address) ? AccessError::none : AccessError::no_answer;
+            outcome.error = backend.probe(address) ? AccessError::none : AccessError::no_answer;
             break;
     }
     if (transaction.tag != nullptr && transaction.count == 1) {
         if (outcome.error == AccessError::none)
             forget_trouble(unit, transaction);
         else if (outcome.error != AccessError::no_answer)
-            remember_trouble(unit, transaction, backend_->last_trouble());
+            remember_trouble(unit, transaction, backend.last_trouble());
     }
-    poller_.done(outcome, io::monotonic_now());
+    return outcome;
 }
 
 void DriveThread::publish()
@@ -157,7 +200,7 @@ void DriveThread::remember_trouble(const Unit& unit, const drive::Transaction& a
     const auto line = (is_write ? "write of tag " : "tag ") + std::to_string(tag) + ": " + text;
     for (std::size_t k = 0; k < troubles_.count; ++k) {
         Trouble& known = troubles_.troubles[k];
-        if (known.station != unit.station || known.tag != tag || known.is_write != is_write) continue;
+        if (known.station != unit.number || known.tag != tag || known.is_write != is_write) continue;
         if (line.compare(0, known.text.size() - 1, known.text.data()) == 0) return;
         forget_trouble(unit, access);
         break;
@@ -168,7 +211,7 @@ void DriveThread::remember_trouble(const Unit& unit, const drive::Transaction& a
         --troubles_.count;
     }
     Trouble& trouble = troubles_.troubles[troubles_.count++];
-    trouble = {.station = unit.station, .tag = tag, .is_write = is_write, .text = {}};
+    trouble = {.station = unit.number, .tag = tag, .is_write = is_write, .text = {}};
     line.copy(trouble.text.data(), trouble.text.size() - 1);
     link_.troubles.publish(troubles_);
 }
@@ -178,7 +221,7 @@ void DriveThread::forget_trouble(const Unit& unit, const drive::Transaction& acc
     const bool is_write = access.kind == drive::Transaction::Kind::write;
     const auto end = troubles_.troubles.begin() + troubles_.count;
     const auto found = std::find_if(troubles_.troubles.begin(), end, [&](const Trouble& one) {
-        return one.station == unit.station && one.tag == access.tag->number && one.is_write == is_write;
+        return one.station == unit.number && one.tag == access.tag->number && one.is_write == is_write;
     });
     if (found == end) return;
     std::copy(found + 1, end, found);
@@ -215,6 +258,104 @@ void DriveThread::farewell()
     if (poller_.safe_state_pending())
         spdlog::error("not every output could be put into its safe state: a drive does not answer");
     publish();
+}
+
+// ---- other drives, another port
+
+/// The main thread has other drives for this line. The bus has let go of those who leave: their outputs go to
+/// the safe state first, between the transactions of the others, who notice nothing.
+void DriveThread::take_work()
+{
+    if (next_ || !link_.work.take(next_)) return;
+    leave_until_ = io::monotonic_now() + kFarewell;
+    for (std::size_t i = 0; i < units_.size(); ++i) {
+        Unit& unit = units_[i];
+        unit.leaves = std::none_of(next_->units.begin(), next_->units.end(),
+                                   [&](const DriveUnit& one) { return one.number == unit.number; });
+        if (unit.leaves) poller_.ride_no_longer(i); // nobody is there any more to zero the outputs later
+    }
+}
+
+bool DriveThread::leaving_is_over() const
+{
+    bool pending = false;
+    for (std::size_t i = 0; i < units_.size(); ++i)
+        pending = pending || (units_[i].leaves && poller_.safe_state_pending(i));
+    if (!pending) return true;
+    if (io::monotonic_now() < leave_until_) return false;
+    for (std::size_t i = 0; i < units_.size(); ++i)
+        if (units_[i].leaves && poller_.safe_state_pending(i))
+            spdlog::error(
+                "{}: not every output could be put into its safe state before the station was taken "
+                "away: the drive does not answer",
+                units_[i].config->name);
+    return true;
+}
+
+/// Only now come those who are new: no one writes to a drive that another station still leaves.
+void DriveThread::take_over()
+{
+    if (next_->line) line_ = *next_->line;
+    std::vector<Unit> units;
+    std::vector<std::optional<std::size_t>> stays;
+    for (const DriveUnit& one : next_->units) {
+        const auto known = std::find_if(units_.begin(), units_.end(),
+                                        [&](const Unit& unit) { return unit.number == one.number; });
+        const bool is_known = known != units_.end();
+        stays.push_back(is_known ? std::optional{static_cast<std::size_t>(known - units_.begin())}
+                                 : std::nullopt);
+        units.push_back(is_known ? *known : Unit{one});
+    }
+    if (next_->line) {
+        backend_.reset(); // first: the next one may need the same port
+        backend_ = std::move(next_->backend);
+        next_open_ = {};
+        open_failure_said_ = false;
+        link_.port_open.store(is_open(), std::memory_order_relaxed); // a moment without it is no fault
+    }
+    units_ = std::move(units);
+    if (backend_) backend_->set_units(next_->units);
+    poller_.exchange(settings_of(next_->units, line_), stays, block_rule());
+    words_.resize(
+        std::max<std::size_t>(words_.size(), block_rule().max_tags)); // those who stay keep their rule
+    forget_troubles_of_the_gone();
+    for (const LineOrder& order : std::exchange(early_orders_, {})) operate(order);
+    next_.reset();
+    link_.work_done.fetch_add(1, std::memory_order_release);
+}
+
+void DriveThread::forget_troubles_of_the_gone()
+{
+    const auto end = troubles_.troubles.begin() + troubles_.count;
+    const auto kept = std::remove_if(troubles_.troubles.begin(), end, [&](const Trouble& trouble) {
+        return std::none_of(units_.begin(), units_.end(),
+                            [&](const Unit& unit) { return unit.number == trouble.station; });
+    });
+    if (kept == end) return;
+    troubles_.count = static_cast<std::uint8_t>(kept - troubles_.troubles.begin());
+    link_.troubles.publish(troubles_);
+}
+
+/// A port that another line of ours had until now is opened as soon as that one has let go of it.
+bool DriveThread::is_open()
+{
+    if (backend_) return true;
+    const Instant now = io::monotonic_now();
+    if (now < next_open_) return false;
+    next_open_ = now + kOpenAgainAfter;
+    auto opened = LineBackend::open(line_, link_.port_open);
+    if (!opened) {
+        if (!open_failure_said_) spdlog::error("line {}: {}; it is tried again", line_.name, opened.error());
+        open_failure_said_ = true;
+        return false;
+    }
+    backend_ = std::move(*opened);
+    std::vector<DriveUnit> units;
+    for (const Unit& unit : units_) units.push_back({unit.number, unit.config, unit.link});
+    backend_->set_units(units);
+    words_.resize(std::max<std::size_t>(words_.size(), block_rule().max_tags));
+    spdlog::info("line {}: {} is open", line_.name, line_.port);
+    return true;
 }
 
 } // namespace dpslave::app

@@ -38,9 +38,7 @@ control::Handlers MainThread::handlers()
         {"GetIo", each(&MainThread::io_of)},
         {"GetDiagnosis", each(&MainThread::diagnosis_of)},
         {"GetCounters",
-         [this](const Json&, const control::Caller&) -> Reply {
-             return Done{{{"groups", counters_json(view_)}}};
-         }},
+         [this](const Json&, const control::Caller&) -> Reply { return Done{counters_json(view_)}; }},
         {"GetLeds", each(&MainThread::leds_of)},
         {"GetTec", [this](const Json& parameters, const control::Caller&) { return on_tec(parameters); }},
         {"Watch", [this](const Json& parameters, const control::Caller&) { return on_watch(parameters); }},
@@ -49,6 +47,7 @@ control::Handlers MainThread::handlers()
         {"WriteTag",
          [this](const Json& parameters, const control::Caller&) { return on_tag(parameters, true); }},
         {"SetTec", [this](const Json& parameters, const control::Caller&) { return on_set_tec(parameters); }},
+        {"Reload", [this](const Json&, const control::Caller&) { return on_reload(); }},
     };
 }
 
@@ -93,9 +92,9 @@ void MainThread::read_file_again()
 Json MainThread::info_of(std::size_t station)
 {
     std::optional<std::uint8_t> pending;
-    const auto found = in_file_.find(config_.stations[station].name);
+    const auto found = in_file_.find(config_of(station).name);
     if (found != in_file_.end() && found->second != view_.stations[station].address) pending = found->second;
-    return info_json(view_.stations[station], pending, devices_[station].notes());
+    return info_json(view_.stations[station], pending, posts_[station].device.notes());
 }
 
 Json MainThread::io_of(std::size_t station)
@@ -110,37 +109,40 @@ Json MainThread::diagnosis_of(std::size_t station)
 
 Json MainThread::leds_of(std::size_t station)
 {
-    return leds_json(config_.stations[station], lamps_.condition(station), io::monotonic_now());
-}
-
-std::size_t MainThread::unit_of(std::size_t station) const
-{
-    std::size_t unit = 0;
-    for (std::size_t i = 0; i < station; ++i)
-        if (config_.stations[i].line == config_.stations[station].line) ++unit;
-    return unit;
+    return leds_json(config_of(station), lamps_.condition(station), io::monotonic_now());
 }
 
 Json MainThread::known_stations() const
 {
     Json names = Json::array();
-    for (const StationConfig& one : config_.stations) names.push_back(one.name);
+    for (const Post& one : posts_) names.push_back(one.config->name);
     return names;
+}
+
+Error MainThread::no_such_station(const std::string& wanted) const
+{
+    return Error{"NoSuchStation", {{"station", wanted}, {"known", known_stations()}}};
+}
+
+std::optional<std::size_t> MainThread::index_of(const std::string& name) const
+{
+    for (std::size_t i = 0; i < posts_.size(); ++i)
+        if (posts_[i].config->name == name) return i;
+    return std::nullopt;
 }
 
 MainThread::Choice MainThread::choose(const Json& parameters, bool one_is_needed) const
 {
     if (!parameters.contains("station")) {
-        if (config_.stations.size() == 1) return {.station = 0, .error = {}};
+        if (posts_.size() == 1) return {.station = 0, .error = {}};
         if (!one_is_needed) return {};
         return {.station = {}, .error = Error{"StationRequired", {{"known", known_stations()}}}};
     }
     const std::string wanted = parameters["station"].get<std::string>();
-    for (std::size_t i = 0; i < config_.stations.size(); ++i)
-        if (wanted == config_.stations[i].name || wanted == std::to_string(view_.stations[i].address))
+    for (std::size_t i = 0; i < posts_.size(); ++i)
+        if (wanted == posts_[i].config->name || wanted == std::to_string(view_.stations[i].address))
             return {.station = i, .error = {}};
-    return {.station = {},
-            .error = Error{"NoSuchStation", {{"station", wanted}, {"known", known_stations()}}}};
+    return {.station = {}, .error = no_such_station(wanted)};
 }
 
 Json MainThread::watch_reply(std::optional<std::size_t> station, Instant now) const
@@ -150,7 +152,7 @@ Json MainThread::watch_reply(std::optional<std::size_t> station, Instant now) co
     for (std::size_t i = 0; i < view_.stations.size(); ++i) {
         if (station && *station != i) continue;
         stations.push_back(station_json(view_.stations[i]));
-        words.push_back({{"name", config_.stations[i].name}, {"words", words_json(view_.stations[i], now)}});
+        words.push_back({{"name", config_of(i).name}, {"words", words_json(view_.stations[i], now)}});
     }
     return {{"bus", bus_json(view_, now)}, {"stations", std::move(stations)}, {"words", std::move(words)}};
 }
@@ -176,7 +178,9 @@ Reply MainThread::on_watch(const Json& parameters)
     const Choice choice = choose(parameters, false);
     if (choice.error) return *choice.error;
     const std::uint64_t number = next_stream_++;
-    watchers_[number] = {.station = choice.station, .seen = fingerprint(choice.station)};
+    Watcher& watcher = watchers_[number];
+    if (choice.station && parameters.contains("station")) watcher.station = config_of(*choice.station).name;
+    watcher.seen = fingerprint(choice.station);
     return control::Stream{.stream = number, .first = watch_reply(choice.station, io::monotonic_now())};
 }
 
@@ -187,10 +191,15 @@ void MainThread::push_watchers(Instant now)
         return !std::binary_search(open.begin(), open.end(), one.first);
     });
     for (auto& [number, watcher] : watchers_) {
-        std::string present = fingerprint(watcher.station);
+        const auto station = watcher.station ? index_of(*watcher.station) : std::nullopt;
+        if (watcher.station && !station) { // a reload has taken it away
+            server_->end_stream(number, no_such_station(*watcher.station));
+            continue;
+        }
+        std::string present = fingerprint(station);
         if (present == watcher.seen) continue;
         watcher.seen = std::move(present);
-        server_->push(number, watch_reply(watcher.station, now));
+        server_->push(number, watch_reply(station, now));
     }
 }
 
@@ -203,9 +212,10 @@ Reply MainThread::on_tag(const Json& parameters, bool is_write)
         return Error{"BadValue",
                      {{"tag", number}, {"value", ""}, {"reason", "a tag is a number from 0 to 65535"}}};
 
-    const StationConfig& station = config_.stations[*choice.station];
+    const Post& post = posts_[*choice.station];
+    const StationConfig& station = *post.config;
     drive::OperateOrder order{.number = next_order_,
-                              .unit = unit_of(*choice.station),
+                              .unit = 0, // found by the drive thread
                               .is_write = is_write,
                               .tag = static_cast<std::uint16_t>(number),
                               .word = 0};
@@ -227,21 +237,24 @@ Reply MainThread::on_tag(const Json& parameters, bool is_write)
                 {{"tag", number}, {"value", value}, {"reason", bad_value_words(*row, parsed.error)}}};
         order.word = parsed.word;
     }
-    if (asked_.size() >= kMaxAsked || !links_.lines[station.line]->orders.push(order))
+    if (asked_.size() >= kMaxAsked || !post.station.line->link.orders.push({post.station.number, order}))
         return Error{"Busy", Json::object()};
-    asked_[order.number] = {
-        .station = *choice.station, .tag = order.tag, .word = order.word, .is_write = is_write};
+    asked_[order.number] = {.station = post.station.number,
+                            .config = post.config,
+                            .tag = order.tag,
+                            .word = order.word,
+                            .is_write = is_write};
     return control::Later{.token = next_order_++};
 }
 
 void MainThread::answer_asked()
 {
-    for (const auto& line : links_.lines) {
-        while (const auto answer = line->answers.pop()) {
+    for (const auto& line : plant_.lines()) {
+        while (const auto answer = line->link.answers.pop()) {
             const auto found = asked_.find(answer->number);
             if (found == asked_.end()) continue;
             const Asked& asked = found->second;
-            const StationConfig& station = config_.stations[asked.station];
+            const StationConfig& station = *asked.config;
             const drive::Tag* row = station.tags->find(asked.tag);
             if (answer->error != AccessError::none) {
                 const auto code = dp::demand_code(answer->error);

@@ -17,12 +17,12 @@ Reply MainThread::on_tec(const Json& parameters)
     const Choice choice = choose(parameters, false);
     if (choice.error) return *choice.error;
     const bool is_named = parameters.contains("station");
-    if (is_named && !devices_[*choice.station].has_tec())
-        return Error{"NoTecOption", {{"station", config_.stations[*choice.station].name}}};
+    if (is_named && !posts_[*choice.station].device.has_tec())
+        return Error{"NoTecOption", {{"station", config_of(*choice.station).name}}};
     Json all = Json::array();
-    for (std::size_t i = 0; i < devices_.size(); ++i)
-        if ((!choice.station || *choice.station == i) && devices_[i].has_tec())
-            all.push_back(tec_json(config_.stations[i].name, devices_[i]));
+    for (std::size_t i = 0; i < posts_.size(); ++i)
+        if ((!choice.station || *choice.station == i) && posts_[i].device.has_tec())
+            all.push_back(tec_json(config_of(i).name, posts_[i].device));
     return Done{{{"stations", std::move(all)}}};
 }
 
@@ -30,8 +30,8 @@ Reply MainThread::on_set_tec(const Json& parameters)
 {
     const Choice choice = choose(parameters, true);
     if (choice.error) return *choice.error;
-    const StationConfig& station = config_.stations[*choice.station];
-    DeviceState& device = devices_[*choice.station];
+    const StationConfig& station = config_of(*choice.station);
+    DeviceState& device = posts_[*choice.station].device;
     if (!device.has_tec()) return Error{"NoTecOption", {{"station", station.name}}};
 
     const auto parameter = parameters["parameter"].get<std::string>();
@@ -41,10 +41,10 @@ Reply MainThread::on_set_tec(const Json& parameters)
     };
     // Two stations at one address would speak at the same time; only who knows all of them can tell.
     if (const auto address = device.address_after(parameter, value))
-        for (std::size_t i = 0; i < devices_.size(); ++i)
-            if (i != *choice.station && devices_[i].address() == *address)
+        for (std::size_t i = 0; i < posts_.size(); ++i)
+            if (i != *choice.station && posts_[i].device.address() == *address)
                 return refused(fmt::format("address {} is that of station {}: choose another", *address,
-                                           config_.stations[i].name));
+                                           config_of(i).name));
     if (const auto reason = device.set(parameter, value)) return refused(*reason);
     spdlog::info("{}: {} set to {} by hand", station.name, parameter, value);
     follow_device(*choice.station);

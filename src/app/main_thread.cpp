@@ -6,7 +6,6 @@
 #include "dpslave/io/clock.hpp"
 
 #include <fmt/format.h>
-#include <grp.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -21,12 +20,6 @@ namespace {
 constexpr std::uint64_t kServerKey = 0;
 constexpr std::uint64_t kSignalKey = 1;
 
-std::optional<gid_t> group_id(const std::string& name)
-{
-    const group* found = ::getgrnam(name.c_str());
-    return found != nullptr ? std::optional(found->gr_gid) : std::nullopt;
-}
-
 /// Runs the self-test and says in the log what has failed. True: passed.
 bool tests_itself(Instant earlier)
 {
@@ -39,31 +32,64 @@ bool tests_itself(Instant earlier)
     return failures.empty();
 }
 
+/// "Twice the longest telegram": then nobody is sending any more.
+constexpr int kDriverGuard = 2;
+
+/// At the lowest rate that it can be sent at.
+std::chrono::nanoseconds longest_telegram(const BusConfig& bus)
+{
+    constexpr std::uint32_t bits_of_a_character = 11;
+    constexpr Tbit longest{static_cast<std::uint32_t>(fdl::kMaxTelegram) * bits_of_a_character};
+    return duration_of(longest, bus.baud.value_or(Baud::k9_6));
+}
+
 } // namespace
 
-MainThread::MainThread(const Config& config, std::filesystem::path profiles, Links& links, Lamps& lamps,
-                       io::Signals& signals)
-    : config_(config),
+MainThread::MainThread(Config config, std::filesystem::path profiles, Plant& plant, BusLink& bus,
+                       io::DriverEnable& driver, io::Signals& signals)
+    : config_(std::move(config)),
       profiles_(std::move(profiles)),
-      links_(links),
-      lamps_(lamps),
+      plant_(plant),
+      bus_(bus),
+      driver_(driver),
+      driver_limit_(kDriverGuard * longest_telegram(config_.bus)),
       signals_(signals),
       started_(io::monotonic_now())
 {
-    const bool self_test_passed = tests_itself(started_);
+    self_test_passed_ = tests_itself(started_);
+    for (const Station& station : plant_.stations()) posts_.push_back(make_post(station));
+    show_posts();
+    for (const std::string& warning : lamps_.exchange(config_)) spdlog::warn("{}", warning);
+}
+
+/// Before the bus hears of it: a station that is not to be there never gets there.
+MainThread::Post MainThread::make_post(const Station& station)
+{
+    Post post{station, self_test_passed_};
+    post.ordered = post.device.bus_orders();
+    station.link->bus_orders.publish(post.ordered);
+    station.link->zero_after_ms.store(post.device.zero_after_ms(), std::memory_order_relaxed);
+    return post;
+}
+
+/// What can be seen, anew for the posts that there are. What was known of those who stay is kept.
+void MainThread::show_posts()
+{
+    std::vector<StationView> before = std::move(view_.stations);
     view_.config = &config_;
-    view_.stations.resize(config_.stations.size());
-    for (std::size_t i = 0; i < config_.stations.size(); ++i) {
-        view_.stations[i].config = &config_.stations[i];
-        view_.stations[i].line = &config_.lines[config_.stations[i].line];
-        devices_.emplace_back(config_.stations[i], self_test_passed);
-        if (config_.stations[i].profile->diagnosis != profile::DiagForm::none)
-            usual_tick_ = kTickWithDiagnosis;
-        // Before the other threads begin: a station that is not to be on the bus never gets there.
-        ordered_.push_back(devices_[i].bus_orders());
-        links_.stations[i]->bus_orders.publish(ordered_[i]);
-        links_.stations[i]->zero_after_ms.store(devices_[i].zero_after_ms(), std::memory_order_relaxed);
-        view_.stations[i].address = devices_[i].address();
+    view_.stations.clear();
+    usual_tick_ = kTick;
+    for (const Post& post : posts_) {
+        const auto known = std::find_if(before.begin(), before.end(), [&post](const StationView& one) {
+            return one.number == post.station.number;
+        });
+        StationView& view =
+            view_.stations.emplace_back(known != before.end() ? std::move(*known) : StationView{});
+        view.number = post.station.number;
+        view.config = post.config.get();
+        view.line = &post.station.line->config;
+        view.address = post.device.address();
+        if (post.config->profile->diagnosis != profile::DiagForm::none) usual_tick_ = kTickWithDiagnosis;
     }
 }
 
@@ -74,7 +100,7 @@ std::optional<std::string> MainThread::open_socket()
     std::filesystem::create_directories(config_.control.socket.parent_path(), refused);
     control::ServerSettings settings;
     settings.socket = config_.control.socket;
-    settings.operator_group = group_id(config_.control.operator_group);
+    settings.operator_group = operator_group_of(config_.control);
     settings.operator_group_name = config_.control.operator_group;
     settings.version = kVersion;
     auto server = control::Server::open(std::move(settings), handlers());
@@ -94,7 +120,7 @@ bool MainThread::run()
     Instant next_tick{};
     for (;;) {
         const Instant now = io::monotonic_now();
-        if (links_.bus.failed.load(std::memory_order_relaxed)) return false;
+        if (bus_.failed.load(std::memory_order_relaxed)) return false;
         if (now >= next_tick) {
             tick(now);
             next_tick = now + tick_length();
@@ -111,22 +137,24 @@ bool MainThread::run()
             if (event.data.u64 == kServerKey) {
                 refresh();
                 server_->on_ready();
-                next_tick = std::min(next_tick, now + tick_length());
             }
         }
+        next_tick = std::min(next_tick, now + tick_length()); // somebody may have begun to wait
     }
 }
 
 std::chrono::milliseconds MainThread::tick_length() const
 {
-    return asked_.empty() ? usual_tick_ : kTickWhileAsked;
+    const bool somebody_waits = !asked_.empty() || reload_wanted_ || reloading_ != Reloading::idle;
+    return somebody_waits ? kTickWhileAsked : usual_tick_;
 }
 
 void MainThread::tick(Instant now)
 {
+    guard_driver(now);
+    mind_reload();
     refresh();
-    log_events();
-    log_devices();
+    log_news();
     show_lamps(now);
     answer_asked();
     push_watchers(now);
@@ -142,8 +170,7 @@ bool MainThread::on_signals()
 {
     while (const auto signal = signals_.take()) {
         if (*signal == SIGHUP) {
-            spdlog::warn(
-                "SIGHUP: the configuration is read at start only; restart the service to apply a change");
+            reload_wanted_ = true;
             continue;
         }
         spdlog::info("leaving the bus ({})", *signal == SIGTERM ? "SIGTERM" : "SIGINT");
@@ -154,69 +181,110 @@ bool MainThread::on_signals()
 
 void MainThread::refresh()
 {
-    view_.bus = links_.bus.snapshot.latest();
-    view_.lost_events = 0;
-    for (std::size_t i = 0; i < view_.stations.size(); ++i) {
+    view_.bus = bus_.snapshot.latest();
+    view_.lost_events = lost_before_;
+    for (std::size_t i = 0; i < posts_.size(); ++i) {
         StationView& station = view_.stations[i];
-        StationLink& link = *links_.stations[i];
-        LineLink& line = *links_.lines[config_.stations[i].line];
+        StationLink& link = *posts_[i].station.link;
         if (link.bus_snapshot.fresh()) station.bus = link.bus_snapshot.latest();
         if (link.drive_snapshot.fresh()) station.drive = link.drive_snapshot.latest();
-        station.line_open = line.port_open.load(std::memory_order_relaxed);
+        station.line_open = posts_[i].station.line->link.port_open.load(std::memory_order_relaxed);
         view_.lost_events += link.events.refused();
-        station.troubles.clear();
-        const TroubleList& troubles = line.troubles.latest();
-        for (std::size_t k = 0; k < troubles.count; ++k)
-            if (troubles.troubles[k].station == i)
-                station.troubles.emplace_back(troubles.troubles[k].text.data());
+        refresh_troubles(i);
         follow_device(i);
     }
+}
+
+void MainThread::refresh_troubles(std::size_t station)
+{
+    StationView& view = view_.stations[station];
+    view.troubles.clear();
+    const TroubleList& troubles = posts_[station].station.line->link.troubles.latest();
+    for (std::size_t k = 0; k < troubles.count; ++k)
+        if (troubles.troubles[k].station == view.number)
+            view.troubles.emplace_back(troubles.troubles[k].text.data());
 }
 
 /// What the device makes of what is the case now goes to the bus and to the drive line, if it is news.
 void MainThread::follow_device(std::size_t station)
 {
-    DeviceState& device = devices_[station];
-    StationLink& link = *links_.stations[station];
-    device.look(view_.stations[station], view_.bus);
-    view_.stations[station].address = device.address();
-    link.zero_after_ms.store(device.zero_after_ms(), std::memory_order_relaxed);
-    const BusOrders orders = device.bus_orders();
-    if (orders == ordered_[station]) return;
-    ordered_[station] = orders;
+    Post& post = posts_[station];
+    StationLink& link = *post.station.link;
+    post.device.look(view_.stations[station], view_.bus);
+    view_.stations[station].address = post.device.address();
+    link.zero_after_ms.store(post.device.zero_after_ms(), std::memory_order_relaxed);
+    const BusOrders orders = post.device.bus_orders();
+    if (orders == post.ordered) return;
+    post.ordered = orders;
     link.bus_orders.publish(orders);
 }
 
-void MainThread::log_devices()
+void MainThread::log_news()
 {
-    for (DeviceState& device : devices_)
-        for (const Sentence& news : device.take_news())
+    for (const Station& station : leaving_) log_events(station);
+    for (const Post& post : posts_) log_events(post.station);
+    log_port_news();
+    for (Post& post : posts_)
+        for (const Sentence& news : post.device.take_news())
             spdlog::log(news.is_warning ? spdlog::level::warn : spdlog::level::info, "{}", news.text);
 }
 
-void MainThread::log_events()
+void MainThread::log_events(const Station& station)
 {
-    for (std::size_t i = 0; i < links_.stations.size(); ++i) {
-        while (const auto event = links_.stations[i]->events.pop()) {
-            const std::string line = sentence(config_.stations[i].name, *event);
-            using Kind = dp::Event::Kind;
-            const bool is_warning = event->kind == Kind::refused || event->kind == Kind::foreign_set_prm ||
-                                    event->kind == Kind::watchdog_of_master || event->kind == Kind::overflow;
-            spdlog::log(is_warning ? spdlog::level::warn : spdlog::level::info, "{}", line);
+    while (const auto event = station.link->events.pop()) {
+        const std::string line = sentence(station.config->name, *event);
+        using Kind = dp::Event::Kind;
+        const bool is_warning = event->kind == Kind::refused || event->kind == Kind::foreign_set_prm ||
+                                event->kind == Kind::watchdog_of_master || event->kind == Kind::overflow;
+        spdlog::log(is_warning ? spdlog::level::warn : spdlog::level::info, "{}", line);
+    }
+}
+
+void MainThread::log_port_news()
+{
+    const std::string& port = config_.bus.port;
+    while (const auto news = bus_.port_news.pop()) {
+        switch (*news) {
+            case PortNews::gone:
+                spdlog::error("{} has gone; it is opened again as soon as it returns", port);
+                break;
+            case PortNews::back: spdlog::info("{} is back", port); break;
+            case PortNews::driver_refused:
+                spdlog::error(
+                    "{} is back, but the driver enable does not work with it: it was closed again, and is "
+                    "tried again; `dpctl tune` says which ways of [bus] direction it can do",
+                    port);
+                break;
+            case PortNews::driver_gone:
+                spdlog::error(
+                    "the driver enable of {} cannot be switched: nothing is sent until it works again; look "
+                    "whether the GPIO chip is still there",
+                    port);
+                break;
+            case PortNews::driver_guarded:
+                spdlog::warn("the driver enable of {} was let go by the guard: the UART did not say in time "
+                             "that it had "
+                             "sent all; `dpctl counters` shows how often (driver_guarded)",
+                             port);
+                break;
+            case PortNews::driver_back: spdlog::info("the driver enable of {} works again", port); break;
         }
     }
-    if (view_.bus.valid && view_.bus.port_open != bus_open_) {
-        bus_open_ = view_.bus.port_open;
-        if (bus_open_)
-            spdlog::info("{} is back", config_.bus.port);
-        else
-            spdlog::error("{} has gone; it is opened again as soon as it returns", config_.bus.port);
-    }
+}
+
+/// Whatever has become of the bus thread, the bus is not held for long.
+void MainThread::guard_driver(Instant now)
+{
+    if (driver_.drop_if_stuck(now, driver_limit_))
+        spdlog::error(
+            "the driver enable of {} was active for longer than any telegram takes, and was made inactive: "
+            "the bus thread did not come to it in time",
+            config_.bus.port);
 }
 
 void MainThread::show_lamps(Instant now)
 {
-    for (std::size_t i = 0; i < devices_.size(); ++i) lamps_.set(i, devices_[i].condition());
+    for (std::size_t i = 0; i < posts_.size(); ++i) lamps_.set(i, posts_[i].device.condition());
     lamps_.show(now);
 }
 
@@ -230,7 +298,7 @@ void MainThread::feed_watchdog(Instant now)
     if (now < next_watchdog_) return;
     next_watchdog_ = now + *interval / 4;
     // The bus thread stands still: saying nothing is what makes systemd start us again.
-    const std::uint64_t heartbeat = links_.bus.heartbeat.load(std::memory_order_relaxed);
+    const std::uint64_t heartbeat = bus_.heartbeat.load(std::memory_order_relaxed);
     if (heartbeat != heartbeat_seen_) notifier_.watchdog();
     heartbeat_seen_ = heartbeat;
 }

@@ -32,8 +32,19 @@ json bus_counters(const View& view)
     add(c, "overtaken", fdl.overtaken,
         "requests dropped because something followed them: the machine reads too late");
     add(c, "late", fdl.late, "replies suppressed because MaxTsdr had passed: see [realtime] and max_tsdr");
+    add(c, "too_late", view.bus.too_late,
+        "replies begun in time whose write ended behind MaxTsdr: see [realtime] and max_tsdr");
     add(c, "own_address", fdl.own_address, "telegrams of somebody else who uses one of our addresses");
     add(c, "write_errors", view.bus.write_errors, "replies that the port did not take");
+    add(c, "driver_errors", view.bus.driver_errors,
+        "edges of the driver enable that failed: look at gpio_chip, gpio_line and the log");
+    add(c, "driver_guarded", view.bus.driver_guarded,
+        "times that the guard let the driver go: the UART never said that it had sent all");
+    add(c, "echo_missing", view.bus.echo_missing, "echoes of our own that did not come: is echo set right?");
+    add(c, "echo_broken", view.bus.echo_broken,
+        "echoes of our own that were not what was sent: a collision, or a short circuit");
+    add(c, "page_faults", view.bus.page_faults,
+        "of the bus thread while it serves: see lock_memory in [realtime]");
     for (std::size_t i = 0; i < fdl::kFlaws; ++i)
         add(c, fmt::format("flaw: {}", fdl::text(static_cast<fdl::Flaw>(i))), fdl.flaws[i],
             "telegrams that were none: noise, wiring, termination, rate");
@@ -73,6 +84,26 @@ json station_counters(const StationView& station)
     return group(station.config->name, std::move(c));
 }
 
+json distribution(std::string_view unit, const Histogram& counted)
+{
+    json classes = json::array();
+    for (std::size_t n = 0; n < Histogram::kClasses; ++n) {
+        if (counted.in_class(n) == 0) continue;
+        json upper; // null: the last class is open
+        if (n + 1 < Histogram::kClasses) upper = Histogram::lower_end(n + 1) - 1;
+        classes.push_back(
+            {{"from", Histogram::lower_end(n)}, {"to", std::move(upper)}, {"count", counted.in_class(n)}});
+    }
+    const auto if_any = [&](std::uint32_t value) { return counted.count() != 0 ? json(value) : json(); };
+    return {{"unit", unit},
+            {"count", counted.count()},
+            {"p50", if_any(counted.quantile(0.5))},
+            {"p99", if_any(counted.quantile(0.99))},
+            {"p999", if_any(counted.quantile(0.999))},
+            {"highest", if_any(counted.highest())},
+            {"classes", std::move(classes)}};
+}
+
 } // namespace
 
 json counters_json(const View& view)
@@ -80,7 +111,10 @@ json counters_json(const View& view)
     json groups = json::array();
     groups.push_back(bus_counters(view));
     for (const StationView& one : view.stations) groups.push_back(station_counters(one));
-    return groups;
+    json turnaround = json::array();
+    turnaround.push_back(distribution("us", view.bus.turnaround_us));
+    turnaround.push_back(distribution("T_bit", view.bus.turnaround_tbit));
+    return {{"groups", std::move(groups)}, {"turnaround", std::move(turnaround)}};
 }
 
 } // namespace dpslave::app

@@ -197,6 +197,25 @@ bool Server::push(std::uint64_t stream, const Json& parameters)
     return taken;
 }
 
+bool Server::end_stream(std::uint64_t stream, const Error& why)
+{
+    const auto found = impl_->streams.find(stream);
+    if (found == impl_->streams.end()) return false;
+    Connection& connection = *found->second;
+    impl_->streams.erase(found);
+    connection.waits = Connection::Waits::nothing;
+    impl_->send_final(connection, why);
+    impl_->process(connection); // calls that came behind this one
+    impl_->settle(connection);
+    return true;
+}
+
+void Server::set_operators(std::optional<gid_t> group, std::string name)
+{
+    impl_->settings.operator_group = group;
+    impl_->settings.operator_group_name = std::move(name);
+}
+
 std::vector<std::uint64_t> Server::streams() const
 {
     std::vector<std::uint64_t> numbers;

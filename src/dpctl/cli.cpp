@@ -15,13 +15,16 @@ namespace dpslave::dpctl {
 namespace {
 
 /// What a subcommand needs, and so which options and exit codes it has.
-enum class Needs { daemon, daemon_to_judge, files };
+enum class Needs { daemon, daemon_to_judge, machine, files };
 
 constexpr const char* exits_of(Needs needs)
 {
     switch (needs) {
         case Needs::daemon: return "0 fine, 1 refused, faulty or not so, 2 usage, 3 no daemon.";
         case Needs::daemon_to_judge: return "0 all is well, 1 something was found, 2 usage, 3 no daemon.";
+        case Needs::machine:
+            return "0 fine, 1 the rate of the bus cannot be held or something must be mended,\n"
+                   "2 usage, 3 no PORT and no daemon.";
         case Needs::files: break;
     }
     return "0 fine, 1 not found or faulty, 2 usage; no daemon is needed.";
@@ -44,6 +47,7 @@ void tag_and_value_arguments(CLI::App&, Options&);
 void tec_arguments(CLI::App&, Options&);
 void doctor_arguments(CLI::App&, Options&);
 void query_arguments(CLI::App&, Options&);
+void port_argument(CLI::App&, Options&);
 void number_arguments(CLI::App&, Options&);
 void octet_arguments(CLI::App&, Options&);
 
@@ -63,6 +67,11 @@ constexpr std::array kSubcommands = std::to_array<Subcommand>({
      "dpctl doctor unwinder   this one\n"
      "dpctl doctor --all      all rules, for lamps and symptoms that you see; needs no daemon",
      doctor_arguments, do_doctor},
+    {"tune", "What this machine can promise at each rate, and what would make it better", kTuneJson,
+     Needs::machine,
+     "dpctl tune               the port of the running daemon, with what was measured\n"
+     "dpctl tune /dev/ttyS1    this port, before there is a daemon",
+     port_argument, do_tune},
     {"counters", "What happened how often", "GetCounters", Needs::daemon, "", no_arguments, do_counters},
     {"read", "Reads a tag from the drive now", "ReadTag", Needs::daemon, "", tag_argument, do_read},
     {"write", "Writes a tag of the drive now (root and the operator group)", "WriteTag", Needs::daemon,
@@ -74,6 +83,9 @@ constexpr std::array kSubcommands = std::to_array<Subcommand>({
      "group)\n"
      "dpctl tec set RIDE_THROUGH -1 --station unwinder",
      tec_arguments, do_tec},
+    {"reload",
+     "Reads the configuration file again and applies it, or says why not (root and the operator group)",
+     "Reload", Needs::daemon, "", no_arguments, do_reload},
     {"leds", "What the lamps show, and what that means", "GetLeds", Needs::daemon, "", station_argument,
      do_leds},
     {"watch", "Shows changes until Ctrl-C", "Watch", Needs::daemon, "", station_argument, do_watch},
@@ -201,6 +213,12 @@ void doctor_arguments(CLI::App& app, Options& options)
 {
     station_argument(app, options);
     app.add_flag("--all", options.all, "Print every rule: lamps and symptoms, causes, steps");
+}
+
+void port_argument(CLI::App& app, Options& options)
+{
+    app.add_option("PORT", options.port, "A tty; without it: that of the running daemon. It is not opened")
+        ->type_name("");
 }
 
 void profile_options(CLI::App& app, Options& options, const char* what_profile_does)

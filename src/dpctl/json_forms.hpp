@@ -10,6 +10,18 @@ FINDING = {"station": null or name, "rule", "condition", "cause", "evidence", "s
 LINE = {"baud", "cable_a_m", "cable_b_m": null or metres};
 with --all {"rules": [RULE], "lines": [LINE]}, where RULE is FINDING with "note", without "station" and "evidence")";
 
+inline constexpr const char* kTuneJson =
+    R"({"machine": {"kernel", "preempt_rt", "threaded_irqs", "rt_runtime_us", "processors", "isolated",
+"governors": [name], "idle_exit_us", "latency_limit_us", "virtual_machine"},
+"port": {"path", "name", "uart", "driver", "usb", "clock_hz", "fifo", "trigger", "latency_timer_ms", "dma", "irq",
+"irq_thread": null or THREAD},
+"daemon": null or {"pid", "baud", "bus_thread": null or THREAD, "locked_kib", "replies", "too_late", "overtaken",
+"repeated", "p999_us", "highest_us", "page_faults"},
+"rates": [{"baud", "verdict": "holds", "doubtful" or "cannot", "needed_tbit", "promised_tbit",
+"error_percent", "reason"}],
+"findings": [{"severity": "mend", "better" or "know", "name", "what", "cost", "steps": [text]}]};
+THREAD = {"id", "name", "policy", "priority", "cpus"}; what could not be found out is null)";
+
 inline constexpr const char* kTagJson =
     R"({"tags": [{"table", "tag", "hex", "name", "aliases": [text], "type", "decimals", "follows_display", "unsigned",
 "min", "max": null or as displayed, "access", "mnemonic": null or text, "modbus_register", "demand_data": null or

@@ -2,6 +2,7 @@
 #include "ask.hpp"
 #include "render.hpp"
 #include "subcommands.hpp"
+#include "words.hpp"
 
 namespace dpslave::dpctl {
 
@@ -31,6 +32,19 @@ int do_tec(const Options& options, Terminal& terminal)
     }
     return show(options, terminal, options.set ? "SetTec" : "GetTec", parameters,
                 [&](const Json& reply) { return render_tec(reply, terminal.colour); });
+}
+
+/// Refused is not fine, though the daemon has answered.
+int do_reload(const Options& options, Terminal& terminal)
+{
+    const auto reply = ask(options, terminal, "Reload", Json::object());
+    if (!reply) return reply.error();
+    const bool applied = reply->value("applied", false);
+    if (options.json)
+        terminal.out << json_text(*reply) << '\n' << std::flush;
+    else
+        (applied ? terminal.out : terminal.err) << render_reload(*reply) << std::flush;
+    return applied ? kFine : kNo;
 }
 
 } // namespace dpslave::dpctl

@@ -7,19 +7,6 @@
 
 namespace dpslave::dpctl {
 
-std::string render_counters(const Json& reply, bool colour)
-{
-    std::string out;
-    for (const Json& group : list(reply, "groups")) {
-        Table table({">COUNT", "OF", "MEANING"});
-        for (const Json& c : list(group, "counters"))
-            table.add({number(c, "value"), text(c, "name"), text(c, "meaning")});
-        out += fmt::format("{}{}\n{}", out.empty() ? "" : "\n",
-                           painted(text(group, "name"), Tone::strong, colour), table.str(colour, 2));
-    }
-    return out;
-}
-
 std::string render_leds(const Json& reply, bool colour)
 {
     std::string out;
@@ -41,6 +28,24 @@ std::string render_tag(const Json& reply, std::string_view verb)
     return fmt::format("{}: tag {}{} {} {}, raw {}\n", text(reply, "station"), number(reply, "tag"),
                        name.empty() ? "" : " " + name, verb, text(reply, "value"),
                        word(integer(reply, "raw")));
+}
+
+std::string render_reload(const Json& reply)
+{
+    std::string out;
+    const auto add = [&](const char* key, std::string_view before) {
+        for (const Json& sentence : list(reply, key))
+            if (sentence.is_string()) out += fmt::format("{}{}\n", before, sentence.get<std::string>());
+    };
+    add("warnings", "warning: ");
+    if (!flag(reply, "applied")) {
+        add("faults", "");
+        return out + "The new configuration is refused; the one until now runs on.\n";
+    }
+    add("changes", "");
+    add("pending", "pending: ");
+    if (list(reply, "changes").empty() && list(reply, "pending").empty()) out += "Nothing has changed.\n";
+    return out;
 }
 
 std::string render_watch(const Json& reply, bool colour)

@@ -28,6 +28,7 @@ struct Options {
         DPSLAVE_DATA_FOLDER "/profiles"; ///< the tag tables lie in ../tags (given by CMake)
     std::string profile;                 ///< empty = not said
     std::string table;                   ///< a CSV file; empty = not said
+    std::string port;                    ///< `tune`: a tty; empty = the daemon's
 
     std::chrono::milliseconds timeout() const
     {
@@ -53,12 +54,16 @@ int do_is_exchanging(const Options&, Terminal&);
 int do_read(const Options&, Terminal&);
 int do_write(const Options&, Terminal&);
 int do_tec(const Options&, Terminal&);
+int do_reload(const Options&, Terminal&);
 
 // watch.cpp
 int do_watch(const Options&, Terminal&);
 
 // doctor.cpp
 int do_doctor(const Options&, Terminal&);
+
+// tune.cpp: with a daemon or without
+int do_tune(const Options&, Terminal&);
 
 // tag.cpp, hex.cpp, decode.cpp: without a daemon
 int do_tag(const Options&, Terminal&);

@@ -100,6 +100,12 @@ Result<Pty, std::string> open_pty(std::uint32_t baud)
     return pty;
 }
 
+std::uint32_t rate_of(const Pty& pty)
+{
+    termios2 t{};
+    return ::ioctl(pty.master.get(), TCGETS2, &t) == 0 ? t.c_ospeed : 0;
+}
+
 void discard_unread(const Pty& pty)
 {
     ::ioctl(pty.slave.get(), TCFLSH, TCIFLUSH);

@@ -46,6 +46,8 @@ struct Pty {
     std::string path;
 };
 Result<Pty, std::string> open_pty(std::uint32_t baud);
+/// The rate that the slave's side is set to, bit/s; 0 = none.
+std::uint32_t rate_of(const Pty& pty);
 /// Throws away what nobody read at the slave's side.
 void discard_unread(const Pty& pty);
 

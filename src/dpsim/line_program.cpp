@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpsim/edge.hpp"
+#include "dpsim/listener.hpp"
 #include "dpsim/pacer.hpp"
 #include "dpsim/programs.hpp"
 #include "dpsim/values.hpp"
@@ -23,10 +24,20 @@ constexpr auto kRest = 100ms;
 /// As much as a pty holds; a sender that is faster has to wait, as on a real line.
 constexpr std::size_t kMostInFlight = 20'000;
 
-/// One direction with its own thread: reads at one pty, writes at the other when the octets are due.
+/// Whether a UART at the rate `heard` understands what is sent at `sent`: beyond 2 % its last bits are
+/// others.
+bool is_understood(std::uint32_t sent, std::uint32_t heard)
+{
+    const std::uint32_t off = sent > heard ? sent - heard : heard - sent;
+    return std::uint64_t{off} * 50 <= sent;
+}
+
+/// One direction with its own thread: reads at one pty, writes at the other when the octets are due. An end
+/// that is set to another rate than the line's own sends and reads garbage, unless `any_rate`.
 class Direction {
 public:
-    Direction(Pty& from, Pty& to, Pacer pacer) : from_(from), to_(to), pacer_(std::move(pacer))
+    Direction(Pty& from, Pty& to, Pacer pacer, bool any_rate)
+        : from_(from), to_(to), pacer_(std::move(pacer)), any_rate_(any_rate)
     {
         thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
     }
@@ -40,8 +51,11 @@ public:
     std::string stats()
     {
         const std::lock_guard lock(mutex_);
-        return fmt::format("{} octets passed, {} spoilt, {} lost while cut, {} lost because nobody read",
-                           pacer_.passed(), pacer_.spoilt(), pacer_.lost(), unread_);
+        return fmt::format("{} octets passed, {} spoilt, {} lost while cut, {} lost because nobody read, {} "
+                           "sent and {} read "
+                           "at another rate",
+                           pacer_.passed(), pacer_.spoilt(), pacer_.lost(), unread_, sent_wrong_,
+                           read_wrong_);
     }
 
 private:
@@ -72,8 +86,9 @@ private:
     {
         const std::lock_guard lock(mutex_);
         if (pacer_.in_flight() < kMostInFlight)
-            if (const auto octets = read_some(from_.master.get())) pacer_.take(*octets, monotonic_now());
-        const Octets due = pacer_.due_by(monotonic_now());
+            if (const auto octets = read_some(from_.master.get()))
+                pacer_.take(as_sent(*octets), monotonic_now());
+        const Octets due = as_read(pacer_.due_by(monotonic_now()));
         if (due.empty()) return;
         std::size_t put = write_all(to_.master.get(), due, 0ms);
         if (put < due.size()) { // nobody reads there: what is old is worthless, as in a UART that overruns
@@ -82,15 +97,53 @@ private:
         }
     }
 
+    /// What the line takes the octets of the sender for, as somebody at the line's rate hears them.
+    Octets as_sent(Octets octets)
+    {
+        if (any_rate_ || octets.empty()) return octets;
+        const std::uint32_t sent_at = rate_of(from_);
+        if (is_understood(sent_at, pacer_.baud())) return octets;
+        sent_wrong_ += octets.size();
+        if (sent_at == 0) return {};
+        Listener line{pacer_.bits(), sent_at, pacer_.baud()};
+        Octets heard = line.hear(octets);
+        const Octets last = line.rest();
+        heard.insert(heard.end(), last.begin(), last.end());
+        return heard;
+    }
+
+    /// What the reader takes the octets on the line for.
+    Octets as_read(Octets octets)
+    {
+        if (any_rate_ || octets.empty()) return octets;
+        const std::uint32_t read_at = rate_of(to_);
+        if (is_understood(pacer_.baud(), read_at)) {
+            reader_.reset();
+            return octets;
+        }
+        read_wrong_ += octets.size();
+        if (read_at == 0) return {};
+        if (!reader_ || reader_->sent_at() != pacer_.baud() || reader_->heard_at() != read_at)
+            reader_.emplace(pacer_.bits(), pacer_.baud(), read_at);
+        Octets heard = reader_->hear(octets);
+        if (pacer_.empty()) {
+            const Octets last = reader_->rest();
+            heard.insert(heard.end(), last.begin(), last.end());
+        }
+        return heard;
+    }
+
     Pty& from_;
     Pty& to_;
     std::mutex mutex_;
     Pacer pacer_;
-    std::uint64_t unread_ = 0;
+    bool any_rate_;
+    std::optional<Listener> reader_; ///< an end that reads at another rate
+    std::uint64_t unread_ = 0, sent_wrong_ = 0, read_wrong_ = 0;
     std::jthread thread_;
 };
 
-const std::string kHelp = "cut | restore | errors P | delay US | stats | quit";
+const std::string kHelp = "cut | restore | baud N | errors P | delay US | stats | quit";
 
 /// What is to be said; empty = done. Nothing: quit.
 std::optional<std::string> command(const std::string& line, Direction& ab, Direction& ba)
@@ -111,6 +164,11 @@ std::optional<std::string> command(const std::string& line, Direction& ab, Direc
         const double p = std::strtod(words[1].c_str(), &end);
         if (*end != '\0' || !(p >= 0 && p <= 1)) return "errors: a probability per bit, 0 to 1";
         return both([&](Pacer& pacer) { pacer.set_errors(p); });
+    }
+    if (words[0] == "baud" && words.size() == 2) {
+        const auto baud = number_of(words[1]);
+        if (!baud || *baud < 50 || *baud > 12'000'000) return "baud: bit/s, 50 to 12000000";
+        return both([&](Pacer& pacer) { pacer.set_baud(static_cast<std::uint32_t>(*baud)); });
     }
     if (words[0] == "delay" && words.size() == 2) {
         const auto us = number_of(words[1]);
@@ -146,7 +204,8 @@ int run_line(const LineOptions& options)
         made.set_delay(std::chrono::microseconds{options.delay_us});
         return made;
     };
-    Direction ab{*a, *b, pacer(options.seed)}, ba{*b, *a, pacer(options.seed + 1)};
+    Direction ab{*a, *b, pacer(options.seed), options.any_rate};
+    Direction ba{*b, *a, pacer(options.seed + 1), options.any_rate};
     print_line(fmt::format("ready {} {}", options.a, options.b));
 
     LineReader input{STDIN_FILENO};

@@ -35,11 +35,14 @@ void add_line(CLI::App& app, LineOptions& o)
     line.add_option("--errors", o.errors, "chance of each bit to be inverted")->check(CLI::Range(0.0, 1.0));
     line.add_option("--delay", o.delay_us, "further delay in microseconds")->check(CLI::Range(0, 10'000'000));
     line.add_option("--seed", o.seed, "of the bit errors");
-    line.footer("Prints 'ready PATH PATH' when both ends can be opened.\n"
-                "Commands on standard input: cut | restore | errors P | delay US | stats | quit\n"
-                "A bit error in a start or stop bit loses the character, wrong parity makes it 00 (as a tty "
-                "with INPCK does).\n"
-                "Example: dpsim line --baud 187500 --a /tmp/bus-slave --b /tmp/bus-master");
+    line.add_flag("--any-rate", o.any_rate, "whatever rate the ends are set to is right");
+    line.footer(
+        "Prints 'ready PATH PATH' when both ends can be opened.\n"
+        "Commands on standard input: cut | restore | baud N | errors P | delay US | stats | quit\n"
+        "What is sent or read at another rate than the line's own, beyond 2 %, is garbage, as on a wire.\n"
+        "A bit error in a start or stop bit loses the character, wrong parity makes it 00 (as a tty "
+        "with INPCK does).\n"
+        "Example: dpsim line --baud 187500 --a /tmp/bus-slave --b /tmp/bus-master");
 }
 
 void add_drive(CLI::App& app, DriveOptions& o)

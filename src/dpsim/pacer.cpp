@@ -42,6 +42,13 @@ Octets Pacer::due_by(Instant now)
     return due;
 }
 
+void Pacer::set_baud(std::uint32_t baud)
+{
+    burst_began_ = after(burst_length_);
+    burst_length_ = 0;
+    baud_ = baud;
+}
+
 void Pacer::set_cut(bool cut)
 {
     cut_ = cut;

@@ -33,6 +33,10 @@ public:
     /// unseen, as on a wire.
     void set_errors(double probability) { errors_ = probability; }
     void set_delay(std::chrono::nanoseconds delay) { delay_ = delay; }
+    /// Of what is taken from now on. `baud` > 0.
+    void set_baud(std::uint32_t baud);
+    std::uint32_t baud() const { return baud_; }
+    unsigned bits() const { return bits_; }
     /// What is in flight is lost too.
     void set_cut(bool cut);
     bool cut() const { return cut_; }

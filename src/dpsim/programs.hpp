@@ -17,6 +17,7 @@ struct LineOptions {
     double errors = 0;
     std::uint32_t delay_us = 0;
     std::uint64_t seed = 1;
+    bool any_rate = false; ///< the ends may be set to whatever they like
 };
 int run_line(const LineOptions& options);
 

@@ -1,26 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpslave/app/config.hpp"
 #include "dpslave/app/daemon.hpp"
+#include "dpslave/app/service.hpp"
 #include "dpslave/app/version.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_sinks.h>
-#include <spdlog/sinks/systemd_sink.h>
 #include <spdlog/spdlog.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
+#include <string>
 
 namespace {
 
 using dpslave::app::ExitStatus;
 
 constexpr const char* kFooter = R"(Exit status:
-  0  ended by SIGTERM or SIGINT; with --check: the configuration is good
-  1  the configuration was refused: one line per fault on standard error
+  0  ended by SIGTERM or SIGINT; with --check: the configuration is good; with --is-configured: there is
+     something to start; always with --release
+  1  the configuration was refused: one line per fault on standard error; with --is-configured: it is still empty
   2  wrong usage
   3  a device or the control socket could not be opened)";
 
@@ -33,17 +37,32 @@ bool stderr_is_journal()
     return fmt::format("{}:{}", there.st_dev, there.st_ino) == stream;
 }
 
-/// Under systemd straight into the journal, with levels; else to standard error, with the time.
+/// "<4>": the level as the journal reads it at the beginning of a line (sd-daemon(3)).
+class JournalLevel final : public spdlog::custom_flag_formatter {
+public:
+    void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& out) override
+    {
+        using Level = spdlog::level::level_enum;
+        const char digit = message.level >= Level::critical ? '2'
+                           : message.level == Level::err    ? '3'
+                           : message.level == Level::warn   ? '4'
+                           : message.level == Level::info   ? '6'
+                                                            : '7';
+        for (const char character : {'<', digit, '>'}) out.push_back(character);
+    }
+    std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<JournalLevel>(); }
+};
+
+/// To standard error: with the time, or with the level for the journal. Not into the journal's own socket:
+/// what a program says there right before its end is not found under its unit.
 void set_up_log()
 {
-    std::shared_ptr<spdlog::logger> log;
-    if (stderr_is_journal()) {
-        log = std::make_shared<spdlog::logger>("dpslaved",
-                                               std::make_shared<spdlog::sinks::systemd_sink_mt>("dpslaved"));
-    } else {
-        log = std::make_shared<spdlog::logger>("dpslaved", std::make_shared<spdlog::sinks::stderr_sink_mt>());
-        log->set_pattern("%Y-%m-%d %H:%M:%S.%e %l: %v");
-    }
+    auto log =
+        std::make_shared<spdlog::logger>("dpslaved", std::make_shared<spdlog::sinks::stderr_sink_mt>());
+    auto format = std::make_unique<spdlog::pattern_formatter>();
+    format->add_flag<JournalLevel>('*');
+    format->set_pattern(stderr_is_journal() ? "%*%v" : "%Y-%m-%d %H:%M:%S.%e %l: %v");
+    log->set_formatter(std::move(format));
     log->flush_on(spdlog::level::info);
     spdlog::set_default_logger(std::move(log));
 }
@@ -51,6 +70,18 @@ void set_up_log()
 int status(ExitStatus status)
 {
     return static_cast<int>(status);
+}
+
+/// A file that is faulty counts as configured: the start itself says what is wrong with it.
+int say_whether_configured(const std::string& file)
+{
+    if (!dpslave::app::is_unconfigured(file)) return 0;
+    set_up_log();
+    spdlog::warn(
+        "{} configures neither bus nor line nor station, so there is nothing to start: take the # away from "
+        "[bus], [[line]] and [[station]], set the keys below them, and start the service again",
+        file);
+    return 1;
 }
 
 } // namespace
@@ -62,9 +93,17 @@ int main(int argc, char** argv)
     std::string file = "/etc/dpslaved/dpslaved.toml";
     std::string profiles = DPSLAVE_DATA_FOLDER "/profiles"; // given by CMake
     bool check = false;
+    bool is_configured = false;
+    bool release = false;
     app.add_option("--config", file, "Configuration file")->capture_default_str();
     app.add_option("--profiles", profiles, "Folder of the device profiles")->capture_default_str();
     app.add_flag("--check", check, "Only judge the configuration");
+    app.add_flag("--is-configured", is_configured,
+                 "Only tell whether a bus, a line or a station is configured")
+        ->excludes("--check");
+    app.add_flag("--release", release,
+                 "Only make the line inactive that enables the RS-485 driver, after a daemon's end")
+        ->excludes("--check", "--is-configured");
     app.set_version_flag("--version", std::string("dpslaved ") + dpslave::app::kVersion);
     try {
         app.parse(argc, argv);
@@ -72,7 +111,14 @@ int main(int argc, char** argv)
         return app.exit(error) == 0 ? 0 : status(ExitStatus::usage);
     }
 
+    if (is_configured) return say_whether_configured(file);
     const auto config = dpslave::app::load_config(file, profiles);
+    if (release) {
+        set_up_log();
+        if (const auto trouble = config ? dpslave::app::release_driver(config->bus) : std::nullopt)
+            spdlog::warn("not released: {}", *trouble);
+        return 0;
+    }
     if (!config) {
         for (const dpslave::profile::Fault& fault : config.error())
             std::fprintf(stderr, "%s\n", to_string(fault).c_str());

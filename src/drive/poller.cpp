@@ -41,6 +41,11 @@ void Poller::ride_no_longer()
     for (const auto& unit : units_) unit->ride_no_longer();
 }
 
+void Poller::ride_no_longer(std::size_t unit)
+{
+    units_[unit]->ride_no_longer();
+}
+
 bool Poller::operate(const OperateOrder& order)
 {
     return order.unit < units_.size() && units_[order.unit]->operate(order);
@@ -99,9 +104,30 @@ bool Poller::safe_state_pending() const
                        [](const auto& unit) { return unit->safe_state_pending(); });
 }
 
+bool Poller::safe_state_pending(std::size_t unit) const
+{
+    return units_[unit]->safe_state_pending();
+}
+
 const UnitSnapshot& Poller::snapshot(std::size_t unit) const
 {
     return units_[unit]->snapshot();
+}
+
+void Poller::exchange(const std::vector<UnitSettings>& units,
+                      const std::vector<std::optional<std::size_t>>& stays, BlockRule rule)
+{
+    std::vector<std::unique_ptr<Unit>> next;
+    for (std::size_t i = 0; i < units.size(); ++i) {
+        if (stays[i]) {
+            next.push_back(std::move(units_[*stays[i]]));
+            next[i]->go_on_as(i, units[i].retries);
+        } else {
+            next.push_back(std::make_unique<Unit>(units[i], rule, i));
+        }
+    }
+    units_ = std::move(next);
+    turn_ = 0;
 }
 
 } // namespace dpslave::drive

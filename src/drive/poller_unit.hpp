@@ -26,6 +26,11 @@ public:
 
     void set_zero_after(ZeroAfter after) { safe_state_.set_zero_after(after); }
     void ride_no_longer() { safe_state_.ride_no_longer(); }
+    void go_on_as(std::size_t index, int retries)
+    {
+        index_ = index;
+        settings_.retries = retries;
+    }
 
     void tell_time(Instant now) { safe_state_.tell_time(now); } ///< before next(), of this drive or another
     std::optional<Transaction> next(Instant now);

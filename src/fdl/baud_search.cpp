@@ -18,7 +18,7 @@ constexpr std::uint32_t kBadPercent = 30;
 
 bool is_searched(const BaudSearchSettings& settings, Baud baud)
 {
-    return baud <= settings.highest && baud >= settings.lowest &&
+    return settings.rates[index_of(baud)] &&
            std::find(kSearched.begin(), kSearched.end(), baud) != kSearched.end();
 }
 
@@ -27,7 +27,7 @@ Baud first_rate(const BaudSearchSettings& settings)
 {
     for (const Baud baud : kSearched)
         if (is_searched(settings, baud)) return baud;
-    return settings.highest;
+    return kSearched.front();
 }
 
 } // namespace

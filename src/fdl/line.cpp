@@ -9,12 +9,21 @@ namespace dpslave::fdl {
 namespace {
 
 /// How long the line may be silent within a telegram before it counts as unfinished: T_SYN and an allowance
-/// for the UART's FIFO and the scheduler, because reads say little about the times on the wire (wire
-/// reference 1.5).
-std::chrono::nanoseconds gap_limit(Baud baud)
+/// for the scheduler, because reads say little about the times on the wire (wire reference 1.5).
+std::chrono::nanoseconds silence_limit(Baud baud)
 {
     using std::chrono::milliseconds;
     return duration_of(kTsyn, baud) + (baud >= Baud::k93_75 ? milliseconds{5} : milliseconds{20});
+}
+
+/// The largest receive FIFO in use. A UART may hold so many characters back before it hands them on (OMAP: 48
+/// of 64), and what looks like silence until then may have been a telegram that goes on.
+constexpr Tbit kFifo{64 * kCharacter.count};
+
+/// When an unfinished telegram is given up although nothing came behind it that tells its end.
+Instant given_up_at(Instant read_at, Baud baud)
+{
+    return read_at + silence_limit(baud) + duration_of(kFifo, baud);
 }
 
 bool is_sdn(const Telegram& telegram)
@@ -58,7 +67,7 @@ void Station::on_bytes(Bytes bytes, Instant read_at, bool more_follows)
         bytes = bytes.subspan(taken);
         consume(read_at, bytes.empty() && !more_follows);
     }
-    gap_ends_ = used_ == 0 ? kNever : read_at + gap_limit(baud_);
+    gap_ends_ = used_ == 0 ? kNever : given_up_at(read_at, baud_);
 }
 
 void Station::on_character_error(Instant read_at)
@@ -78,14 +87,16 @@ void Station::on_character_error(Instant read_at)
         spoilt_ = true;
         consume(read_at, true);
     }
-    gap_ends_ = used_ == 0 ? kNever : read_at + gap_limit(baud_);
+    gap_ends_ = used_ == 0 ? kNever : given_up_at(read_at, baud_);
 }
 
-/// A silence within a telegram ended when the first of these octets began, not when they were read.
+/// A silence within a telegram ended when the first of these octets began, not when they were read: what a
+/// FIFO held back is no silence.
 void Station::end_silence(std::size_t octets, Instant read_at)
 {
     const Tbit on_wire{static_cast<std::uint32_t>(octets) * kCharacter.count};
-    if (used_ != 0 && read_at - duration_of(on_wire, baud_) >= gap_ends_) drop_unfinished();
+    const Instant began = read_at - duration_of(on_wire, baud_);
+    if (used_ != 0 && began >= gap_ends_ - duration_of(kFifo, baud_)) drop_unfinished();
 }
 
 /// Tells the search what was heard. False: the rate has been given up, and what was heard at it means

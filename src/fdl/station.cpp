@@ -34,6 +34,7 @@ Station::Station(const StationSettings& settings) : settings_(settings), baud_(s
     search_.emplace(*settings.search, settings.baud);
     baud_ = search_->baud();
     baud_state_ = search_->state();
+    baud_change_ = baud_; // the edge knows only now where the search begins
 }
 
 bool Station::attach(std::uint8_t address, SapUser& user, const std::array<Tbit, kBauds.size()>& max_tsdr)
@@ -176,6 +177,7 @@ std::optional<Bytes> Station::take_transmit()
 {
     if (!pending_ || !pending_->open) return std::nullopt;
     const Bytes octets = pending_->octets;
+    window_ended_ = pending_->not_after;
     pending_.reset();
     ++counters_.replies;
     return octets;

@@ -145,17 +145,19 @@ void check_file_name(Judge& judge, std::string_view file_name)
     const std::string_view extension = dot == std::string_view::npos ? "" : file_name.substr(dot + 1);
     if (extension.size() != 3 || !same(extension.substr(0, 2), "gs"))
         judge.say(0, Weight::warning,
-                  "the file's name " + quoted(file_name) + " does not end in .GSD: tools do not offer it.");
+                  "the file's name " + in_quotes(file_name) +
+                      " does not end in .GSD: tools do not offer it.");
     if (stem.size() != 8)
         judge.say(
             0, Weight::warning,
-            "the file's name " + quoted(file_name) +
+            "the file's name " + in_quotes(file_name) +
                 " is not of the form VVVVIIII.GSD (four characters for the vendor, the Ident_Number in four "
                 "hexadecimal digits): old tools do not find it.");
     const auto ident = judge.document.number("Ident_Number");
     if (ident && stem.size() == 8 && !same(stem.substr(4), hex_word(*ident).substr(2)))
         judge.say(judge.line_of("Ident_Number"), Weight::warning,
-                  "the file's name " + quoted(file_name) + " does not end in " + hex_word(*ident).substr(2) +
+                  "the file's name " + in_quotes(file_name) + " does not end in " +
+                      hex_word(*ident).substr(2) +
                       ", the Ident_Number: tools that go by the name do not find it.");
 }
 

@@ -13,9 +13,9 @@ void unknown(Judge& judge, const Entry& entry)
 {
     const std::string_view nearest = nearest_keyword(entry.keyword);
     judge.say(entry.line, Weight::warning,
-              "unknown keyword " + quoted(entry.keyword) + ", which tools pass over in silence: " +
+              "unknown keyword " + in_quotes(entry.keyword) + ", which tools pass over in silence: " +
                   (nearest.empty() ? std::string{"remove it, or look how the standard spells it."}
-                                   : "the standard spells it " + quoted(nearest) + '.'));
+                                   : "the standard spells it " + in_quotes(nearest) + '.'));
 }
 
 void check_number(Judge& judge, const Entry& entry, const Keyword& keyword)
@@ -94,7 +94,7 @@ void check_one(Judge& judge, const Entry& entry, Place place, Seen& seen)
                          std::string{keyword->name} + " belongs into a module: move it there.");
     if (entry.keyword != keyword->name)
         judge.say(entry.line, Weight::pedantic,
-                  quoted(entry.keyword) + ": the standard spells it " + quoted(keyword->name) + '.');
+                  in_quotes(entry.keyword) + ": the standard spells it " + in_quotes(keyword->name) + '.');
     if (keyword->indexed && !entry.index)
         judge.say(entry.line, Weight::error,
                   std::string{keyword->name} + " needs a number in ( and ): write " +

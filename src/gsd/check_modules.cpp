@@ -16,12 +16,13 @@ void check_identifiers(Judge& judge, const Module& module)
     if (module.identifiers.empty()) return; // the parser has told why
     if (module.identifiers.size() > kMaxModuleOctets)
         judge.say(module.line, Weight::error,
-                  "the module " + quoted(module.name) + " has " + std::to_string(module.identifiers.size()) +
+                  "the module " + in_quotes(module.name) + " has " +
+                      std::to_string(module.identifiers.size()) +
                       " identifier octets: the standard allows 17. Split it.");
     const auto sum = sum_of_identifiers(module.identifiers);
     if (!sum) {
         judge.say(module.line, Weight::error,
-                  "the identifiers of the module " + quoted(module.name) +
+                  "the identifiers of the module " + in_quotes(module.name) +
                       " are cut short: an octet of the special format announces more octets than follow.");
         return;
     }
@@ -33,7 +34,7 @@ void check_identifiers(Judge& judge, const Module& module)
     for (const auto& direction : directions)
         if (const auto max = judge.document.number(direction.keyword); max && direction.octets > *max)
             judge.say(module.line, Weight::error,
-                      "the module " + quoted(module.name) + " has " +
+                      "the module " + in_quotes(module.name) + " has " +
                           count_of(direction.octets, std::string{direction.what} + " octet") +
                           ", more than " + direction.keyword + ": correct one of the two.");
 }
@@ -50,12 +51,12 @@ void check_names(Judge& judge)
         const auto [first, is_first] = names.try_emplace(module.name, module.line);
         if (!is_first && !module.name.empty())
             judge.say(module.line, Weight::error,
-                      "the module " + quoted(module.name) + " is there already (line " +
+                      "the module " + in_quotes(module.name) + " is there already (line " +
                           std::to_string(first->second) + "): give it a name of its own.");
         if (!module.reference) {
             if (judge.revision >= 3)
                 judge.say(module.line, Weight::error,
-                          "the module " + quoted(module.name) +
+                          "the module " + in_quotes(module.name) +
                               " has no reference number, which GSD_Revision 3 demands: write one in the next "
                               "line.");
             continue;
@@ -64,7 +65,7 @@ void check_names(Judge& judge)
         if (!is_new)
             judge.say(module.line, Weight::error,
                       "the reference number " + std::to_string(*module.reference) + " of the module " +
-                          quoted(module.name) + " belongs to the one of line " +
+                          in_quotes(module.name) + " belongs to the one of line " +
                           std::to_string(same_number->second) + " already: take another.");
     }
 }

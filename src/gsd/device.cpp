@@ -47,7 +47,7 @@ private:
     }
     void key(std::string_view keyword, std::size_t value) { key(keyword, std::to_string(value)); }
     void key(std::string_view keyword, bool value) { key(keyword, std::string_view{value ? "1" : "0"}); }
-    void text(std::string_view keyword, std::string_view value) { key(keyword, quoted(value)); }
+    void text(std::string_view keyword, std::string_view value) { key(keyword, in_quotes(value)); }
 
     /// One paragraph as comment lines, broken at blanks, else at commas.
     void folded(std::string_view paragraph)
@@ -141,7 +141,7 @@ private:
     void module(const Device& device, std::size_t index)
     {
         const DeviceModule& module = device.modules[index];
-        std::string text = "Module = " + quoted(module.name) + ' ';
+        std::string text = "Module = " + in_quotes(module.name) + ' ';
         std::size_t length = text.size();
         for (std::size_t i = 0; i < module.identifiers.size(); ++i) {
             const bool last = i + 1 == module.identifiers.size();

@@ -31,7 +31,7 @@ Entry entry_of(const LogicalLine& line, Remarks& remarks)
         entry.index = parse_number(trimmed(name.substr(open + 1, close - open - 1)));
         if (!entry.index || close == std::string_view::npos)
             remarks.push_back(
-                {line.number, Weight::error, quoted(name) + " has no number between ( and ): write one."});
+                {line.number, Weight::error, in_quotes(name) + " has no number between ( and ): write one."});
         name = trimmed(name.substr(0, open));
     }
     entry.keyword = std::string{name};
@@ -72,8 +72,9 @@ private:
         const Entry entry = entry_of(line, ignored);
         if (find_keyword(entry.keyword) != nullptr)
             remark(line.number, Weight::error,
-                   quoted(entry.keyword) + " stands before #Profibus_DP, where tools do not read it: move it "
-                                           "below.");
+                   in_quotes(entry.keyword) +
+                       " stands before #Profibus_DP, where tools do not read it: move it "
+                       "below.");
         else
             remark(line.number, Weight::warning,
                    "text before #Profibus_DP that is no comment: put a ; in front of it.");
@@ -93,14 +94,14 @@ private:
             return;
         }
         if (open_ && open_->kind == "Module" && belongs_to_unit(entry))
-            unclosed(quoted(entry.keyword) + " in line " + std::to_string(line.number));
+            unclosed(in_quotes(entry.keyword) + " in line " + std::to_string(line.number));
         if (open_)
             open_->body.push_back(std::move(entry));
         else if (!entry.keyword.empty())
             document_.keywords.push_back(std::move(entry));
         else
             remark(line.number, Weight::error,
-                   quoted(entry.value) +
+                   in_quotes(entry.value) +
                        " is neither Keyword = value nor part of a module: remove it, or add "
                        "what is missing.");
     }
@@ -153,7 +154,7 @@ private:
             module.identifiers = *identifiers;
         else
             remark(block.line, Weight::error,
-                   "the module's identifiers " + quoted(octets) +
+                   "the module's identifiers " + in_quotes(octets) +
                        " are no octets: write them as 0x50 or 80, with commas between.");
         for (const Entry& entry : block.body) {
             if (same(entry.keyword, "Preset")) module.preset = entry.value == "1";
@@ -162,7 +163,7 @@ private:
                 module.reference = parse_number(entry.value);
             else if (!same(entry.value, "Data_Area_Beg") && !same(entry.value, "Data_Area_End"))
                 remark(entry.line, Weight::error,
-                       quoted(entry.value) +
+                       in_quotes(entry.value) +
                            " is neither the module's reference number nor Keyword = value: remove "
                            "it, or add what is missing.");
         }

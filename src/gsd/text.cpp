@@ -99,7 +99,7 @@ std::string hex_word(std::uint32_t word)
            hex_octet(static_cast<std::uint8_t>(word & 0xFF)).substr(2);
 }
 
-std::string quoted(std::string_view text)
+std::string in_quotes(std::string_view text)
 {
     return '"' + std::string{text} + '"';
 }

@@ -34,7 +34,7 @@ std::optional<std::vector<std::uint8_t>> parse_octets(std::string_view value);
 
 std::string hex_octet(std::uint8_t octet);                     ///< "0x7F"
 std::string hex_word(std::uint32_t word);                      ///< "0x0533"
-std::string quoted(std::string_view text);                     ///< with double quotes, for a sentence
+std::string in_quotes(std::string_view text);                  ///< with double quotes, for a sentence
 std::string count_of(std::size_t count, std::string_view one); ///< "1 octet", "2 octets"
 
 } // namespace dpslave::gsd

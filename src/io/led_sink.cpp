@@ -2,16 +2,18 @@
 #include "dpslave/io/led_sink.hpp"
 
 #include "dpslave/io/fd.hpp"
+#include "dpslave/io/gpio.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <optional>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace dpslave::io {
 namespace {
@@ -30,16 +32,22 @@ int write_attribute(const fs::path& file, std::string_view value)
     return taken == static_cast<ssize_t>(line.size()) ? 0 : EIO;
 }
 
-/// The first number in `file`; none = there is no such file, or no number in it.
-std::optional<unsigned> read_number(const fs::path& file)
+/// The first line of `file`; empty = there is no such file, or nothing in it.
+std::string read_line(const fs::path& file)
 {
     const Fd fd{::open(file.c_str(), O_RDONLY | O_CLOEXEC)};
-    char text[16] = {};
-    if (!fd || ::read(fd.get(), text, sizeof text - 1) <= 0) return std::nullopt;
+    char text[64] = {};
+    if (!fd || ::read(fd.get(), text, sizeof text - 1) <= 0) return {};
+    const std::string line{text};
+    return line.substr(0, line.find('\n'));
+}
+
+/// All of `text` as a number of at most nine digits.
+std::optional<unsigned> number_of(std::string_view text)
+{
     unsigned number = 0;
-    const char* at = text;
-    for (; *at >= '0' && *at <= '9'; ++at) number = number * 10 + static_cast<unsigned>(*at - '0');
-    if (at == text) return std::nullopt;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc{} || end != text.data() + text.size() || text.size() > 9) return std::nullopt;
     return number;
 }
 
@@ -67,6 +75,31 @@ private:
     bool lit_ = false; // open_led_sink() has darkened it
 };
 
+/// A line of a GPIO chip.
+class LineLamp final : public LedSink {
+public:
+    LineLamp(GpioRequest request, GpioLine line) : request_(std::move(request)), line_(std::move(line)) {}
+
+    void set(bool lit) override
+    {
+        if (lit == lit_) return;
+        if (!line_) { // its chip had gone
+            auto again = GpioLine::request(request_);
+            if (!again) return;
+            line_.emplace(std::move(*again));
+        }
+        if (line_->set(lit))
+            line_.reset();
+        else
+            lit_ = lit;
+    }
+
+private:
+    GpioRequest request_;
+    std::optional<GpioLine> line_; // inactive when it is taken, and when it goes
+    bool lit_ = false;
+};
+
 using Opened = Result<std::unique_ptr<LedSink>, std::string>;
 
 /// 0, or errno. The kernel makes the pin's folder in the course of the export; udev gives its files to the
@@ -84,15 +117,33 @@ int wait_until_writable(const fs::path& file)
     return error;
 }
 
-Opened open_gpio(const std::string& sink, const std::string& number, const fs::path& sysfs)
+/// "LABEL:OFFSET" as the number that this pin has in sysfs since the last boot; nothing: no such chip or pin.
+std::optional<unsigned> numbered(const std::string& label_and_offset, const fs::path& gpio)
+{
+    const std::size_t colon = label_and_offset.rfind(':');
+    if (colon == std::string::npos) return number_of(label_and_offset);
+    const auto offset = number_of(std::string_view{label_and_offset}.substr(colon + 1));
+    std::error_code error;
+    for (fs::directory_iterator entry{gpio, error}, end; !error && entry != end; entry.increment(error)) {
+        const fs::path& chip = entry->path();
+        if (read_line(chip / "label") != label_and_offset.substr(0, colon)) continue;
+        const auto base = number_of(read_line(chip / "base")), pins = number_of(read_line(chip / "ngpio"));
+        if (offset && base && pins && *offset < *pins) return *base + *offset;
+    }
+    return std::nullopt;
+}
+
+Opened open_gpio(const std::string& sink, const std::string& name, const fs::path& sysfs)
 {
     constexpr std::string_view kAdvice =
         "check that the pin exists and is free (`gpioinfo`), and that this user may use sysfs GPIO";
-    if (number.empty() || number.size() > 9 ||
-        !std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; }))
-        return Failure{"LED " + sink + ": \"" + number + "\" is no GPIO number: write \"gpio:23\""};
-
     const fs::path gpio = sysfs / "class" / "gpio";
+    const auto found = numbered(name, gpio);
+    if (!found)
+        return Failure{"LED " + sink + ": no GPIO chip in " + gpio.string() +
+                       " has this label and that many lines: check it with `gpioinfo`"};
+
+    const std::string number = std::to_string(*found);
     const fs::path pin = gpio / ("gpio" + number);
     std::error_code ignored;
     if (!fs::exists(pin, ignored)) {
@@ -100,9 +151,12 @@ Opened open_gpio(const std::string& sink, const std::string& number, const fs::p
         if (const int error = write_attribute(gpio / "export", number); error != 0 && error != EBUSY)
             return Failure{sentence(sink, gpio / "export", error, kAdvice)};
     }
-    if (const int error = wait_until_writable(pin / "direction"); error != 0)
-        return Failure{sentence(sink, pin / "direction", error, kAdvice)};
-    if (const int error = write_attribute(pin / "direction", "out"); error != 0)
+    for (const char* const attribute : {"direction", "value"})
+        if (const int error = wait_until_writable(pin / attribute); error != 0)
+            return Failure{sentence(sink, pin / attribute, error, kAdvice)};
+    // "low" makes an output of it that was never high, which "out" does not promise; it means the pin, and 0
+    // the lamp, which differs where the pin is active low.
+    if (const int error = write_attribute(pin / "direction", "low"); error != 0)
         return Failure{sentence(sink, pin / "direction", error, kAdvice)};
     if (const int error = write_attribute(pin / "value", "0"); error != 0)
         return Failure{sentence(sink, pin / "value", error, kAdvice)};
@@ -111,10 +165,6 @@ Opened open_gpio(const std::string& sink, const std::string& number, const fs::p
 
 Opened open_led_class(const std::string& sink, const std::string& name, const fs::path& sysfs)
 {
-    if (name.empty() || name == "." || name == ".." || name.find('/') != std::string::npos)
-        return Failure{"LED " + sink + ": \"" + name +
-                       "\" is no name of a lamp: write \"led:NAME\" with a name from " +
-                       (sysfs / "class" / "leds").string()};
     const fs::path lamp = sysfs / "class" / "leds" / name;
     const fs::path brightness = lamp / "brightness";
     // A trigger (heartbeat, mmc0 ...) would write into our pattern. A kernel built without triggers has no
@@ -126,20 +176,68 @@ Opened open_led_class(const std::string& sink, const std::string& name, const fs
                                 "check the name in " + (sysfs / "class" / "leds").string() +
                                     ", and that this user may use the LED class")};
     constexpr unsigned kFull = 255; // LED_FULL; the kernel cuts it to what the lamp can
-    const unsigned full = read_number(lamp / "max_brightness").value_or(kFull);
+    const unsigned full = number_of(read_line(lamp / "max_brightness")).value_or(kFull);
     return Opened{std::make_unique<Attribute>(brightness, std::to_string(full))};
+}
+
+Opened open_line(const std::string& sink, GpioRequest request)
+{
+    auto taken = GpioLine::request(request);
+    if (!taken) return Failure{"LED " + sink + ": " + taken.error()};
+    return Opened{std::make_unique<LineLamp>(std::move(request), std::move(*taken))};
+}
+
+/// "line:CHIP:LINE" as "line" and "CHIP:LINE".
+std::pair<std::string, std::string> cut(const std::string& text, std::size_t colon)
+{
+    if (colon == std::string::npos) return {text, {}};
+    return {text.substr(0, colon), text.substr(colon + 1)};
 }
 
 } // namespace
 
+std::optional<GpioRequest> line_of_led_sink(const std::string& sink)
+{
+    const auto [kind, rest] = cut(sink, sink.find(':'));
+    const auto [chip, line] = cut(rest, rest.rfind(':'));
+    const auto number = number_of(line);
+    if (kind != "line" || chip.empty() || !number) return std::nullopt;
+    return GpioRequest{.chip = chip, .line = *number, .consumer = "dpslaved lamp"};
+}
+
+std::optional<std::string> judge_led_sink(const std::string& sink)
+{
+    const auto [kind, rest] = cut(sink, sink.find(':'));
+    if (kind == "line") {
+        if (line_of_led_sink(sink)) return std::nullopt;
+        return "write \"line:CHIP:LINE\", for example \"line:/dev/gpiochip0:24\"; instead of its path also "
+               "the label "
+               "of the chip, as `gpiodetect` shows it";
+    }
+    if (kind == "gpio") {
+        const auto [label, offset] = cut(rest, rest.rfind(':'));
+        const bool has_label = rest.find(':') != std::string::npos;
+        if (has_label ? !label.empty() && number_of(offset) : number_of(rest).has_value())
+            return std::nullopt;
+        return "write \"gpio:23\", or \"gpio:LABEL:OFFSET\" with the label of the chip and the offset on it, "
+               "as "
+               "`gpioinfo` shows them: the numbers change from boot to boot";
+    }
+    if (kind == "led") {
+        if (!rest.empty() && rest != "." && rest != ".." && rest.find('/') == std::string::npos)
+            return std::nullopt;
+        return "write \"led:NAME\" with the name of a folder in <sysfs>/class/leds";
+    }
+    return "write \"line:CHIP:LINE\" for a line of a GPIO chip, \"led:NAME\" for an LED of the LED class, or "
+           "\"gpio:N\" for a GPIO of sysfs";
+}
+
 Result<std::unique_ptr<LedSink>, std::string> open_led_sink(const std::string& sink, const fs::path& sysfs)
 {
-    const std::size_t colon = sink.find(':');
-    const std::string kind = sink.substr(0, colon);
-    const std::string rest = colon == std::string::npos ? std::string{} : sink.substr(colon + 1);
-    if (kind == "gpio") return open_gpio(sink, rest, sysfs);
-    if (kind == "led") return open_led_class(sink, rest, sysfs);
-    return Failure{"LED \"" + sink + "\": unknown kind of sink: write \"gpio:N\" or \"led:NAME\""};
+    if (const auto wrong = judge_led_sink(sink)) return Failure{"LED \"" + sink + "\": " + *wrong};
+    if (auto line = line_of_led_sink(sink)) return open_line(sink, std::move(*line));
+    const auto [kind, rest] = cut(sink, sink.find(':'));
+    return kind == "gpio" ? open_gpio(sink, rest, sysfs) : open_led_class(sink, rest, sysfs);
 }
 
 } // namespace dpslave::io

@@ -30,6 +30,11 @@ void Notifier::ready(std::string_view status)
 {
     send("READY=1\n" + status_line(status));
 }
+void Notifier::reloading(Instant now)
+{
+    const auto at = std::chrono::duration_cast<std::chrono::microseconds>(now.time_since_epoch()).count();
+    send("RELOADING=1\nMONOTONIC_USEC=" + std::to_string(at));
+}
 void Notifier::status(std::string_view text)
 {
     send(status_line(text));

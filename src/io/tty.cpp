@@ -3,6 +3,7 @@
 
 #include "timespec.hpp"
 #include "tty_settings.hpp"
+#include "uart.hpp"
 
 #include "dpslave/io/clock.hpp"
 
@@ -14,7 +15,7 @@
 
 #include <array>
 #include <cerrno>
-#include <optional>
+#include <thread>
 
 namespace dpslave::io {
 namespace {
@@ -78,8 +79,10 @@ struct Tty::Marked {
     ParityMarks marks;
 };
 
-Tty::Tty(Fd fd, const TtySettings& settings)
+Tty::Tty(Fd fd, const TtySettings& settings, std::unique_ptr<Uart> uart)
     : fd_(std::move(fd)),
+      settings_(settings),
+      uart_(std::move(uart)),
       character_(character_time(settings)),
       marked_(settings.mark_errors ? std::make_unique<Marked>() : nullptr)
 {}
@@ -88,30 +91,68 @@ Tty::Tty(Tty&&) noexcept = default;
 Tty& Tty::operator=(Tty&&) noexcept = default;
 Tty::~Tty() = default;
 
-Result<Tty, std::string> Tty::open(const std::string& path, const TtySettings& settings)
+Result<Tty, std::string> Tty::open(const std::string& path, const TtySettings& settings,
+                                   const std::filesystem::path& sysfs)
 {
     Fd fd{::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)};
     if (!fd) return Failure{why_not_opened(path, errno)};
     if (::isatty(fd.get()) == 0)
         return Failure{path + " is no serial port (no tty): check `port` in the configuration"};
-    const bool pty = is_pty(fd.get());
-    if (const int error = claim(fd.get(), pty); error != 0) return Failure{why_not_opened(path, error)};
-    if (const std::string trouble = apply(fd.get(), settings, pty); !trouble.empty())
+    auto uart = std::make_unique<Uart>(look_at(fd.get(), sysfs));
+    if (const int error = claim(fd.get(), uart->pty); error != 0) return Failure{why_not_opened(path, error)};
+    if (const std::string trouble = apply(fd.get(), settings, *uart); !trouble.empty())
         return Failure{path + ": " + trouble};
-    return Tty{std::move(fd), settings};
+    Tty tty{std::move(fd), settings, std::move(uart)};
+    if (settings.prompt) tty.warnings_ = hand_on_at_once(*tty.uart_);
+    return tty;
+}
+
+std::optional<std::string> Tty::set_baud(std::uint32_t baud)
+{
+    if (std::string trouble = change_rate(fd(), baud, *uart_); !trouble.empty()) return trouble;
+    settings_.baud = baud;
+    character_ = character_time(settings_);
+    std::this_thread::sleep_for(2 * character_);
+    static_cast<void>(discard_input()); // a port that has gone meanwhile says so when it is read
+    return std::nullopt;
+}
+
+TtyBauds Tty::bauds()
+{
+    TtyBauds found;
+    std::string missing;
+    for (const Baud baud : kBauds) {
+        const auto rate = static_cast<std::uint32_t>(baud);
+        if (change_rate(fd(), rate, *uart_).empty())
+            found.can.set(index_of(baud));
+        else if (baud != Baud::k45_45)
+            missing += (missing.empty() ? "" : ", ") + std::to_string(rate);
+    }
+    static_cast<void>(change_rate(fd(), settings_.baud, *uart_)); // it was possible before
+    static_cast<void>(discard_input());
+    if (!missing.empty())
+        found.why_not =
+            "this UART cannot do " + missing + " bit/s, which are not searched: " + rate_remedy(*uart_);
+    return found;
+}
+
+/// How many octets came. Reading with VMIN 0 gives 0 when nothing is there, and of a line that was hung up as
+/// well.
+Result<std::size_t, std::error_code> Tty::fetch(std::span<std::uint8_t> out)
+{
+    const ssize_t got = ::read(fd(), out.data(), out.size());
+    if (got > 0) return static_cast<std::size_t>(got);
+    if (got < 0 && errno != EAGAIN && errno != EINTR) return Failure{last_error()};
+    if (got == 0 && hung_up()) return Failure{std::make_error_code(std::errc::io_error)};
+    return std::size_t{0};
 }
 
 Result<Chunk, std::error_code> Tty::read(std::span<std::uint8_t> out)
 {
     if (marked_) return read_marked(out);
-    const ssize_t got = ::read(fd(), out.data(), out.size());
-    if (got > 0) {
-        const auto octets = out.first(static_cast<std::size_t>(got));
-        return Chunk{.octets = octets, .more = octets.size() == out.size()};
-    }
-    if (got < 0 && (errno == EAGAIN || errno == EINTR)) return Chunk{};
-    // With VMIN 1 a read that finds nothing says EAGAIN; 0 is left for a line that was hung up.
-    return Failure{got == 0 ? std::make_error_code(std::errc::io_error) : last_error()};
+    const auto got = fetch(out);
+    if (!got) return Failure{got.error()};
+    return Chunk{.octets = out.first(*got), .more = *got == out.size()};
 }
 
 Result<Chunk, std::error_code> Tty::read_marked(std::span<std::uint8_t> out)
@@ -119,11 +160,11 @@ Result<Chunk, std::error_code> Tty::read_marked(std::span<std::uint8_t> out)
     Marked& m = *marked_;
     bool filled = false;
     if (m.begin == m.end) {
-        const ssize_t got = ::read(fd(), m.raw.data(), m.raw.size());
-        if (got < 0 && (errno == EAGAIN || errno == EINTR)) return Chunk{};
-        if (got <= 0) return Failure{got == 0 ? std::make_error_code(std::errc::io_error) : last_error()};
+        const auto got = fetch(m.raw);
+        if (!got) return Failure{got.error()};
+        if (*got == 0) return Chunk{};
         m.begin = 0;
-        m.end = static_cast<std::size_t>(got);
+        m.end = *got;
         filled = m.end == m.raw.size();
     }
     const auto step = m.marks.undo(Bytes{m.raw}.subspan(m.begin, m.end - m.begin), out);
@@ -175,6 +216,20 @@ bool Tty::wait_readable(std::chrono::nanoseconds timeout)
 {
     if (marked_ && marked_->begin != marked_->end) return true;
     return wait_for(fd(), POLLIN, timeout);
+}
+
+std::optional<bool> Tty::transmitter_empty() const
+{
+    if (!tells_empty_) return std::nullopt;
+    const auto empty = io::transmitter_empty(fd());
+    if (!empty) tells_empty_ = errno != ENOTTY && errno != EINVAL && errno != EOPNOTSUPP;
+    return empty;
+}
+
+bool Tty::hung_up() const
+{
+    pollfd asked{.fd = fd(), .events = 0, .revents = 0};
+    return ::poll(&asked, 1, 0) > 0;
 }
 
 } // namespace dpslave::io

@@ -2,16 +2,18 @@
 #include "tty_settings.hpp"
 
 #include <asm/termbits.h>
-#include <linux/major.h>
 #include <linux/serial.h>
 #include <sys/ioctl.h>
-#include <sys/stat.h>
-#include <sys/sysmacros.h>
 
 #include <cerrno>
+#include <string_view>
 
 namespace dpslave::io {
 namespace {
+
+/// The mini UART of a Raspberry Pi: its driver takes PARENB, and the hardware sends without (wire
+/// reference 11.5).
+constexpr std::string_view kWithoutParity = "bcm2835-aux-uart";
 
 constexpr tcflag_t kFormat = CSIZE | PARENB | PARODD | CMSPAR | CSTOPB;
 
@@ -52,28 +54,26 @@ std::string last_error_text()
     return std::system_category().message(errno);
 }
 
+std::string cannot_tell()
+{
+    return "the serial port does not tell its settings (" + last_error_text() +
+           "): check that there is a UART behind it";
+}
+
+/// What the driver made of a rate. c_ospeed counts: the CBAUD bits read back differ by driver.
+std::string read_back(int fd, std::uint32_t asked, Uart uart, termios2& got)
+{
+    if (::ioctl(fd, TCGETS2, &got) < 0) return cannot_tell();
+    refresh(uart, fd);
+    return judge_rate(uart, asked, got.c_ospeed);
+}
+
 } // namespace
 
 std::chrono::nanoseconds character_time(const TtySettings& settings)
 {
     const int bits = 1 + settings.data_bits + (settings.parity == 'N' ? 0 : 1) + settings.stop_bits;
     return std::chrono::nanoseconds{bits * std::int64_t{1'000'000'000} / settings.baud};
-}
-
-bool is_pty(int fd)
-{
-    struct stat info {};
-    if (::fstat(fd, &info) < 0) return false;
-    const unsigned device = major(info.st_rdev);
-    return device >= UNIX98_PTY_SLAVE_MAJOR && device < UNIX98_PTY_SLAVE_MAJOR + UNIX98_PTY_MAJOR_COUNT;
-}
-
-std::string judge_rate(std::uint32_t asked, std::uint32_t took)
-{
-    const std::uint32_t off = asked > took ? asked - took : took - asked;
-    if (std::uint64_t{off} * 100 <= asked) return {};
-    return "this UART cannot do " + std::to_string(asked) + " bit/s (it took " + std::to_string(took) +
-           "): choose a rate that it can do, or another adapter";
 }
 
 bool flush_input(int fd)
@@ -86,7 +86,14 @@ void flush_output(int fd)
     ::ioctl(fd, TCFLSH, TCOFLUSH);
 }
 
-std::string apply(int fd, const TtySettings& settings, bool pty)
+std::optional<bool> transmitter_empty(int fd)
+{
+    unsigned status = 0;
+    if (::ioctl(fd, TIOCSERGETLSR, &status) < 0) return std::nullopt;
+    return (status & TIOCSER_TEMT) != 0;
+}
+
+std::string apply(int fd, const TtySettings& settings, const Uart& uart)
 {
     // Old output first: setting would wait until the driver had sent it, for ever if the other end holds it
     // up.
@@ -98,26 +105,37 @@ std::string apply(int fd, const TtySettings& settings, bool pty)
         wanted.c_iflag |= INPCK | PARMRK; // breaks are marked too: neither IGNBRK nor BRKINT
     wanted.c_cflag = BOTHER | CREAD | CLOCAL | format_of(settings);
     wanted.c_ispeed = wanted.c_ospeed = settings.baud;
-    // Reading never waits (O_NONBLOCK); VMIN 1 only lets it tell "nothing there" (EAGAIN) from a hang-up (0).
-    wanted.c_cc[VMIN] = 1;
+    wanted.c_cc[VMIN] = 0; // with VTIME 0: read() returns at once, whatever the flags of the descriptor say
     wanted.c_cc[VTIME] = 0;
     if (::ioctl(fd, TCSETS2, &wanted) < 0)
         return "the serial port refuses its settings (" + last_error_text() +
                "): check that there is a UART behind it";
 
     termios2 got{};
-    if (::ioctl(fd, TCGETS2, &got) < 0)
-        return "the serial port does not tell its settings (" + last_error_text() +
-               "): check that there is a UART behind it";
-    // c_ospeed counts: the CBAUD bits read back differ by driver.
-    if (std::string trouble = judge_rate(settings.baud, got.c_ospeed); !trouble.empty()) return trouble;
-    if (!pty && (got.c_cflag & kFormat) != (wanted.c_cflag & kFormat))
+    if (std::string trouble = read_back(fd, settings.baud, uart, got); !trouble.empty()) return trouble;
+    if (!uart.pty && (got.c_cflag & kFormat) != (wanted.c_cflag & kFormat))
         return "this UART cannot do " + text(wanted.c_cflag) + " (it took " + text(got.c_cflag) +
                "): use another adapter";
+    if (settings.parity != 'N' && uart.driver == kWithoutParity)
+        return "this UART has no parity (the mini UART of a Raspberry Pi): use its other UART, as ttyAMA0";
 
-    if (!pty) ask_for_low_latency(fd);
+    if (!uart.pty) ask_for_low_latency(fd);
     static_cast<void>(flush_input(fd)); // what came while the old settings were in force is noise
     return {};
+}
+
+std::string change_rate(int fd, std::uint32_t baud, const Uart& uart)
+{
+    flush_output(fd); // else the change waits until it has gone
+    termios2 wanted{};
+    if (::ioctl(fd, TCGETS2, &wanted) < 0) return cannot_tell();
+    wanted.c_cflag &= ~tcflag_t{CBAUD | (CBAUD << IBSHIFT)};
+    wanted.c_cflag |= BOTHER;
+    wanted.c_ispeed = wanted.c_ospeed = baud;
+    if (::ioctl(fd, TCSETSF2, &wanted) < 0)
+        return "the serial port refuses " + std::to_string(baud) + " bit/s (" + last_error_text() +
+               "): check that it is still there";
+    return read_back(fd, baud, uart, wanted);
 }
 
 } // namespace dpslave::io

@@ -36,8 +36,8 @@ int bits_of_a_character(const RtuSettings& settings)
 Result<std::unique_ptr<RtuLine>, std::string> RtuLine::open(const RtuSettings& settings,
                                                             std::atomic<bool>& is_open)
 {
-    auto tty = io::Tty::open(settings.port, tty_settings(settings));
-    if (!tty) return Failure{tty.error()};
+    auto port = io::Port::open(settings.port, tty_settings(settings), settings.reopen_after);
+    if (!port) return Failure{port.error()};
     // libmodbus never opens the port: it would leave cooked modes of the tty on and fall back to 9600 in
     // silence.
     Context context{modbus_new_rtu(settings.port.c_str(), static_cast<int>(settings.baud), settings.parity,
@@ -45,19 +45,19 @@ Result<std::unique_ptr<RtuLine>, std::string> RtuLine::open(const RtuSettings& s
     // One time-out for the answer as a whole: between its characters a driver may rest as long as it likes.
     if (!context || modbus_set_byte_timeout(context.get(), 0, 0) != 0)
         return Failure{settings.port + ": libmodbus refuses the settings of this port"};
-    return std::unique_ptr<RtuLine>{new RtuLine{settings, std::move(context), *std::move(tty), is_open}};
+    return std::unique_ptr<RtuLine>{new RtuLine{settings, std::move(context), *std::move(port), is_open}};
 }
 
-RtuLine::RtuLine(RtuSettings settings, Context context, io::Tty tty, std::atomic<bool>& is_open)
-    : settings_(std::move(settings)), context_(std::move(context)), is_open_(is_open)
+RtuLine::RtuLine(RtuSettings settings, Context context, io::Port port, std::atomic<bool>& is_open)
+    : settings_(std::move(settings)), context_(std::move(context)), port_(std::move(port)), is_open_(is_open)
 {
-    take(std::move(tty));
+    use_port();
 }
 
-void RtuLine::take(io::Tty tty)
+/// Opened just now: nobody owes an answer on it.
+void RtuLine::use_port()
 {
-    tty_.emplace(std::move(tty));
-    modbus_set_socket(context_.get(), tty_->fd());
+    modbus_set_socket(context_.get(), port_.tty().fd());
     late_until_ = {};
     heard_at_ = io::monotonic_now();
     is_open_.store(true, std::memory_order_relaxed);
@@ -65,13 +65,9 @@ void RtuLine::take(io::Tty tty)
 
 bool RtuLine::ready()
 {
-    if (tty_) return true;
-    const Instant now = io::monotonic_now();
-    if (now < next_reopen_) return false;
-    next_reopen_ = now + settings_.reopen_after;
-    auto again = io::Tty::open(settings_.port, tty_settings(settings_));
-    if (!again) return false;
-    take(*std::move(again));
+    if (port_.is_open()) return true;
+    if (!port_.ready(io::monotonic_now())) return false;
+    use_port();
     spdlog::info("{} is back", settings_.port);
     return true;
 }
@@ -79,9 +75,8 @@ bool RtuLine::ready()
 void RtuLine::lose()
 {
     modbus_set_socket(context_.get(), -1);
-    tty_.reset();
+    port_.lose(io::monotonic_now());
     is_open_.store(false, std::memory_order_relaxed);
-    next_reopen_ = io::monotonic_now() + settings_.reopen_after;
     trouble_ = settings_.port + " has gone";
     spdlog::error("{} has gone; it is opened again as soon as it returns", settings_.port);
 }
@@ -138,8 +133,8 @@ bool RtuLine::await_pause()
     const Instant end = io::monotonic_now() + duration_of(adu_.size()) + pause();
     for (Instant now = io::monotonic_now(); now < end; now = io::monotonic_now()) {
         const auto rest = std::max<std::chrono::nanoseconds>(std::min(end, heard_at_ + pause()) - now, 0ns);
-        if (!tty_->wait_readable(rest)) return true;
-        if (!tty_->read(adu_)) {
+        if (!port_.tty().wait_readable(rest)) return true;
+        if (!port_.tty().read(adu_)) {
             lose();
             return false;
         }
@@ -218,6 +213,9 @@ RtuLine::Heard RtuLine::receive(std::uint8_t unit, Instant until)
         case EINTR: return Heard::silence; // nothing was there after all; the caller looks at the time
         case EMBBADCRC: trouble_ = "an answer with a wrong check sum"; return Heard::noise;
         case EMBBADDATA: trouble_ = "an answer that is longer than any"; return Heard::noise;
+        case ECONNRESET: // the library read nothing: a line that hung up reads like that, but not it alone
+            if (!port_.tty().hung_up()) return Heard::silence;
+            [[fallthrough]];
         default: lose(); return Heard::gone;
     }
 }

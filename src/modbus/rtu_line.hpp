@@ -9,7 +9,7 @@
 
 #include "dpslave/base/bytes.hpp"
 #include "dpslave/base/units.hpp"
-#include "dpslave/io/tty.hpp"
+#include "dpslave/io/port.hpp"
 #include "dpslave/modbus/modbus_rtu.hpp"
 
 #include <modbus.h>
@@ -54,10 +54,10 @@ private:
     };
     using Context = std::unique_ptr<modbus_t, FreeContext>;
 
-    RtuLine(RtuSettings settings, Context context, io::Tty tty, std::atomic<bool>& is_open);
+    RtuLine(RtuSettings settings, Context context, io::Port port, std::atomic<bool>& is_open);
 
     bool ready();
-    void take(io::Tty tty);
+    void use_port();
     void lose();
     bool await_late_answer(std::uint8_t unit);
     bool await_pause();
@@ -69,9 +69,8 @@ private:
 
     RtuSettings settings_;
     Context context_;
-    std::optional<io::Tty> tty_;
+    io::Port port_;
     std::atomic<bool>& is_open_;
-    Instant next_reopen_{};
     Instant heard_at_{}; ///< when the last octet was read
     /// Until when a unit may still answer a request that was given up; passed = it owes nothing.
     std::array<Instant, kHighestUnit + 1> late_until_{};

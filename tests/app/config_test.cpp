@@ -26,11 +26,18 @@ using test::kSource;
 
 TEST_F(ConfigFile, with_the_required_keys_only_has_the_defaults_of_the_sample)
 {
-    const Config config = good(with(kGood, "[control]\noperator_group = \"root\"\n", ""));
+    const std::string without_group = with(kGood, "[control]\noperator_group = \"root\"\n", "");
+    const Config config = good(with(with(without_group, "baud = 187500\n", ""), "direction = \"none\"\n",
+                                    "gpio_chip = \"/dev/gpiochip0\"\ngpio_line = 17\n"));
 
     EXPECT_EQ(config.bus.port, "/dev/null-bus");
     EXPECT_EQ(config.bus.port_line, 2U);
-    EXPECT_EQ(config.bus.baud, Baud::k187_5);
+    EXPECT_EQ(config.bus.baud, std::nullopt) << "auto";
+    EXPECT_EQ(config.bus.driver_enable, (io::DriverEnableSettings{.direction = io::Direction::gpio,
+                                                                  .gpio_chip = "/dev/gpiochip0",
+                                                                  .gpio_line = 17,
+                                                                  .active_low = false}));
+    EXPECT_EQ(config.bus.echo, fdl::EchoMode::off);
     EXPECT_EQ(config.bus.max_tsdr, 0U);
     EXPECT_EQ(config.realtime.priority, 80);
     EXPECT_EQ(config.realtime.cpu, -1);
@@ -81,11 +88,11 @@ TEST_F(ConfigFile, every_key_is_read)
 port = "/dev/null-bus"
 baud = 45450
 max_tsdr = 500
-direction = "none"
-gpio_chip = "/dev/gpiochip0"
-gpio_line = 17
+direction = "gpio"
+gpio_chip = "/dev/gpiochip1"
+gpio_line = 23
 gpio_active_low = true
-echo = "off"
+echo = "auto"
 [realtime]
 priority = 0
 cpu = 1
@@ -126,6 +133,11 @@ green = "led:dpslaved-green"
 
     EXPECT_EQ(config.bus.baud, Baud::k45_45);
     EXPECT_EQ(config.bus.max_tsdr, 500U);
+    EXPECT_EQ(config.bus.driver_enable, (io::DriverEnableSettings{.direction = io::Direction::gpio,
+                                                                  .gpio_chip = "/dev/gpiochip1",
+                                                                  .gpio_line = 23,
+                                                                  .active_low = true}));
+    EXPECT_EQ(config.bus.echo, fdl::EchoMode::automatic);
     EXPECT_EQ(config.realtime.priority, 0);
     EXPECT_EQ(config.realtime.cpu, 1);
     EXPECT_FALSE(config.realtime.lock_memory);
@@ -197,6 +209,78 @@ TEST_F(ConfigFile, two_stations_may_share_bus_line_profile_and_table)
     EXPECT_EQ(config.stations[1].unit, (drive::UnitAddress{0, 1}));
 }
 
+TEST_F(ConfigFile, baud_is_auto_or_one_of_the_seven_rates)
+{
+    EXPECT_EQ(good(with(kGood, "baud = 187500", "baud = \"auto\"")).bus.baud, std::nullopt);
+    for (const Baud baud : kBauds) {
+        const std::string rate = std::to_string(static_cast<std::uint32_t>(baud));
+        EXPECT_EQ(good(with(kGood, "baud = 187500", "baud = " + rate)).bus.baud, baud);
+    }
+}
+
+TEST_F(ConfigFile, each_direction_but_gpio_needs_no_further_key)
+{
+    for (const auto& [name, direction] :
+         {std::pair{"none", io::Direction::none}, std::pair{"kernel", io::Direction::kernel},
+          std::pair{"rts", io::Direction::rts}}) {
+        const Config config = good(with(kGood, "\"none\"", '"' + std::string{name} + '"'));
+        EXPECT_EQ(config.bus.driver_enable, (io::DriverEnableSettings{.direction = direction}));
+        EXPECT_THAT(config.warnings, IsEmpty());
+    }
+}
+
+TEST_F(ConfigFile, gpio_active_low_turns_rts_round_too)
+{
+    const Config config = good(with(kGood, "\"none\"", "\"rts\"\ngpio_active_low = true"));
+
+    EXPECT_TRUE(config.bus.driver_enable.active_low);
+    EXPECT_THAT(config.warnings, IsEmpty());
+}
+
+TEST_F(ConfigFile, keys_of_another_direction_are_a_warning_and_have_no_effect)
+{
+    const Config config =
+        good(with(kGood, "\"none\"",
+                  "\"none\"\ngpio_chip = \"/dev/gpiochip0\"\ngpio_line = 17\ngpio_active_low = true"));
+
+    EXPECT_THAT(short_forms(config.warnings),
+                ElementsAre(AllOf(StartsWith("5:13: 'gpio_chip' means nothing with direction = \"none\""),
+                                  HasSubstr("remove it")),
+                            StartsWith("6:13: 'gpio_line' means nothing"),
+                            StartsWith("7:19: 'gpio_active_low' means nothing")));
+    EXPECT_EQ(config.bus.driver_enable.gpio_chip, "");
+    EXPECT_EQ(config.bus.driver_enable.direction, io::Direction::none);
+}
+
+TEST_F(ConfigFile, echo_is_off_on_or_found_out)
+{
+    for (const auto& [name, mode] : {std::pair{"off", fdl::EchoMode::off}, std::pair{"on", fdl::EchoMode::on},
+                                     std::pair{"auto", fdl::EchoMode::automatic}})
+        EXPECT_EQ(good(with(kGood, "\"none\"", "\"none\"\necho = \"" + std::string{name} + '"')).bus.echo,
+                  mode);
+}
+
+TEST_F(ConfigFile, an_echo_that_is_to_be_removed_is_asked_of_the_kernel_too)
+{
+    const auto receives_own = [&](const std::string& direction, const std::string& echo) {
+        return good(with(kGood, "\"none\"", '"' + direction + "\"\necho = \"" + echo + '"'))
+            .bus.driver_enable.receive_own;
+    };
+    EXPECT_TRUE(receives_own("kernel", "on"));
+    EXPECT_FALSE(receives_own("kernel", "auto"));
+    EXPECT_FALSE(receives_own("kernel", "off"));
+    EXPECT_FALSE(receives_own("rts", "on"));
+}
+
+TEST_F(ConfigFile, without_direction_chip_and_line_of_the_gpio_are_asked_for_with_how_to_find_them)
+{
+    EXPECT_THAT(short_forms(bad(with(kGood, "direction = \"none\"\n", ""))),
+                ElementsAre(AllOf(StartsWith("1:1: 'gpio_chip' is missing in [bus]: add gpio_chip = "),
+                                  HasSubstr("`gpioinfo`"), HasSubstr("direction = \"none\"")),
+                            AllOf(StartsWith("1:1: 'gpio_line' is missing in [bus]: add gpio_line = "),
+                                  HasSubstr("`gpioinfo`"))));
+}
+
 class BadConfigFile : public ConfigFile, public testing::WithParamInterface<BadChange> {};
 
 TEST_P(BadConfigFile, is_refused_with_place_and_remedy)
@@ -217,24 +301,28 @@ INSTANTIATE_TEST_SUITE_P(
                   "1:1: ", "'port' is missing in [bus]: add port = \"/dev/ttyS1\""},
         BadChange{"port = \"/dev/null-bus\"", "port = 1", "2:8: ", "a text in quotes"},
         BadChange{"port = \"/dev/null-bus\"", "port = \"x\"\nprot = \"y\"", "3:1: ", "did you mean 'port'?"},
-        BadChange{"baud = 187500", "", "1:1: ", "'baud' is not set and then means \"auto\""},
-        BadChange{"baud = 187500", "baud = \"auto\"", "3:8: ", "set baud to the rate of the bus, 9600"},
         BadChange{"baud = 187500", "baud = \"187500\"", "3:8: ", "without quotes"},
+        BadChange{"baud = 187500", "baud = \"Auto\"", "3:8: ", "'baud' \"Auto\" is no rate: write \"auto\""},
+        BadChange{"baud = 187500", "baud = \"\"", "3:8: ", "is empty"},
         BadChange{"baud = 187500", "baud = 38400",
-                  "3:8: ", "38400 is no rate that is served: set baud to the rate of the bus, 9600"},
+                  "3:8: ", "38400 is no rate that is served: write \"auto\", or a rate in bit/s"},
         BadChange{"baud = 187500", "baud = 12000000", "3:8: ", "no rate that is served"},
         BadChange{"baud = 187500", "baud = true", "3:8: ", "not true"},
-        BadChange{"direction = \"none\"", "", "1:1: ", "'direction' is not set and then means \"gpio\""},
-        BadChange{"direction = \"none\"", "direction = \"gpio\"", "4:13: ", "set direction = \"none\""},
-        BadChange{"direction = \"none\"", "direction = \"kernel\"", "4:13: ", "set direction = \"none\""},
-        BadChange{"direction = \"none\"", "direction = \"rts\"", "4:13: ", "set direction = \"none\""},
-        BadChange{"direction = \"none\"", "direction = \"nome\"", "4:13: ", "Did you mean \"none\"?"},
-        BadChange{"direction = \"none\"", "direction = \"none\"\necho = \"on\"",
-                  "5:8: ", "set echo = \"off\""},
-        BadChange{"direction = \"none\"", "direction = \"none\"\necho = \"auto\"",
-                  "5:8: ", "set echo = \"off\""},
-        BadChange{"direction = \"none\"", "direction = \"none\"\ngpio_line = -1",
+        BadChange{"direction = \"none\"", "direction = \"gpio\"\ngpio_line = 17",
+                  "1:1: ", "'gpio_chip' is missing in [bus]: add gpio_chip = \"/dev/gpiochip0\""},
+        BadChange{"direction = \"none\"", "direction = \"gpio\"\ngpio_chip = \"/dev/gpiochip0\"",
+                  "1:1: ", "'gpio_line' is missing in [bus]: add gpio_line = 17"},
+        BadChange{"direction = \"none\"", "direction = \"gpio\"\ngpio_line = 17\ngpio_chip = \"\"",
+                  "6:13: ", "is empty"},
+        BadChange{"direction = \"none\"", "gpio_chip = \"/dev/gpiochip0\"\ngpio_line = -1",
                   "5:13: ", "from 0 to 65535"},
+        BadChange{"direction = \"none\"", "direction = \"none\"\ngpio_active_low = 1",
+                  "5:19: ", "true or false"},
+        BadChange{"direction = \"none\"", "direction = \"nome\"", "4:13: ", "Did you mean \"none\"?"},
+        BadChange{"direction = \"none\"", "direction = \"none\"\necho = true",
+                  "5:8: ", "must be \"off\", \"on\" or \"auto\", not true"},
+        BadChange{"direction = \"none\"", "direction = \"none\"\necho = \"onn\"",
+                  "5:8: ", "Did you mean \"on\"?"},
         BadChange{"direction = \"none\"", "direction = \"none\"\nmax_tsdr = 10",
                   "5:12: ", "set 0 for the profile's value"},
         BadChange{"direction = \"none\"", "direction = \"none\"\nmax_tsdr = -1", "5:12: ", "from 0 to 65535"},
@@ -448,7 +536,7 @@ TEST_F(ConfigFile, all_faults_of_configuration_profiles_and_tables_are_told_in_o
     change_profile("broken", "ident = 0x0533", "ident = \"x\"");
     folder_.write("tags/example.csv", "tag\nx\n");
     folder_.write("etc/own.csv", "tag\n1\n70000\n");
-    std::string text = with(with(kGood, "baud = 187500", "baud = \"auto\""), "direction", "directoin");
+    std::string text = with(with(kGood, "baud = 187500", "baud = \"atuo\""), "direction", "directoin");
     text = with(with(text, "\"590\"", "\"broken\""), "unit = \"00\"", "unit = \"xx\"\ntags = \"own.csv\"");
 
     const Faults faults = bad(text + with(kSecondStation, "address = 6", "address = 5"));
@@ -458,7 +546,8 @@ TEST_F(ConfigFile, all_faults_of_configuration_profiles_and_tables_are_told_in_o
         seen.push_back(std::filesystem::path{fault.file}.filename().string() + ":" + test::short_form(fault));
     EXPECT_THAT(
         seen,
-        ElementsAre(AllOf(StartsWith("dpslaved.toml:1:1: "), HasSubstr("'direction' is not set")),
+        ElementsAre(AllOf(StartsWith("dpslaved.toml:1:1: "), HasSubstr("'gpio_chip' is missing")),
+                    AllOf(StartsWith("dpslaved.toml:1:1: "), HasSubstr("'gpio_line' is missing")),
                     AllOf(StartsWith("dpslaved.toml:3:8: "), HasSubstr("\"auto\"")),
                     AllOf(StartsWith("dpslaved.toml:4:1: "), HasSubstr("did you mean 'direction'?")),
                     AllOf(StartsWith("dpslaved.toml:19:8: "), HasSubstr("two hexadecimal digits")),
@@ -581,6 +670,11 @@ TEST_F(ShippedSample, shows_every_key_with_its_default)
     const Config shown = good(switched_on(sample_));
     const Config left_out = good(with(kGood, "[control]\noperator_group = \"root\"\n", ""));
 
+    const Config left_out_bus = good(with(with(kGood, "baud = 187500\n", ""), "direction = \"none\"\n",
+                                          "gpio_chip = \"/dev/gpiochip0\"\ngpio_line = 17\n"));
+    EXPECT_EQ(shown.bus.baud, left_out_bus.bus.baud);
+    EXPECT_EQ(shown.bus.driver_enable, left_out_bus.bus.driver_enable);
+    EXPECT_EQ(shown.bus.echo, left_out_bus.bus.echo);
     EXPECT_EQ(shown.bus.max_tsdr, left_out.bus.max_tsdr);
     EXPECT_EQ(shown.realtime.priority, left_out.realtime.priority);
     EXPECT_EQ(shown.realtime.cpu, left_out.realtime.cpu);

@@ -322,6 +322,9 @@ TEST_F(Box, IsFaultyInItsHardwareWhileAPortIsGone)
     bench.bus.port_open = false;
     EXPECT_EQ(value("FAULT"), static_cast<int>(OptionFault::hardware));
     bench.bus.port_open = true;
+    bench.bus.driver_works = false;
+    EXPECT_EQ(value("FAULT"), static_cast<int>(OptionFault::hardware)) << "a reply that nobody can hear";
+    bench.bus.driver_works = true;
     EXPECT_EQ(value("FAULT"), static_cast<int>(OptionFault::none));
     EXPECT_THAT(device->take_news(), Contains(says("FAULT is NONE again")));
 }

@@ -37,8 +37,13 @@ pid_t fork_child()
 void write_config(const DaemonSetup& setup, const fs::path& file)
 {
     std::ofstream out{file};
-    out << "[bus]\nport = \"" << setup.bus
-        << "\"\nbaud = 1500000\ndirection = \"none\"\nmax_tsdr = " << setup.max_tsdr
+    out << "[bus]\nport = \"" << setup.bus << "\"\nbaud = 1500000\n";
+    if (setup.gpio_chip.empty())
+        out << "direction = \"none\"\n";
+    else
+        out << "direction = \"gpio\"\ngpio_chip = \"" << setup.gpio_chip.string()
+            << "\"\ngpio_line = " << kDriverLine << "\n";
+    out << "max_tsdr = " << setup.max_tsdr
         << "\n[realtime]\npriority = 80\nlock_memory = true\ncpu = " << setup.cpu << "\n"
         << "[control]\nsocket = \"" << (setup.folder / "control.sock").string() << "\"\n"
         << "[[line]]\nname = \"p3\"\nport = \"" << setup.drive << "\"\nprotocol = \"ei-ascii\"\nbaud = 9600\n"
@@ -145,6 +150,7 @@ Child start_daemon(const DaemonSetup& setup)
         ::dup2(out, STDOUT_FILENO);
         ::dup2(out, STDERR_FILENO);
         for (const char* name : {"NOTIFY_SOCKET", "JOURNAL_STREAM", "WATCHDOG_USEC"}) ::unsetenv(name);
+        if (!setup.gpio_chip.empty()) ::setenv("LD_LIBRARY_PATH", GPIO_STAND_IN_FOLDER, 1);
         ::execl(setup.program.c_str(), setup.program.c_str(), "--config", config.c_str(), "--profiles",
                 setup.profiles.c_str(), nullptr);
         ::_exit(127);

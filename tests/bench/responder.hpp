@@ -42,6 +42,9 @@ private:
 /// processor it gives; -1: there is only one, nothing was pinned.
 int reserve_cpu();
 
+/// The line that switches the transceiver, of a chip that the stand-in of libgpiod plays.
+inline constexpr unsigned kDriverLine = 5;
+
 /// Starts the daemon with one station (profile 590, address 5) on `bus` at 1.5 Mbit/s and a drive line on
 /// `drive`. Its configuration, socket and log lie in `folder`.
 struct DaemonSetup {
@@ -50,6 +53,8 @@ struct DaemonSetup {
     std::string bus;
     std::string drive;
     std::filesystem::path folder;
+    std::filesystem::path
+        gpio_chip{};       ///< driver enable by line kDriverLine of this file; empty = direction "none"
     int cpu = -1;          ///< [realtime] cpu
     unsigned max_tsdr = 0; ///< [bus] max_tsdr; 0 = the profile's
 };

@@ -10,6 +10,7 @@
 #include "port.hpp"
 #include "report.hpp"
 #include "responder.hpp"
+#include "support/gpio_stand_in/chip.hpp"
 
 #include "dpslave/io/clock.hpp"
 
@@ -33,6 +34,7 @@ struct Options {
     std::filesystem::path profiles;
     std::size_t telegrams = 20'000;
     std::uint32_t seed = 1;
+    std::string direction = "none"; ///< or "gpio": a line of a stand-in whose edges cost a system call each
     bool quick = false;
 };
 
@@ -184,8 +186,24 @@ void run(std::span<Target* const> targets, std::size_t rounds, std::mt19937& ran
     }
 }
 
+/// Up and down once for each reply, and down in the end; throws if not. A request that comes while the last
+/// reply would still be on a wire (a pty has none) finds the line active: then it goes down and up again
+/// first, which is more than a real one costs.
+void check_driver_enable(const stand_in::ChipFile& chip, std::size_t replies)
+{
+    const Instant limit = io::monotonic_now() + 1s;
+    while (chip.high(kDriverLine) && io::monotonic_now() < limit) ::usleep(1'000);
+    std::printf("driver enable: %u times up, %u times down\n", chip.rises(kDriverLine),
+                chip.falls(kDriverLine));
+    if (chip.high(kDriverLine) || chip.rises(kDriverLine) != chip.falls(kDriverLine) ||
+        chip.rises(kDriverLine) < replies)
+        throw std::runtime_error{"the driver enable was not switched for each reply"};
+}
+
 int measure(const Options& options, const std::filesystem::path& folder)
 {
+    const bool gpio = options.direction == "gpio";
+    const stand_in::ChipFile chip{folder / "gpiochip0"};
     const int cpu = reserve_cpu();
     ::prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL); // the pauses are short
     Port bus, null_bus, second_bus, drive;
@@ -194,6 +212,7 @@ int measure(const Options& options, const std::filesystem::path& folder)
                                  .bus = bus.path(),
                                  .drive = drive.path(),
                                  .folder = folder,
+                                 .gpio_chip = gpio ? chip.path() : std::filesystem::path{},
                                  .cpu = cpu,
                                  .max_tsdr = kPatientTsdr});
     Target board{.port = bus, .sample = {.name = "dpslaved"}};
@@ -226,8 +245,8 @@ int measure(const Options& options, const std::filesystem::path& folder)
 
     std::printf(
         "Data_Exchange, 8 octets out and 32 in, pty set to 1.5 Mbit/s, %zu telegrams each in random order "
-        "(seed %u), all responders %s\n",
-        options.telegrams, options.seed, text(scheduling).c_str());
+        "(seed %u), all responders %s, driver enable: %s\n",
+        options.telegrams, options.seed, text(scheduling).c_str(), options.direction.c_str());
     Sample bus_only = board.sample;
     bus_only.name = "dpslaved, CPU of its bus thread";
     bus_only.cpu = thread_used;
@@ -239,11 +258,12 @@ int measure(const Options& options, const std::filesystem::path& folder)
     print("bus thread / null", found);
     print("whole process / null", ratios(board.sample, base.sample));
     print("null / null (A/A)", ratios(again.sample, base.sample));
+    if (gpio) check_driver_enable(chip, options.telegrams);
     if (options.quick) {
         std::printf("not judged: too few telegrams\n");
         return 0;
     }
-    return judge(found) ? 0 : 1;
+    return judge(found, gpio ? kGpioLimits : kLimits) ? 0 : 1;
 }
 
 void show_log(const std::filesystem::path& folder)
@@ -270,6 +290,10 @@ int main(int argc, char** argv)
                        ->capture_default_str()
                        ->check(CLI::Range(100, 10'000'000));
     app.add_option("--seed", options.seed, "Of the order of the telegrams")->capture_default_str();
+    app.add_option("--direction", options.direction,
+                   "Driver enable of the daemon: none, or gpio (a stand-in)")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"none", "gpio"}));
     app.add_flag("--quick", options.quick, "200 telegrams, nothing judged")->excludes(number);
     try {
         app.parse(argc, argv);

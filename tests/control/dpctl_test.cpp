@@ -172,6 +172,19 @@ TEST_F(DpctlProgram, EndsWith1WhenTheDaemonIsSilent)
     EXPECT_THAT(ran.err, HasSubstr("no answer within 100 ms"));
 }
 
+// ---------------------------------------------------------------- reload
+
+TEST_F(DpctlProgram, ReloadsForOperatorsOnly)
+{
+    const Ran ran = run({"reload"});
+    EXPECT_EQ(ran.exit, 0) << ran.err;
+    EXPECT_EQ(ran.out, dpctl::render_reload(fixture("Reload")));
+    EXPECT_EQ(Json::parse(run({"reload", "--json"}).out), fixture("Reload"));
+    if (::geteuid() == 0) {
+        EXPECT_EQ(run({"reload"}, Dpctl::As::nobody).exit, 1);
+    }
+}
+
 // ---------------------------------------------------------------- TEC OPTION
 
 TEST_F(DpctlProgram, SetsAnInputOfTheFunctionBlockInEitherShape)

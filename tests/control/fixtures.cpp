@@ -64,7 +64,12 @@ const char* const kTec = R"({"stations":[{"name":"booster","view":"profibus","ro
 const char* const kCounters = R"({"groups":[{"name":"bus","counters":[
   {"name":"telegrams","value":123456,"meaning":"valid telegrams heard"},
   {"name":"flaw.checksum","value":3,"meaning":"FCS wrong"}]},
-  {"name":"unwinder","counters":[{"name":"data_exchange","value":7,"meaning":"Data_Exchange requests answered"}]}]})";
+  {"name":"unwinder","counters":[{"name":"data_exchange","value":7,"meaning":"Data_Exchange requests answered"}]}],
+  "turnaround":[
+  {"unit":"us","count":2000,"p50":12,"p99":79,"p999":210,"highest":20000,"classes":[
+    {"from":12,"to":12,"count":1600},{"from":64,"to":79,"count":399},{"from":14336,"to":null,"count":1}]},
+  {"unit":"T_bit","count":2000,"p50":3,"p99":15,"p999":40,"highest":3750,"classes":[
+    {"from":3,"to":3,"count":1600},{"from":14,"to":14,"count":399},{"from":3584,"to":4095,"count":1}]}]})";
 
 std::map<std::string, json> all()
 {
@@ -89,6 +94,8 @@ std::map<std::string, json> all()
         {"GetLeds", json::parse(kLeds)},
         {"GetTec", json::parse(kTec)},
         {"SetTec", json::parse(kTec)},
+        {"Reload", json::parse(R"({"applied":true,"changes":["station rewinder removed"],
+            "pending":["station unwinder: address 7 counts from the next start on"],"warnings":[],"faults":[]})")},
         {"Watch", {{"bus", bus}, {"stations", stations}, {"words", watched_words}}},
         {"ReadTag", tag},
         {"WriteTag", tag},

@@ -275,7 +275,50 @@ bus
 unwinder
   COUNT  OF             MEANING
       7  data_exchange  Data_Exchange requests answered
+
+turnaround of 2000 replies, from the end of the request to the end of the write
+                          us  T_bit
+  half of them within     12      3
+  99 %                    79     15
+  99.9 %                 210     40
+  the slowest          20000   3750
+
+              us  REPLIES   SHARE
+              12     1600  80.0 %  ################################
+        64 to 79      399  19.9 %  ########
+  14336 and more        1   0.1 %  #
+
+         T_bit  REPLIES   SHARE
+             3     1600  80.0 %  ################################
+            14      399  19.9 %  ########
+  3584 to 4095        1   0.1 %  #
 )"));
+}
+
+TEST(DpctlCounters, SayThatNoReplyWasSentYet)
+{
+    Json reply = fixture("GetCounters");
+    for (Json& one : reply["turnaround"]) {
+        one["count"] = 0;
+        one["p50"] = one["p99"] = one["p999"] = one["highest"] = nullptr;
+        one["classes"] = Json::array();
+    }
+    const std::string picture = render_counters(reply, false);
+    EXPECT_NE(picture.find("\nturnaround: no reply was sent yet\n"), std::string::npos);
+    EXPECT_EQ(picture.find("T_bit"), std::string::npos);
+
+    reply["turnaround"][0]["count"] = 1;
+    EXPECT_NE(render_counters(reply, false).find("turnaround of 1 reply, from"), std::string::npos);
+}
+
+TEST(DpctlCounters, ShowARareClassAsMoreThanNothing)
+{
+    Json reply = fixture("GetCounters");
+    reply["turnaround"][0]["count"] = 1'000'000;
+    reply["turnaround"][0]["classes"] =
+        Json::parse(R"([{"from":12,"to":12,"count":999999},{"from":64,"to":79,"count":1}])");
+
+    EXPECT_NE(render_counters(reply, false).find("64 to 79        1  < 0.1 %  #\n"), std::string::npos);
 }
 
 TEST(DpctlLeds, SayWhatTheyMean)

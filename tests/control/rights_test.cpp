@@ -119,6 +119,14 @@ TEST_F(KernelsWord, LetsAMemberByMainGroupWrite)
     EXPECT_EQ(ask_as(bench, caller_with(kNobody, kOperators, {}), write), done);
 }
 
+TEST_F(KernelsWord, CountsForTheGroupThatMayOperateFromNowOn)
+{
+    constexpr gid_t others = 4343;
+    bench.server->set_operators(others, "others");
+    EXPECT_EQ(ask_as(bench, caller_with(kNobody, others, {}), write), done);
+    EXPECT_NE(ask_as(bench, caller_with(kNobody, kOperators, {}), write), done);
+}
+
 TEST_F(KernelsWord, RefusesAnOrdinaryUserAndCountsIt)
 {
     EXPECT_EQ(ask_as(bench, caller_with(kNobody, kNobody, {20}), write), refused);

@@ -299,6 +299,20 @@ TEST_F(ControlServer, StreamsOneReplyToACallerWhoDidNotAskForMore)
     EXPECT_FALSE(bench.server->push(1, Json::object()));
 }
 
+TEST_F(ControlServer, EndsAStreamWithAnErrorAndTakesTheNextCall)
+{
+    auto caller = bench.caller();
+    bench.ask(caller, call("Watch", "{}", R"(,"more":true)"));
+
+    EXPECT_TRUE(bench.server->end_stream(1, Error{"NoSuchStation", json(R"({"station":"5","known":[]})")}));
+    EXPECT_EQ(
+        bench.reply(caller),
+        json(R"({"error":"org.dpslaved.Control.NoSuchStation","parameters":{"station":"5","known":[]}})"));
+    EXPECT_TRUE(bench.server->streams().empty());
+    EXPECT_FALSE(bench.server->end_stream(1, Error{"Busy", Json::object()}));
+    EXPECT_EQ(bench.ask(caller, call("GetStatus")), json(R"({"parameters":{"n":1}})"));
+}
+
 TEST_F(ControlServer, EndsAStreamWhenItsCallerGoes)
 {
     auto caller = bench.caller();

@@ -25,10 +25,11 @@ span() { # LETTER FIRST LAST
 # "program Instance/Suite" of its instances. Others: the name itself.
 for list in tests/*/CMakeLists.txt; do
     folder=${list%/*}
-    sed 's/#.*//' "$list" | tr '\n' ' ' | grep -oE '(dpslave_test\(|add_executable\(test_)[^)]*' | while read -r call; do
+    sed 's/#.*//' "$list" | tr '\n' ' ' | grep -oE '(dpslave_test|dpslave_system_test)\([^)]*' | while read -r call; do
+        kind=${call%%(*}
         call=${call#*(}
         program=${call%% *}
-        program=${program#test_}
+        [ "$kind" = dpslave_test ] || program=system
         for source in $(printf '%s\n' "$call" | grep -oE '[A-Za-z0-9_./]+\.cpp'); do
             # A name may stand on the next line.
             tr '\n' ' ' < "$folder/$source" |
@@ -40,8 +41,9 @@ for list in tests/*/CMakeLists.txt; do
     done || true
     sed 's/#.*//' "$list" | tr '\n' ' ' | grep -oE 'add_test\( *NAME [A-Za-z0-9_.]+' | sed 's/.* //' || true
 done | sort -u > "$scratch/tests"
-# tests/purity names two in a loop.
+# tests/purity and tests/bench name theirs in a loop.
 for room in fdl dp base led; do echo "purity.symbols_of_$room"; done >> "$scratch/tests"
+for direction in none gpio; do echo "bench.turnaround_quick_$direction"; done >> "$scratch/tests"
 
 known() { # a whole line of the list of tests
     grep -qxF -- "$1" "$scratch/tests"

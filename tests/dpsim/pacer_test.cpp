@@ -102,6 +102,17 @@ TEST(Pacer, DoesNotLetAShorterDelayOvertake)
     EXPECT_EQ(line.due_by(t + 51ms), (Octets{1, 2}));
 }
 
+TEST(Pacer, HasAnotherRateFromTheNextOctetOn)
+{
+    Pacer line{11'000, 11, 1};
+    const Instant t{1s};
+    line.take(kThree, t);
+    line.set_baud(1'100); // a character takes 10 ms
+    line.take(Octets{4}, t + 1ms);
+    EXPECT_EQ(line.due_by(t + 3ms), kThree);
+    EXPECT_EQ(line.next_due(), t + 13ms);
+}
+
 TEST(Pacer, LosesEverythingWhileItIsCut)
 {
     Pacer line{11'000, 11, 1};

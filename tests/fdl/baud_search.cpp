@@ -18,6 +18,15 @@ namespace {
 
 constexpr Instant kStart{seconds{50}};
 
+/// A search among these rates, at what a UART can do.
+BaudSearchSettings among(std::initializer_list<Baud> rates)
+{
+    BaudSearchSettings settings;
+    settings.rates.reset();
+    for (const Baud baud : rates) settings.rates.set(index_of(baud));
+    return settings;
+}
+
 /// Lets `dwells` dwell times pass and writes the rates down.
 std::vector<Baud> rates_in(BaudSearch& search, std::size_t dwells)
 {
@@ -46,13 +55,29 @@ TEST(BaudSearch, GoesDownThroughTheSixRatesAndBeginsAgain)
                                                       Baud::k19_2, Baud::k9_6, Baud::k1500, Baud::k500}));
 }
 
-TEST(BaudSearch, StaysWithinTheRatesThatAreAllowed)
+TEST(BaudSearch, LeavesOutTheRatesThatTheUartCannotDoWhereverTheyLie)
 {
-    BaudSearch search{{.highest = Baud::k500, .lowest = Baud::k93_75}, Baud::k500};
+    BaudSearch search{among({Baud::k500, Baud::k93_75, Baud::k9_6}), Baud::k500};
     search.on_time(kStart);
 
     EXPECT_EQ(rates_in(search, 4),
-              (std::vector<Baud>{Baud::k500, Baud::k187_5, Baud::k93_75, Baud::k500, Baud::k187_5}));
+              (std::vector<Baud>{Baud::k500, Baud::k93_75, Baud::k9_6, Baud::k500, Baud::k93_75}));
+}
+
+TEST(BaudSearch, StaysAtTheOnlyRateThatTheUartCanDo)
+{
+    BaudSearch search{among({Baud::k19_2}), Baud::k1500};
+    search.on_time(kStart);
+
+    EXPECT_EQ(rates_in(search, 2), (std::vector<Baud>{Baud::k19_2, Baud::k19_2, Baud::k19_2}));
+}
+
+TEST(BaudSearch, NeverListensAt45_45AlthoughTheUartCanDoIt)
+{
+    BaudSearch search{among({Baud::k93_75, Baud::k45_45, Baud::k19_2}), Baud::k45_45};
+    search.on_time(kStart);
+
+    EXPECT_EQ(rates_in(search, 3), (std::vector<Baud>{Baud::k93_75, Baud::k19_2, Baud::k93_75, Baud::k19_2}));
 }
 
 TEST(BaudSearch, BeginsWithTheRateItIsGiven)
@@ -66,8 +91,8 @@ TEST(BaudSearch, BeginsWithTheRateItIsGiven)
 TEST(BaudSearch, BeginsWithTheHighestIfTheRateGivenIsNotSearched)
 {
     EXPECT_EQ((BaudSearch{BaudSearchSettings{}, Baud::k45_45}.baud()), Baud::k1500);
-    EXPECT_EQ((BaudSearch{{.highest = Baud::k500}, Baud::k1500}.baud()), Baud::k500);
-    EXPECT_EQ((BaudSearch{{.highest = Baud::k45_45}, Baud::k45_45}.baud()), Baud::k19_2);
+    EXPECT_EQ((BaudSearch{among({Baud::k500, Baud::k9_6}), Baud::k1500}.baud()), Baud::k500);
+    EXPECT_EQ((BaudSearch{among({Baud::k45_45, Baud::k19_2}), Baud::k45_45}.baud()), Baud::k19_2);
 }
 
 TEST(BaudSearch, DwellsTwoSecondsFrom93_75UpAndFourBelow)

@@ -69,6 +69,7 @@ TEST_F(Searching, TrafficOfTwoOtherStationsIsEvidence)
 
 TEST_F(Searching, SilentLineIsSearchedDownwards)
 {
+    EXPECT_EQ(bus.take_baud_changes(), std::vector<Baud>{Baud::k1500}) << "where the search begins";
     bus.advance(milliseconds{2100});
     EXPECT_EQ(bus.take_baud_changes(), std::vector<Baud>{Baud::k500});
     bus.advance(seconds{14});
@@ -111,9 +112,73 @@ TEST_P(EverySearchedRate, IsFoundAgainAfterTheMasterChangedToIt)
     EXPECT_EQ(station.baud(), GetParam());
 }
 
+/// On a line whose UART marks nothing (a pty; a USB adapter without error marks) each wrong rate costs its
+/// whole dwell. The bound of the search: its dwells and one telegram, and not more than 1.25 of that.
+TEST_P(EverySearchedRate, IsFoundWithinTheDwellsOfTheRatesBeforeItAndOneTelegram)
+{
+    constexpr std::array kOrder{Baud::k1500, Baud::k500, Baud::k187_5, Baud::k93_75, Baud::k19_2, Baud::k9_6};
+    const Octets ask = sd1(kUs, kMaster, kFdlStatus);
+    const auto telegram = duration_of(Tbit{11 * static_cast<std::uint32_t>(ask.size())}, GetParam());
+    const auto cycle = telegram + milliseconds{20}; // of the master that asks for us
+    std::chrono::nanoseconds dwells{0};
+    for (const Baud wrong : kOrder) {
+        if (wrong == GetParam()) break;
+        dwells += wrong >= Baud::k93_75 ? seconds{2} : seconds{4};
+    }
+    const Instant begin = bus.now();
+    Instant now = begin;
+    while (station.baud_state() == BaudState::baud_search && now - begin < seconds{30}) {
+        now += cycle;
+        while (station.next_deadline() <= now) {
+            station.on_time(station.next_deadline());
+            static_cast<void>(station.take_baud_change());
+        }
+        // At a wrong rate octets come that mean nothing, and none of them is marked as bad.
+        station.on_bytes(station.baud() == GetParam() ? ask : Octets(ask.size(), 0), now);
+        station.on_time(now);
+    }
+
+    EXPECT_EQ(station.baud(), GetParam());
+    EXPECT_GE(now - begin, dwells);
+    EXPECT_LE(now - begin, dwells + 2 * cycle); // a change in the middle of a telegram costs this one
+    EXPECT_LE(now - begin, std::max((dwells + cycle) * 5 / 4, 2 * cycle));
+}
+
 INSTANTIATE_TEST_SUITE_P(A006, EverySearchedRate,
                          testing::Values(Baud::k9_6, Baud::k19_2, Baud::k93_75, Baud::k187_5, Baud::k500,
                                          Baud::k1500));
+
+TEST_F(Searching, RateOf45_45IsNotFound)
+{
+    bus.set_baud(Baud::k45_45);
+    poll_until_found(seconds{100});
+
+    EXPECT_EQ(station.baud_state(), BaudState::baud_search);
+    EXPECT_EQ(station.counters().telegrams, 0u);
+}
+
+TEST_F(Searching, UntilTheEdgeHasSetTheFirstRateNothingIsListenedTo)
+{
+    fdl::Station fresh{{.baud = Baud::k187_5, .search = fdl::BaudSearchSettings{}, .start_up_latency = {}}};
+    const Octets ask = sd1(kUs, kMaster, kFdlStatus);
+    fresh.on_bytes(ask, bus.now());
+    EXPECT_EQ(fresh.counters().telegrams, 0u);
+
+    EXPECT_EQ(fresh.take_baud_change(), Baud::k187_5);
+    EXPECT_EQ(fresh.take_baud_change(), std::nullopt);
+    fresh.on_bytes(ask, bus.now());
+    EXPECT_EQ(fresh.counters().telegrams, 1u);
+}
+
+TEST_F(Searching, StationBeginsAtTheHighestRateThatTheUartCanDo)
+{
+    fdl::BaudSearchSettings some;
+    some.rates.reset(index_of(Baud::k1500));
+    some.rates.reset(index_of(Baud::k500));
+    fdl::Station other{{.baud = Baud::k1500, .search = some, .start_up_latency = {}}};
+
+    EXPECT_EQ(other.take_baud_change(), Baud::k187_5);
+}
 
 TEST_F(Searching, WrongRateWithTrafficIsLeftBeforeItsDwellIsOver)
 {

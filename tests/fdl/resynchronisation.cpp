@@ -127,9 +127,10 @@ TEST_F(Resynchronisation, PauseBelowTheGapLimitDoesNotSpoilATelegram)
     EXPECT_EQ(user.srds.size(), 1u);
 }
 
-TEST_F(Resynchronisation, UnfinishedTelegramIsThrownAwayAfterTheGapLimit)
+/// Behind it may come what a FIFO of 64 characters held back.
+TEST_F(Resynchronisation, UnfinishedTelegramIsThrownAwayAfterTheGapLimitAndAFullFifo)
 {
-    const auto gap_limit = bus.bits(33) + milliseconds{5};
+    const auto gap_limit = bus.bits(33 + 64 * 11) + milliseconds{5};
     station.on_bytes(Bytes{kAsk}.first(6), kRead);
     EXPECT_EQ(station.next_deadline(), kRead + gap_limit);
     station.on_time(kRead + gap_limit);
@@ -185,7 +186,40 @@ TEST_F(Resynchronisation, SlowRatesHaveALongerAllowance)
     slow.on_time(kRead);
     slow.on_bytes(Bytes{kAsk}.first(6), kRead);
 
-    EXPECT_EQ(slow.next_deadline(), kRead + duration_of(33_tbit, Baud::k19_2) + milliseconds{20});
+    EXPECT_EQ(slow.next_deadline(), kRead + duration_of(33_tbit, Baud::k19_2) + milliseconds{20} +
+                                        duration_of(704_tbit, Baud::k19_2));
+}
+
+class HeldBack : public Resynchronisation, public testing::WithParamInterface<Baud> {};
+
+/// A UART with a trigger of 48 hands them on so much later; on the wire they followed without a gap.
+TEST_P(HeldBack, By48CharactersATelegramIsStillWhole)
+{
+    const Octets ask = sd2(kUs, kMaster, kSrdFirst, Octets(54, 7));
+    ASSERT_EQ(ask.size(), 63u);
+    fdl::Station any{{.baud = GetParam(), .search = {}, .start_up_latency = {}}};
+    any.attach(kUs, user, kClassMaxTsdr);
+    const auto characters = [](std::uint32_t count) { return duration_of(Tbit{count * 11}, GetParam()); };
+    any.on_bytes(Bytes{ask}.first(15), kRead);
+    any.on_time(kRead + characters(47)); // nobody knows of them yet
+    any.on_bytes(Bytes{ask}.subspan(15), kRead + characters(48) + milliseconds{4}); // and the reader slept
+
+    EXPECT_EQ(user.srds.size(), 1u);
+    EXPECT_EQ(any.counters().flaws[static_cast<std::size_t>(fdl::Flaw::unfinished)], 0u);
+}
+INSTANTIATE_TEST_SUITE_P(ByTheFifo, HeldBack, testing::ValuesIn(kBauds));
+
+TEST_F(Resynchronisation, ASilenceBeforeWhatTheFifoHeldBackIsSeen)
+{
+    station.on_bytes(octets("68 20 20 68"), kRead);
+    const auto silence = bus.bits(33) + milliseconds{5};
+    const Instant later = kRead + silence + bus.bits(11 * static_cast<std::uint32_t>(kAsk.size()));
+    station.on_time(later - nanoseconds{1}); // too early to give it up
+    EXPECT_EQ(station.counters().flaws[static_cast<std::size_t>(fdl::Flaw::unfinished)], 0u);
+    station.on_bytes(kAsk, later);
+
+    EXPECT_EQ(user.srds.size(), 1u);
+    EXPECT_EQ(station.counters().flaws[static_cast<std::size_t>(fdl::Flaw::unfinished)], 1u);
 }
 
 TEST_F(Resynchronisation, BadCharacterMakesItsTelegramInvalidAndCostsNoOther)

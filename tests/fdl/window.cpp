@@ -93,6 +93,15 @@ TEST_F(ReplyWindow, IsOpenUntilMaxTsdr)
     EXPECT_EQ(s.counters().late, 0u);
 }
 
+TEST_F(ReplyWindow, OfTheReplyHandedOutIsToldAfterwards)
+{
+    fdl::Station& s = station_with(100_tbit);
+    s.on_time(kRead + bits(20));
+    ASSERT_TRUE(s.take_transmit());
+
+    EXPECT_EQ(s.window_ended(), kRead + bits(100)); // a write that ends later was too late
+}
+
 TEST_F(ReplyWindow, IsClosedAfterMaxTsdrAndTheReplyIsCounted)
 {
     fdl::Station& s = station_with(100_tbit);

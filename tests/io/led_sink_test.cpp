@@ -41,6 +41,13 @@ protected:
         put("class/gpio/gpio" + number + "/direction", "in");
         put("class/gpio/gpio" + number + "/value", "1");
     }
+    void has_chip(const std::string& label, const std::string& base, const std::string& pins)
+    {
+        const fs::path chip = "class/gpio/gpiochip" + base;
+        put(chip / "label", label);
+        put(chip / "base", base);
+        put(chip / "ngpio", pins);
+    }
     void has_lamp(const std::string& name, const std::string& max)
     {
         put("class/leds/" + name + "/trigger", "heartbeat");
@@ -58,7 +65,7 @@ TEST_F(LedSinks, APinBecomesADarkOutputThenFollows)
     auto lamp = open_led_sink("gpio:23", sysfs);
 
     ASSERT_TRUE(lamp) << lamp.error();
-    EXPECT_EQ(get("class/gpio/gpio23/direction"), "out");
+    EXPECT_EQ(get("class/gpio/gpio23/direction"), "low") << "an output that was never high";
     EXPECT_EQ(get("class/gpio/gpio23/value"), "0");
     (*lamp)->set(true);
     EXPECT_EQ(get("class/gpio/gpio23/value"), "1");
@@ -76,6 +83,19 @@ TEST_F(LedSinks, APinIsDarkAfterwards)
     }
 
     EXPECT_EQ(get("class/gpio/gpio23/value"), "0");
+}
+
+TEST_F(LedSinks, APinIsFoundByTheLabelOfItsChipWhateverNumberItHasSinceTheLastBoot)
+{
+    has_chip("gpio-mockup", "496", "8");
+    has_chip("pl061", "504", "8");
+    has_pin("511");
+
+    auto lamp = open_led_sink("gpio:pl061:7", sysfs);
+
+    ASSERT_TRUE(lamp) << lamp.error();
+    (*lamp)->set(true);
+    EXPECT_EQ(get("class/gpio/gpio511/value"), "1");
 }
 
 TEST_F(LedSinks, APinThatIsNotExportedIsAskedFor)
@@ -173,8 +193,9 @@ TEST_F(LedSinks, ALampThatWasGoneShinesAgainWithTheNextChange)
 
 TEST_F(LedSinks, AnUnknownLampOrKindIsRefusedWithASentence)
 {
+    has_chip("pl061", "504", "8");
     for (const char* sink : {"led:nobody", "led:", "led:..", "led:../../etc", "gpio:", "gpio:red", "gpio:-1",
-                             "gpio:12345678901", "lamp", "", "line:/dev/gpiochip0:24"}) {
+                             "gpio:12345678901", "lamp", "", "gpio:pl061:8", "gpio:pl06:1", "gpio:pl061:"}) {
         const auto lamp = open_led_sink(sink, sysfs);
         ASSERT_FALSE(lamp) << sink;
         EXPECT_THAT(lamp.error(),

@@ -83,6 +83,13 @@ TEST_F(ServiceManager, HearsTheWatchdogAndTheEnd)
     EXPECT_EQ(heard(), "STOPPING=1");
 }
 
+TEST_F(ServiceManager, HearsWhenAReloadBegan)
+{
+    notifier.reloading(Instant{12'345'678us});
+
+    EXPECT_EQ(heard(), "RELOADING=1\nMONOTONIC_USEC=12345678");
+}
+
 TEST_F(ServiceManager, WhoIsNotThereHearsNothing)
 {
     ::unsetenv("NOTIFY_SOCKET");

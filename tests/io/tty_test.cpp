@@ -3,7 +3,6 @@
 /// A pty has no UART: parity, character size and error marks need hardware; its doubling of FF under PARMRK
 /// is real.
 #include "pty.hpp"
-#include "tty_settings.hpp"
 
 #include "dpslave/base/units.hpp"
 #include "dpslave/io/tty.hpp"
@@ -52,24 +51,6 @@ TEST(TtyOpen, SetsEveryRateOfProfibus)
         ASSERT_TRUE(tty) << tty.error();
         EXPECT_EQ(cable.rate(), rate);
     }
-}
-
-TEST(TtyOpen, RefusesAUartThatTookAnotherRate)
-{
-    EXPECT_EQ(judge_rate(187'500, 115'200), "this UART cannot do 187500 bit/s (it took 115200): choose a "
-                                            "rate that it can do, or another adapter");
-    EXPECT_THAT(judge_rate(45'450, 9'600), HasSubstr("45450 bit/s (it took 9600)"));
-    EXPECT_THAT(judge_rate(9'600, 4'000'000'000), HasSubstr("it took 4000000000"));
-}
-
-TEST(TtyOpen, TakesARateOffByOnePercentAtMost)
-{
-    EXPECT_EQ(judge_rate(187'500, 187'500), "");
-    EXPECT_EQ(judge_rate(45'450, 45'455), ""); // 0.01 %: a divisor of 33 from 24 MHz
-    EXPECT_EQ(judge_rate(100'000, 101'000), "");
-    EXPECT_EQ(judge_rate(100'000, 99'000), "");
-    EXPECT_NE(judge_rate(100'000, 101'001), "");
-    EXPECT_NE(judge_rate(100'000, 98'999), "");
 }
 
 TEST(TtyOpen, SetsARawLineThatTheOtherEndSeesUnchanged)
@@ -203,6 +184,21 @@ TEST(TtyRead, GivesNothingWhenNothingCame)
     }
 }
 
+TEST(TtyRead, NeverWaitsAlsoWhereTheDescriptorWouldBlock)
+{
+    for (const TtySettings& settings : {kBus, kDrive}) {
+        Pty cable;
+        Tty tty = opened(cable.path(), settings);
+        ASSERT_EQ(::fcntl(tty.fd(), F_SETFL, 0), 0); // VMIN 0 and VTIME 0 alone
+        std::array<std::uint8_t, 8> room{};
+
+        const auto chunk = tty.read(room);
+
+        ASSERT_TRUE(chunk) << chunk.error().message();
+        EXPECT_TRUE(chunk->octets.empty());
+    }
+}
+
 TEST(TtyRead, GivesEveryOctetValueOnce)
 {
     for (const TtySettings& settings : {kBus, kDrive}) {
@@ -285,9 +281,11 @@ TEST(TtyRead, AHangUpIsAnErrorAndNotSilence)
         Tty tty = opened(cable.path(), settings);
         std::array<std::uint8_t, 8> room{};
 
+        EXPECT_FALSE(tty.hung_up());
         cable.hang_up();
 
         ASSERT_TRUE(tty.wait_readable(1s));
+        EXPECT_TRUE(tty.hung_up());
         const auto chunk = tty.read(room);
         ASSERT_FALSE(chunk);
         EXPECT_EQ(chunk.error(), std::errc::io_error);
@@ -330,6 +328,77 @@ TEST(TtySend, ATelegramThatDoesNotFitIsThrownAwayWholeAndWithoutWaiting)
     for (int i = 0; i < 1000 && !error; ++i) error = tty.send(telegram); // nobody reads: the buffers fill up
 
     EXPECT_EQ(error, std::errc::no_buffer_space);
+}
+
+TEST(TtyBaud, IsChangedAndWhatCameBeforeIsThrownAway)
+{
+    Pty cable;
+    Tty tty = opened(cable.path(), kBus);
+    std::array<std::uint8_t, 4> room{};
+    cable.send({1, 2, 3, 4, 0xFF, 6});
+    ASSERT_TRUE(tty.wait_readable(1s));
+    ASSERT_TRUE(tty.read(room)); // FF and 6 are read ahead
+
+    for (const Baud baud : kBauds) {
+        cable.send({7});
+        EXPECT_EQ(tty.set_baud(static_cast<std::uint32_t>(baud)), std::nullopt);
+
+        EXPECT_EQ(cable.rate(), static_cast<std::uint32_t>(baud));
+        EXPECT_FALSE(tty.wait_readable(0s));
+    }
+    cable.send({9});
+    ASSERT_TRUE(tty.wait_readable(1s));
+    const auto chunk = tty.read(room);
+    ASSERT_TRUE(chunk);
+    EXPECT_THAT(copy(*chunk), ElementsAre(9));
+}
+
+TEST(TtyBaud, ChangeDoesNotWaitForOctetsThatNobodyTakes)
+{
+    Pty cable;
+    Tty tty = opened(cable.path(), kBus);
+    const std::vector<std::uint8_t> telegram(255, 0x55);
+    while (!tty.send(telegram)) {
+    }
+
+    EXPECT_EQ(tty.set_baud(500'000), std::nullopt);
+    EXPECT_EQ(cable.rate(), 500'000U);
+}
+
+TEST(TtyBaud, ChangeOfAPortThatHasGoneIsRefusedWithASentence)
+{
+    Pty cable;
+    Tty tty = opened(cable.path(), kBus);
+    cable.hang_up();
+
+    // A pty keeps its settings longer than its line; a UART that has gone does not.
+    const std::string trouble = tty.set_baud(9'600).value_or("check that");
+    EXPECT_THAT(trouble, HasSubstr("check that"));
+    std::array<std::uint8_t, 4> room{};
+    EXPECT_FALSE(tty.read(room)) << "who sets the rate hears of the loss when it reads";
+}
+
+TEST(TtyBaud, APtyCanDoThemAllAndStaysAtItsOwn)
+{
+    Pty cable;
+    Tty tty = opened(cable.path(), kBus);
+    cable.send({1});
+
+    const TtyBauds bauds = tty.bauds();
+
+    EXPECT_TRUE(bauds.can.all());
+    EXPECT_EQ(bauds.why_not, "");
+    EXPECT_EQ(cable.rate(), kBus.baud);
+    EXPECT_FALSE(tty.wait_readable(0s)) << "what came while it tried is noise";
+}
+
+TEST(TtyTransmitter, ADriverThatDoesNotTellIsNotAskedAgain)
+{
+    Pty cable;
+    const Tty tty = opened(cable.path(), kBus);
+
+    EXPECT_EQ(tty.transmitter_empty(), std::nullopt);
+    EXPECT_EQ(tty.transmitter_empty(), std::nullopt);
 }
 
 } // namespace

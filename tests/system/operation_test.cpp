@@ -143,7 +143,7 @@ protected:
 
 TEST_F(Lamps, SpeakTheLanguageOfTheOptionBoard)
 {
-    EXPECT_EQ(content(gateway.lamp_folder() / "class/gpio/gpio23/direction"), "out");
+    EXPECT_EQ(content(gateway.lamp_folder() / "class/gpio/gpio23/direction"), "low");
     EXPECT_TRUE(shows(red, "1")) << "external fault: there is no master";
     EXPECT_TRUE(flashes(green));
     EXPECT_EQ(pattern("green"), "flashing 1 Hz");

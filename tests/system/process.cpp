@@ -232,6 +232,11 @@ std::optional<int> Process::wait(std::chrono::nanoseconds limit)
     return status_;
 }
 
+void Process::send(int signal)
+{
+    if (!status_) ::kill(pid_, signal);
+}
+
 std::optional<int> Process::end(int signal)
 {
     if (!status_) ::kill(pid_, signal);

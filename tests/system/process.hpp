@@ -86,6 +86,7 @@ public:
 
     /// Its exit status when it ends by itself within `limit`; 128 + N after signal N; nothing: it still runs.
     std::optional<int> wait(std::chrono::nanoseconds limit = kLimit);
+    void send(int signal); ///< one that it does not end by; nothing happens if it is gone
     /// Sends it a signal, by which it should end, and waits.
     std::optional<int> end(int signal = SIGTERM);
 

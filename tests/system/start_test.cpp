@@ -102,6 +102,21 @@ TEST(Notify, TellsReadinessStatesTheWatchdogAndTheEnd)
     EXPECT_TRUE(manager.hears("STOPPING=1"));
 }
 
+TEST(Notify, TellsThatAReloadBeginsAndIsOverAlsoWhenItIsRefused)
+{
+    const Folder folder;
+    ServiceManager manager{folder / "notify"};
+    Gateway gateway{{.environment = {{"NOTIFY_SOCKET", folder / "notify"}}}};
+    EXPECT_TRUE(manager.hears("READY=1"));
+    for (const char* const more : {"# nothing new\n", "[[line]]\n"}) {
+        write_file(gateway.config(), gateway.config_text() + more);
+        gateway.daemon().send(SIGHUP);
+        EXPECT_TRUE(manager.hears("RELOADING=1"));
+        EXPECT_TRUE(manager.hears("MONOTONIC_USEC="));
+        EXPECT_TRUE(manager.hears("READY=1"));
+    }
+}
+
 TEST(BadStart, NamesAllFaultsOfTheConfigurationInOneRunAndOpensNothing)
 {
     Gateway gateway{{.units = {"00", "01"}, .started = false}};

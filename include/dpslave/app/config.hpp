@@ -6,9 +6,13 @@
 #include "dpslave/base/units.hpp"
 #include "dpslave/drive/backend.hpp"
 #include "dpslave/drive/poller.hpp"
+#include "dpslave/fdl/echo.hpp"
+#include "dpslave/io/driver_enable.hpp"
 #include "dpslave/profile/fault.hpp"
 #include "dpslave/profile/profile.hpp"
 #include "dpslave/tec/option_block.hpp"
+
+#include <sys/types.h>
 
 #include <chrono>
 #include <filesystem>
@@ -22,20 +26,25 @@ namespace dpslave::app {
 
 struct BusConfig {
     std::string port;
-    Baud baud = Baud::k187_5;
+    std::optional<Baud> baud;   ///< nothing = "auto": searched
     std::uint32_t max_tsdr = 0; ///< T_bit, 0 = the profile's
-    unsigned port_line = 0;     ///< where the key stands, for a message when the port cannot be opened
+    io::DriverEnableSettings driver_enable;
+    fdl::EchoMode echo = fdl::EchoMode::off;
+    friend bool operator==(const BusConfig&, const BusConfig&) = default;
+    unsigned port_line = 0; ///< where the key stands, for a message when the port cannot be opened
 };
 
 struct RealtimeConfig {
     int priority = 80;
     int cpu = -1;
     bool lock_memory = true;
+    friend bool operator==(const RealtimeConfig&, const RealtimeConfig&) = default;
 };
 
 struct ControlConfig {
     std::filesystem::path socket = "/run/dpslaved/control.sock";
     std::string operator_group = "dpslaved";
+    friend bool operator==(const ControlConfig&, const ControlConfig&) = default;
 };
 
 /// Character format of a drive line.
@@ -43,6 +52,7 @@ struct LineFormat {
     int data_bits = 7;
     char parity = 'E'; ///< 'N', 'E', 'O'
     int stop_bits = 1;
+    friend bool operator==(const LineFormat&, const LineFormat&) = default;
 };
 
 /// Protocols of a drive line, as the file spells them.
@@ -62,12 +72,14 @@ struct LineConfig {
     std::chrono::milliseconds timeout = kEiAsciiTimeout; ///< kModbusTimeout with Modbus RTU
     int retries = 2;
     unsigned port_line = 0;
+    friend bool operator==(const LineConfig&, const LineConfig&) = default;
 };
 
 /// One lamp of a station and where it shines.
 struct LedConfig {
     std::string lamp; ///< "red", "green"; "network", "module", "health", "run"; "rem"
     std::string sink; ///< "gpio:23", "led:dpslaved-green"
+    friend bool operator==(const LedConfig&, const LedConfig&) = default;
 };
 
 /// [station.tec]: the TEC OPTION function block at the start, and what feeds it.
@@ -78,6 +90,7 @@ struct TecConfig {
     bool trip_inverted = false;           ///< ... and whether they are one while they are 0
     std::uint16_t ext_diagnostic_tag = 0; ///< 0 = the value that is set stands
     profile::MirroredLamp health, run;
+    friend bool operator==(const TecConfig&, const TecConfig&) = default;
 };
 
 struct StationConfig {
@@ -100,6 +113,8 @@ struct StationConfig {
     std::optional<TecConfig> tec;       ///< there where the profile has the block
     std::vector<std::uint16_t> watched; ///< tags that the drive side reads for diagnosis and lamps
     std::vector<LedConfig> leds;
+    /// What it points to counts as well: see is_same() in reload_plan.hpp.
+    friend bool operator==(const StationConfig&, const StationConfig&) = default;
 };
 
 struct Config {
@@ -113,6 +128,9 @@ struct Config {
     std::vector<profile::Fault> warnings; ///< said in the log at start: address 0..2, RIDE THROUGH, unknown
                                           ///< operator group, tags without mnemonic
 };
+
+/// Nothing: the system has no such group.
+std::optional<gid_t> operator_group_of(const ControlConfig& control);
 
 /// Reads and judges `file`; all faults of it, of the profiles and of the tag tables in one list.
 Result<Config, profile::Faults> load_config(const std::filesystem::path& file,

@@ -5,8 +5,8 @@
 #pragma once
 
 #include "dpslave/app/config.hpp"
+#include "dpslave/app/line_backend.hpp"
 #include "dpslave/app/links.hpp"
-#include "dpslave/drive/backend.hpp"
 #include "dpslave/drive/poller.hpp"
 #include "dpslave/io/event_fd.hpp"
 
@@ -20,10 +20,9 @@ namespace dpslave::app {
 
 class DriveThread {
 public:
-    /// `line`: index into config.lines. `stations`: all links, in the order of config.stations; this thread
-    /// uses those on its line.
-    DriveThread(const Config& config, std::size_t line, std::unique_ptr<drive::Backend> backend,
-                std::vector<std::unique_ptr<StationLink>>& stations, LineLink& link);
+    /// `backend`: as LineWork has it. More and other drives come through LineLink::work.
+    DriveThread(LineConfig line, std::unique_ptr<LineBackend> backend, const std::vector<DriveUnit>& units,
+                LineLink& link);
 
     /// Serves the drives until `stop`; then the outputs go to their safe state, for kFarewell at most.
     void run(std::stop_token stop, io::EventFd& wake);
@@ -33,19 +32,25 @@ private:
         2}; ///< how soon an order of the master is noticed
     static constexpr std::chrono::milliseconds kTickIdle{20};
     static constexpr std::chrono::seconds kFarewell{2};
+    static constexpr std::chrono::seconds kOpenAgainAfter{1};
 
     struct Unit {
-        const StationConfig* config = nullptr;
-        std::uint32_t station = 0; ///< index in config.stations
-        StationLink* link = nullptr;
+        explicit Unit(const DriveUnit& made_of);
+        std::uint32_t number = 0;
+        std::shared_ptr<const StationConfig> config;
+        std::shared_ptr<StationLink> link;
         std::int64_t zero_after_ms = 0; ///< as said to the poller last
         Generation ended = 0;           ///< as said to the poller last
         bool has_layout = false;
         bool was_known = false, answered = false; ///< as said in the log last
+        bool leaves = false;                      ///< it is not among the drives that come next
     };
 
     void fetch();
+    void fetch_orders();
+    void operate(LineOrder order);
     void carry_out(const drive::Transaction& transaction);
+    drive::Outcome exchange_with(const Unit& unit, const drive::Transaction& transaction);
     void publish();
     void say_link_changes();
     void remember_trouble(const Unit& unit, const drive::Transaction& access, const std::string& text);
@@ -53,10 +58,23 @@ private:
     void rest(int wake, Instant now) const;
     void farewell();
 
+    void take_work();
+    bool leaving_is_over() const;
+    void take_over();
+    void forget_troubles_of_the_gone();
+    bool is_open();
+    drive::BlockRule block_rule() const;
+
+    LineConfig line_;
+    std::unique_ptr<LineBackend> backend_; ///< null: the port could not be opened yet
+    Instant next_open_{};
+    bool open_failure_said_ = false;
     std::vector<Unit> units_;
-    std::unique_ptr<drive::Backend> backend_;
     drive::Poller poller_;
     LineLink& link_;
+    std::unique_ptr<LineWork> next_; ///< to be taken over when those who leave have said their last word
+    Instant leave_until_{};
+    std::vector<LineOrder> early_orders_; ///< for drives that are among the next ones
     TroubleList troubles_;
     std::vector<std::uint16_t> words_;
 };

@@ -6,6 +6,7 @@
 #include "dpslave/io/led_sink.hpp"
 #include "dpslave/led/pattern.hpp"
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,9 +15,10 @@ namespace dpslave::app {
 
 class Lamps {
 public:
-    /// Opens every sink that the configuration names. One that cannot be opened stays dark: `warnings` says
-    /// why.
-    Lamps(const Config& config, std::vector<std::string>& warnings);
+    /// From now on those that the configuration names. A lamp that was there before, under whatever name,
+    /// shines on without a flicker. One that cannot be opened stays dark: the result says why, a sentence
+    /// each.
+    std::vector<std::string> exchange(const Config& config);
 
     /// What is the case at this station from now on.
     void set(std::size_t station, const led::Condition& condition);
@@ -30,10 +32,11 @@ public:
 private:
     struct Lamp {
         std::size_t station = 0;
-        std::string name;
+        LedConfig config;
         led::Pattern pattern;
         std::unique_ptr<io::LedSink> sink;
     };
+    std::filesystem::path sysfs_;
     std::vector<led::Language> languages_;
     std::vector<led::Condition> conditions_;
     std::vector<Lamp> lamps_;

@@ -3,6 +3,9 @@
 /// Each member names its one writer and its one reader (docs/architecture.md, "Three kinds of threads").
 #pragma once
 
+#include "dpslave/app/config.hpp"
+#include "dpslave/base/handover.hpp"
+#include "dpslave/base/histogram.hpp"
 #include "dpslave/base/mailbox.hpp"
 #include "dpslave/base/process_image.hpp"
 #include "dpslave/base/ring.hpp"
@@ -14,7 +17,9 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <vector>
 
 namespace dpslave::app {
 
@@ -65,6 +70,21 @@ struct StationLink {
     std::atomic<std::int64_t> zero_after_ms{0};
 };
 
+class BusStation;
+/// Those who live on the bus, at most 127, in any order. A station of two rosters that stand one after the
+/// other stays on the bus without a break.
+using Roster = std::vector<std::shared_ptr<BusStation>>;
+
+/// What the bus thread noticed at its port, for the log.
+enum class PortNews : std::uint8_t {
+    gone,
+    back,
+    driver_refused, ///< the port is back, but its driver enable does not work: it was closed again
+    driver_gone,    ///< an edge of the driver enable failed: nothing is sent until it works again
+    driver_back,
+    driver_guarded, ///< only the guard made it inactive; told once until the port is opened again
+};
+
 /// The bus as a whole, bus -> main.
 struct BusSnapshot {
     Baud baud = Baud::k9_6;
@@ -73,7 +93,19 @@ struct BusSnapshot {
     Instant last_telegram{}; ///< default = none was heard yet
     fdl::Counters counters{};
     std::uint64_t write_errors = 0;
-    bool valid = false; ///< false: nothing was published yet
+    /// Of each reply, from the read of the request's last octet to the end of the write: us, and T_bit of the
+    /// rate of then.
+    Histogram turnaround_us, turnaround_tbit;
+    std::uint64_t too_late =
+        0; ///< replies whose write ended behind their window although it had begun within it
+    bool driver_works = true;         ///< false: nothing is sent, for an edge of the driver enable has failed
+    std::uint64_t driver_errors = 0;  ///< edges of the driver enable that failed
+    std::uint64_t driver_guarded = 0; ///< times that only the guard made the driver enable inactive
+    bool echo_heard = false;
+    std::uint64_t echo_broken = 0;  ///< echoes that were not what was sent
+    std::uint64_t echo_missing = 0; ///< echoes that were due and did not come
+    std::uint64_t page_faults = 0;  ///< of the bus thread since it serves
+    bool valid = false;             ///< false: nothing was published yet
 };
 struct BusLink {
     Mailbox<BusSnapshot> snapshot;
@@ -81,11 +113,14 @@ struct BusLink {
     std::atomic<std::uint64_t> heartbeat{0};
     /// A thread had to give up (said in the log): the main thread ends the program.
     std::atomic<bool> failed{false};
+    /// The stations from now on, main -> bus, and back what is no longer on the bus.
+    Handover<Roster> roster;
+    Ring<PortNews, 8> port_news; ///< bus -> main
 };
 
 /// What a drive said no to, in words; the newest few of a line.
 struct Trouble {
-    std::uint32_t station = 0; ///< index in config.stations
+    std::uint32_t station = 0; ///< DriveUnit::number
     std::uint16_t tag = 0;
     bool is_write = false;        ///< a tag may be read and refuse to be written
     std::array<char, 160> text{}; ///< ends with NUL
@@ -95,12 +130,38 @@ struct TroubleList {
     std::uint8_t count = 0;
 };
 
+/// One drive of a line: the station that it stands for.
+struct DriveUnit {
+    std::uint32_t number = 0; ///< of the station: never given twice while the program runs
+    std::shared_ptr<const StationConfig> config;
+    std::shared_ptr<StationLink> link;
+};
+
+class LineBackend;
+/// What a line is to do from now on.
+struct LineWork {
+    ~LineWork();
+    std::vector<DriveUnit> units;   ///< one that was there before goes on without a break
+    std::optional<LineConfig> line; ///< the port is another one or set in another way
+    std::unique_ptr<LineBackend>
+        backend; ///< with `line`: opened already; null = after the close of the old one
+};
+
+/// An order of `dpctl`; its `unit` is found by the number of the station.
+struct LineOrder {
+    std::uint32_t station = 0; ///< DriveUnit::number
+    drive::OperateOrder order;
+};
+
 /// A drive line and the main thread.
 struct LineLink {
-    Ring<drive::OperateOrder, 16> orders;   // main -> drive
-    Ring<drive::OperateAnswer, 16> answers; // drive -> main
-    Mailbox<TroubleList> troubles;          // drive -> main
-    std::atomic<bool> port_open{false};
+    Ring<LineOrder, 16> orders;              // main -> drive
+    Ring<drive::OperateAnswer, 16> answers;  // drive -> main
+    Mailbox<TroubleList> troubles;           // drive -> main
+    std::atomic<bool> port_open{false};      // drive -> main
+    Handover<LineWork> work;                 // main -> drive
+    std::atomic<std::uint32_t> work_done{0}; ///< drive -> main: how many of them were carried out
+    std::atomic<bool> ended{false};          ///< drive -> main: the thread has said its last word
 };
 
 } // namespace dpslave::app

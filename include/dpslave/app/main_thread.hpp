@@ -7,8 +7,10 @@
 #include "dpslave/app/device_state.hpp"
 #include "dpslave/app/lamps.hpp"
 #include "dpslave/app/links.hpp"
+#include "dpslave/app/plant.hpp"
 #include "dpslave/app/report.hpp"
 #include "dpslave/control/server.hpp"
+#include "dpslave/io/driver_enable.hpp"
 #include "dpslave/io/epoll.hpp"
 #include "dpslave/io/notify.hpp"
 #include "dpslave/io/signals.hpp"
@@ -23,19 +25,12 @@
 
 namespace dpslave::app {
 
-/// The other threads, as the main thread reaches them.
-struct Links {
-    std::vector<std::unique_ptr<StationLink>> stations; ///< in the order of config.stations
-    std::vector<std::unique_ptr<LineLink>> lines;       ///< in the order of config.lines
-    BusLink bus;
-};
-
 class MainThread {
 public:
-    /// `profiles`: where the configuration was read from, to read it again when somebody asks for a pending
-    /// address.
-    MainThread(const Config& config, std::filesystem::path profiles, Links& links, Lamps& lamps,
-               io::Signals& signals);
+    /// `config`: what `plant` was opened with; `profiles`: where its profiles were read from. `driver` is
+    /// watched as a last resort.
+    MainThread(Config config, std::filesystem::path profiles, Plant& plant, BusLink& bus,
+               io::DriverEnable& driver, io::Signals& signals);
 
     /// Opens the control socket. The reason of a failure is a sentence.
     std::optional<std::string> open_socket();
@@ -46,19 +41,32 @@ public:
 private:
     static constexpr std::chrono::milliseconds kTick{100};
     static constexpr std::chrono::milliseconds kTickWithDiagnosis{20}; ///< a trip is told the master soon
-    static constexpr std::chrono::milliseconds kTickWhileAsked{5};     ///< while somebody waits for a drive
+    static constexpr std::chrono::milliseconds kTickWhileAsked{
+        5}; ///< while somebody waits for a drive or a reload
 
+    /// One station, as this thread follows it; what is shown of it is in view_ at the same index.
+    struct Post {
+        Post(const Station& at_work, bool self_test_passed)
+            : station(at_work), config(station.config), device(*station.config, self_test_passed)
+        {}
+        Station station;
+        std::shared_ptr<const StationConfig> config; ///< station.config, or the same with other lamps
+        DeviceState device;
+        BusOrders ordered; ///< as published last
+    };
     struct Asked {
-        std::size_t station = 0;
+        std::uint32_t station = 0; ///< its number
+        std::shared_ptr<const StationConfig> config;
         std::uint16_t tag = 0;
         std::uint16_t word = 0;
         bool is_write = false;
     };
     struct Watcher {
-        std::optional<std::size_t> station;
-        std::string seen; ///< what it was shown last, without the ages
+        std::optional<std::string> station; ///< its name
+        std::string seen;                   ///< what it was shown last, without the ages
     };
 
+    // main_control.cpp, main_tec.cpp
     control::Handlers handlers();
     control::Reply on_status();
     control::Reply on_each_station(const control::Json& parameters,
@@ -75,6 +83,8 @@ private:
     control::Json leds_of(std::size_t station);
     control::Json watch_reply(std::optional<std::size_t> station, Instant now) const;
     std::string fingerprint(std::optional<std::size_t> station) const;
+    void answer_asked();
+    void push_watchers(Instant now);
 
     /// Which station `parameters` name: by name or address. An error when there is none, or none was named
     /// and several are there.
@@ -83,47 +93,85 @@ private:
         std::optional<control::Error> error;
     };
     Choice choose(const control::Json& parameters, bool one_is_needed) const;
+    control::Error no_such_station(const std::string& wanted) const;
     control::Json known_stations() const;
-    /// Index of a station among those on its line.
-    std::size_t unit_of(std::size_t station) const;
+    std::optional<std::size_t> index_of(const std::string& name) const;
+    const StationConfig& config_of(std::size_t station) const { return *posts_[station].config; }
 
+    // main_thread.cpp
+    Post make_post(const Station& station);
+    void show_posts();
     void refresh();
+    void refresh_troubles(std::size_t station);
     void follow_device(std::size_t station);
-    void log_events();
-    void log_devices();
+    void log_events(const Station& station);
+    void log_news();
+    void log_port_news();
     std::chrono::milliseconds tick_length() const;
     void show_lamps(Instant now);
-    void answer_asked();
-    void push_watchers(Instant now);
     void feed_watchdog(Instant now);
+    void guard_driver(Instant now);
     void tick(Instant now);
     bool on_signals();
 
-    const Config& config_;
+    // main_reload.cpp
+    /// What a reload came to, as the method Reload tells it.
+    struct Reloaded {
+        bool applied = false;
+        std::vector<std::string> changes, pending, warnings, faults;
+    };
+    /// Where a reload stands. Another one begins when it is idle again.
+    enum class Reloading : std::uint8_t {
+        idle,
+        bus,   ///< the bus is to take the new roster
+        drives ///< the drives of those who left get their safe state
+    };
+    control::Reply on_reload();
+    void mind_reload();
+    void reload();
+    Reloaded try_reload();
+    std::optional<std::string> apply(Plan plan);
+    void repost();
+    void answer_those_who_asked(const Station& gone);
+    void answer_reload();
+    bool bus_has_let_go();
+
+    Config config_; ///< as it is in force
     std::filesystem::path profiles_;
-    Links& links_;
-    Lamps& lamps_;
+    Plant& plant_;
+    BusLink& bus_;
+    io::DriverEnable& driver_;
+    std::chrono::nanoseconds driver_limit_; ///< no telegram takes so long
     io::Signals& signals_;
+    Lamps lamps_;
     io::Epoll epoll_;
     io::Notifier notifier_;
     std::optional<control::Server> server_;
 
     View view_;
-    std::vector<DeviceState> devices_; ///< in the order of config.stations
-    std::vector<BusOrders> ordered_;   ///< of each, as published last
+    std::vector<Post> posts_; ///< in the order of config_.stations
+    bool self_test_passed_;
     std::chrono::milliseconds usual_tick_ = kTick;
     Instant started_{};
     std::map<std::uint32_t, Asked> asked_; ///< by the number of the order
-    std::uint32_t next_order_ = 1;
+    std::uint32_t next_order_ = 1;         ///< of an order or of another answer that is given later
     std::map<std::uint64_t, Watcher> watchers_;
     std::uint64_t next_stream_ = 1;
     std::string status_said_;
     std::uint64_t heartbeat_seen_ = 0;
     Instant next_watchdog_{};
-    bool bus_open_ = true;
     std::filesystem::file_time_type file_read_{}; ///< when the configuration file was changed last
     std::map<std::string, std::uint8_t, std::less<>> in_file_{}; ///< addresses in it, by the station's name
     static constexpr std::size_t kMaxAsked = 16;                 ///< what the rings of a line can hold
+
+    Reloading reloading_ = Reloading::idle;
+    bool reload_wanted_ = false;
+    Reloaded reloaded_;                       ///< of the last one
+    std::vector<std::uint32_t> reload_asked_; ///< who waits for the next one
+    std::vector<std::uint32_t> reload_told_;  ///< who waits for the one that is under way
+    std::vector<Station> leaving_;            ///< kept until bus and drives are done with them
+    std::uint64_t lost_before_ = 0;           ///< events that stations which left could not tell
+    std::unique_ptr<Roster> roster_;          ///< to be offered to the bus
 };
 
 } // namespace dpslave::app

@@ -18,6 +18,7 @@ class DeviceState;
 
 /// One station as the main thread sees it now.
 struct StationView {
+    std::uint32_t number = 0; ///< DriveUnit::number
     const StationConfig* config = nullptr;
     const LineConfig* line = nullptr;
     std::uint8_t address = 0; ///< in force
@@ -45,6 +46,7 @@ nlohmann::json info_json(const StationView& station, std::optional<std::uint8_t>
 nlohmann::json io_json(const StationView& station, Instant now);
 nlohmann::json words_json(const StationView& station, Instant now);
 nlohmann::json diagnosis_json(const StationView& station);
+/// The whole reply of GetCounters.
 nlohmann::json counters_json(const View& view);
 /// Of a station that has the function block.
 nlohmann::json tec_json(const std::string& station, const DeviceState& device);

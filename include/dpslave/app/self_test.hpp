@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// What the program can test of itself at the start without anything connected: that its telegram code knows
-/// a telegram written down beforehand, and no other, and that the clock of the bus runs. The transceiver and
-/// its direction are not tested: that takes the hardware. Pure. Source: HA463561U002, "Features" (B-006).
+/// a telegram written down beforehand, and no other, and that the clock of the bus runs. UART and driver
+/// enable are tested where they are opened: what was set is read back and the line that enables the driver is
+/// moved, to inactive. Where that fails the program does not start (status 3); in service it is FAULT =
+/// HARDWARE until it works again. That the transceiver behind them sends takes another station to hear. Pure.
+/// Source: HA463561U002, "Features" (B-006).
 #pragma once
 
 #include "dpslave/base/bytes.hpp"

@@ -5,18 +5,16 @@
 
 #include "dpslave/base/units.hpp"
 #include "dpslave/drive/serial_line.hpp"
-#include "dpslave/io/tty.hpp"
+#include "dpslave/io/port.hpp"
 
 #include <atomic>
-#include <optional>
-#include <string>
 
 namespace dpslave::app {
 
 class TtyLine final : public drive::SerialLine {
 public:
     /// `is_open` tells the main thread whether the port is there; it outlives the line.
-    TtyLine(std::string path, const io::TtySettings& settings, io::Tty tty, std::atomic<bool>& is_open);
+    TtyLine(io::Port port, std::atomic<bool>& is_open);
 
     bool write(Bytes octets) override;
     std::size_t read(std::span<std::uint8_t> into, std::chrono::nanoseconds timeout) override;
@@ -24,16 +22,11 @@ public:
     void discard() override;
 
 private:
-    static constexpr std::chrono::seconds kReopenAfter{1};
-
     bool ready();
     void lose();
 
-    std::string path_;
-    io::TtySettings settings_;
-    std::optional<io::Tty> tty_;
+    io::Port port_;
     std::atomic<bool>& is_open_;
-    Instant next_reopen_{};
 };
 
 } // namespace dpslave::app

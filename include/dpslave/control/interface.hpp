@@ -40,6 +40,7 @@ inline constexpr std::array kMethods = std::to_array<MethodEntry>({
     {"ReadTag", Right::look},
     {"WriteTag", Right::operate},
     {"SetTec", Right::operate},
+    {"Reload", Right::operate},
 });
 
 inline constexpr std::string_view kInterface = "org.dpslaved.Control";

@@ -95,8 +95,13 @@ public:
     bool complete(std::uint64_t token, const Reply& reply);
     /// Sends a further reply of a stream. False: that stream has ended; the application forgets it.
     bool push(std::uint64_t stream, const Json& parameters);
+    /// The last reply of a stream: nothing further will come. False: that stream had ended already.
+    bool end_stream(std::uint64_t stream, const Error& why);
     /// Open streams, by their numbers in ascending order.
     std::vector<std::uint64_t> streams() const;
+
+    /// Who may operate, of those who connect from now on.
+    void set_operators(std::optional<gid_t> group, std::string name);
 
     std::size_t clients() const noexcept;
     const ServerCounters& counters() const noexcept;

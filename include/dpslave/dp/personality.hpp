@@ -17,6 +17,7 @@ struct Identifier {
     std::uint8_t octet = 0;
     bool reads = false;  ///< one input word
     bool writes = false; ///< one output word
+    friend bool operator==(const Identifier&, const Identifier&) = default;
 };
 
 /// How the list of tags in User_Prm_Data ends.
@@ -36,6 +37,7 @@ struct PrmLayout {
     bool dpv1_status = false;     ///< the first three octets are DPV1_Status_1..3 (with WD_Base)
     std::uint16_t max_tag = 2047; ///< a higher tag is a Prm_Fault
     TagList list = TagList::first_zero_ends;
+    friend bool operator==(const PrmLayout&, const PrmLayout&) = default;
 };
 
 /// Form of Demand Data in the first eight octets of both directions.
@@ -76,6 +78,7 @@ struct Personality {
     /// on and then as zeros (rows B-080, C-017). max_diag_length is at least diag_octets + 7. 0 = no
     /// block of its own.
     std::uint8_t diag_octets = 0;
+    friend bool operator==(const Personality&, const Personality&) = default;
 };
 
 } // namespace dpslave::dp

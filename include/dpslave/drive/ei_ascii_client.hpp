@@ -33,6 +33,8 @@ class EiAsciiClient final : public Backend {
 public:
     /// `line` outlives the client. A unit that is not among `units` has only the mnemonics of the tag table.
     EiAsciiClient(SerialLine& line, EiTiming timing, std::vector<EiUnit> units);
+    /// The drives from now on.
+    void set_units(std::vector<EiUnit> units) { units_ = std::move(units); }
 
     BlockRule block_rule() const override { return {}; }
     AccessError read(UnitAddress unit, const Tag& tag, std::span<std::uint16_t> words) override;

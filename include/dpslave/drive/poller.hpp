@@ -121,6 +121,8 @@ public:
     void set_zero_after(std::size_t unit, ZeroAfter after);
     /// The program ends: what would be zeroed later is zeroed now.
     void ride_no_longer();
+    /// The same of one drive, which is about to leave.
+    void ride_no_longer(std::size_t unit);
     /// False: too many wait already, or there is no such drive. A lost drive is answered for at once:
     /// no_answer. The limits of the tag table are not looked at: parse_value() has done it.
     bool operate(const OperateOrder& order);
@@ -141,8 +143,16 @@ public:
 
     /// Does an output still wait to be written to its safe state, now or when a ride is over?
     bool safe_state_pending() const;
+    bool safe_state_pending(std::size_t unit) const; ///< one of this drive
 
     const UnitSnapshot& snapshot(std::size_t unit) const;
+
+    /// The drives from now on. Drive i is the one that had the index stays[i] until now and goes on with all
+    /// that is known and wanted of it, only its `retries` are those of units[i]; or, where that is nothing, a
+    /// new one. The others are forgotten with whatever they still had to do. Precondition: no transaction is
+    /// under way; no index stays twice.
+    void exchange(const std::vector<UnitSettings>& units,
+                  const std::vector<std::optional<std::size_t>>& stays, BlockRule rule);
 
 private:
     class Unit; ///< one drive: what is wanted of it and what is known of it

@@ -41,6 +41,7 @@ struct Label {
     bool is_bit = false;
     std::uint16_t number = 0; ///< the value, or the number of the bit
     std::string text;
+    friend bool operator==(const Label&, const Label&) = default;
 };
 
 /// One row of the table.
@@ -67,6 +68,7 @@ struct Tag {
     std::vector<std::string> aliases; ///< further names of the same tag
     bool listed = true;               ///< false: in no table; its type is what the drive's answer shows
     std::size_t position = 0;         ///< of its row in the table, from 0
+    friend bool operator==(const Tag&, const Tag&) = default;
 };
 
 /// As the table's column spells the type of this row: also tells REAL from INT.
@@ -104,6 +106,7 @@ public:
     const std::vector<Tag>& all() const { return tags_; }        ///< ascending by number
     /// In the order of the table, which is that of the manual's chapter (C-048); valid as long as this.
     std::vector<const Tag*> in_table_order() const;
+    friend bool operator==(const TagTable&, const TagTable&) = default;
 
 private:
     std::vector<Tag> tags_;

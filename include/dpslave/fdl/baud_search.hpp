@@ -5,6 +5,7 @@
 
 #include "dpslave/base/units.hpp"
 
+#include <bitset>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -20,16 +21,15 @@ enum class BaudState : std::uint8_t {
 std::string_view text(BaudState state) noexcept;
 
 struct BaudSearchSettings {
-    Baud highest = Baud::k1500; ///< where the search begins: the highest rate that the UART can do
-    Baud lowest = Baud::k9_6;
+    /// What the UART can do, in the order of kBauds: the others are left out, for no telegram comes at them.
+    std::bitset<kBauds.size()> rates = std::bitset<kBauds.size()>{}.set();
     std::chrono::nanoseconds dwell_fast = std::chrono::seconds{2}; ///< per rate, from 93.75 kbit/s up
     std::chrono::nanoseconds dwell_slow = std::chrono::seconds{4}; ///< per rate below
     std::chrono::nanoseconds baud_control = std::chrono::milliseconds{320}; ///< T_BC = 2 * 16 * 10 ms
 };
 
 /// Baud_Search, Baud_Control and DP_Control (wire reference 7.1). Begins in Baud_Search.
-/// Precondition of the settings: lowest <= highest, with at least one searched rate between them (45.45
-/// kbit/s is none).
+/// Precondition of the settings: at least one searched rate among `rates` (45.45 kbit/s is none).
 class BaudSearch {
 public:
     /// `begin_with`: the first rate to listen at (the one that was right the last time, say); a rate that is

@@ -70,6 +70,10 @@ public:
     /// is none any more.
     std::optional<Bytes> take_transmit();
 
+    /// The last moment at which the reply that take_transmit() gave last may still begin: a write that ends
+    /// later was too late although it began in time.
+    Instant window_ended() const { return window_ended_; }
+
     /// When on_time() wants to be called next. kNever = only octets can wake this station. A moment that has
     /// passed means: at once.
     Instant next_deadline() const;
@@ -77,7 +81,9 @@ public:
     /// Which users were called since the last take: what the edge has to publish. Bit n = address n.
     std::bitset<128> take_touched();
 
-    /// The rate to switch the line to, when the search decided so: the edge flushes the line and sets it.
+    /// The rate to switch the line to, when the search decided so: the edge flushes the line and sets it. A
+    /// station that searches says so at once, for the rate that it begins with; until then it does not
+    /// listen.
     std::optional<Baud> take_baud_change();
 
     Baud baud() const;
@@ -154,7 +160,8 @@ private:
     Instant gap_ends_ = kNever;
 
     std::optional<Pending> pending_;
-    Frame unstored_; // a reply that belongs to no frame count sequence
+    Instant window_ended_{}; // of the reply handed out last
+    Frame unstored_;         // a reply that belongs to no frame count sequence
     ReplyData scratch_;
     Counters counters_;
 };

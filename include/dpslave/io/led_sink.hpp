@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A real lamp: a pin of sysfs GPIO, or a lamp of the kernel's LED class.
+/// A real lamp: a line of a GPIO chip, a lamp of the kernel's LED class, or a pin of sysfs GPIO.
 #pragma once
 
 #include "dpslave/base/result.hpp"
+#include "dpslave/io/gpio.hpp"
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace dpslave::io {
@@ -21,9 +23,18 @@ public:
     virtual void set(bool lit) = 0;
 };
 
-/// "gpio:N": <sysfs>/class/gpio, exported if need be, an output. "led:NAME": <sysfs>/class/leds/NAME, trigger
-/// none. The lamp is dark at first. The error is a sentence with path, reason and what to do.
+/// "line:CHIP:LINE": a GPIO character device, chip as GpioRequest has it. "led:NAME":
+/// <sysfs>/class/leds/NAME, trigger none. "gpio:N": <sysfs>/class/gpio, exported if need be, an output;
+/// "gpio:LABEL:OFFSET" where N is another one after each boot. The lamp is dark at first. It may wait half a
+/// second for udev to give a pin of sysfs to the group. The error is a sentence with path, reason and what to
+/// do.
 Result<std::unique_ptr<LedSink>, std::string> open_led_sink(const std::string& sink,
                                                             const std::filesystem::path& sysfs);
+
+/// What open_led_sink() would say of the form of `sink`, without its name: what to write instead. Nothing:
+/// the form is right. Opens nothing.
+std::optional<std::string> judge_led_sink(const std::string& sink);
+/// The line that a sink of the kind "line:" asks for; nothing: another kind, or its form is wrong.
+std::optional<GpioRequest> line_of_led_sink(const std::string& sink);
 
 } // namespace dpslave::io

@@ -3,6 +3,8 @@
 /// happens.
 #pragma once
 
+#include "dpslave/base/units.hpp"
+
 #include <chrono>
 #include <optional>
 #include <string_view>
@@ -12,8 +14,9 @@ namespace dpslave::io {
 class Notifier {
 public:
     void ready(std::string_view status); ///< READY=1 and what `systemctl status` shows
-    void status(std::string_view text);  ///< one line; a line break in it becomes a blank
-    void watchdog();                     ///< alive
+    void reloading(Instant now); ///< the configuration is read again; ready() is to come when that is over
+    void status(std::string_view text); ///< one line; a line break in it becomes a blank
+    void watchdog();                    ///< alive
     void stopping();
 
     /// WatchdogSec= of the unit: watchdog() has to be called more often than this. None: nobody watches this

@@ -5,15 +5,20 @@
 
 #include "dpslave/base/bytes.hpp"
 #include "dpslave/base/result.hpp"
+#include "dpslave/base/units.hpp"
 #include "dpslave/io/fd.hpp"
 #include "dpslave/io/parity_marks.hpp"
 
+#include <bitset>
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <system_error>
+#include <vector>
 
 namespace dpslave::io {
 
@@ -24,6 +29,7 @@ struct TtySettings {
     int stop_bits = 1;        ///< 1 or 2
     bool mark_errors = false; ///< tell bad characters (parity, framing, break) by Chunk::bad_character;
                               ///< without it one with wrong parity reads as 00
+    bool prompt = false;      ///< every octet is to be handed on as soon as it has come: receive trigger 1
 };
 
 /// What one read gave.
@@ -33,17 +39,37 @@ struct Chunk {
     bool more = false; ///< call read() again before acting on it: more has come already, or may have
 };
 
+/// Which rates of PROFIBUS a port can do.
+struct TtyBauds {
+    std::bitset<kBauds.size()> can; ///< by index_of()
+    /// A sentence without the path about those that a search has to leave out (45.45 kbit/s is never
+    /// searched); empty = none.
+    std::string why_not;
+};
+
+struct Uart; // what is behind it; only the room looks into it
+
 class Tty {
 public:
     /// Opens and sets `path`, alone: a second opener is refused. Whatever had come before is thrown away.
-    /// The error is a sentence with path, reason and what to do.
-    static Result<Tty, std::string> open(const std::string& path, const TtySettings& settings);
+    /// The error is a sentence with path, reason and what to do. `sysfs`: where it lies.
+    static Result<Tty, std::string> open(const std::string& path, const TtySettings& settings,
+                                         const std::filesystem::path& sysfs = "/sys");
 
     Tty(Tty&&) noexcept;
     Tty& operator=(Tty&&) noexcept;
     ~Tty();
 
     int fd() const { return fd_.get(); }
+    /// What `prompt` did not reach, and what that costs: sentences without the path, for the log.
+    const std::vector<std::string>& warnings() const { return warnings_; }
+
+    /// Another rate from now on. What was not sent or read yet is thrown away, and so is what comes within
+    /// two characters, which it waits for: the one under way is half of each rate. The error is a sentence
+    /// without the path; then the rate is whatever the driver took.
+    std::optional<std::string> set_baud(std::uint32_t baud);
+    /// Tries all of them and goes back to the present one. What comes meanwhile is lost.
+    TtyBauds bauds();
 
     /// Never waits. `out` has at least one place. After a hang-up (cable of a USB adapter pulled, other end
     /// of a pty closed) always an error code.
@@ -63,13 +89,24 @@ public:
     /// Waits until read() has something to say, a hang-up included. False: the time is over.
     bool wait_readable(std::chrono::nanoseconds timeout);
 
+    /// Whether the last stop bit of what was written has gone. Nothing: the driver does not tell (a pty, most
+    /// USB adapters); it is not asked again then.
+    std::optional<bool> transmitter_empty() const;
+    /// The cable of a USB adapter was pulled, the other end of a pty closed.
+    bool hung_up() const;
+
 private:
     struct Marked; // octets read but not given out yet
-    Tty(Fd fd, const TtySettings& settings);
+    Tty(Fd fd, const TtySettings& settings, std::unique_ptr<Uart> uart);
+    Result<std::size_t, std::error_code> fetch(std::span<std::uint8_t> out);
     Result<Chunk, std::error_code> read_marked(std::span<std::uint8_t> out);
 
     Fd fd_;
+    TtySettings settings_;
+    std::unique_ptr<Uart> uart_;
+    std::vector<std::string> warnings_;
     std::chrono::nanoseconds character_{};
+    mutable bool tells_empty_ = true;
     std::unique_ptr<Marked> marked_; // only with mark_errors
 };
 

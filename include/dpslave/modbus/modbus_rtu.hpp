@@ -26,7 +26,8 @@ struct RtuSettings {
     /// counted. Has to be longer than the slowest answer of the drive; one up to twice as late is still known
     /// as late.
     std::chrono::milliseconds timeout{600};
-    std::chrono::milliseconds reopen_after{1000}; ///< between two attempts to open a port that vanished
+    /// Until the first attempt to open a port that vanished; later ones wait longer (io::Port).
+    std::chrono::milliseconds reopen_after{500};
 };
 
 class RtuLine;

@@ -55,6 +55,7 @@ struct GsdFacts {
     std::string file;                   ///< name of the file that is shipped; empty: none, the ident is open
     std::vector<std::uint16_t> in_tags; ///< mapping that `dpctl gsd make` uses when none is given
     std::vector<std::uint16_t> out_tags;
+    friend bool operator==(const GsdFacts&, const GsdFacts&) = default;
 };
 
 struct Profile {
@@ -83,6 +84,7 @@ struct Profile {
     led::Language leds = led::Language::option_board;
     std::optional<std::uint32_t> recommended_baud; ///< of the drive line; another rate is a warning (A-037)
     std::vector<std::string> protocols;            ///< legal back-ends: "ei-ascii"
+    friend bool operator==(const Profile&, const Profile&) = default;
 };
 
 /// Reads `folder`/NAME.toml and the table it names (../tags/FILE beside the folder). All faults of both files

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: Apache-2.0
+# Bash completion of dpctl. Names of stations come from the daemon, names of profiles from their folder.
+
+# The options that every command has which asks the daemon.
+_dpctl_common='--json --socket --timeout --help'
+
+_dpctl_options()
+{
+    case $1 in
+        '') echo "$_dpctl_common" ;;
+        doctor) echo "$_dpctl_common --all" ;;
+        read | write | 'tec set') echo "$_dpctl_common --station" ;;
+        tag) echo '--json --all --table --profile --profiles --help' ;;
+        hex) echo '--json --help' ;;
+        decode) echo '--json --profile --profiles --help' ;;
+        'gsd check') echo '--strict --help' ;;
+        'gsd show') echo '--profile --profiles --help' ;;
+        'gsd make') echo '--profile --profiles --mapping --in --out --in-out --demand --ident --max-tsdr --description
+                          --model --output --force --help' ;;
+        'gsd types') echo '--output --brief --force --help' ;;
+        gsd) echo '--help' ;;
+        *) echo "$_dpctl_common" ;;
+    esac
+}
+
+# Of the daemon behind the socket that the line names; nothing if it does not answer at once.
+_dpctl_stations()
+{
+    local i socket=()
+    for ((i = 1; i < COMP_CWORD; i++)); do
+        [ "${COMP_WORDS[i]}" != --socket ] || socket=(--socket "${COMP_WORDS[i + 1]}")
+    done
+    dpctl "${socket[@]}" --timeout 1 --json stations 2>/dev/null |
+        grep -oE '"name": *"[^"]*"' | sed -E 's/^"name": *"(.*)"$/\1/'
+}
+
+_dpctl_profiles()
+{
+    local i folder=/usr/share/dpslaved/profiles file
+    for ((i = 1; i < COMP_CWORD; i++)); do
+        [ "${COMP_WORDS[i]}" != --profiles ] || folder=${COMP_WORDS[i + 1]}
+    done
+    for file in "$folder"/*.toml; do
+        [ ! -e "$file" ] || basename "$file" .toml
+    done
+}
+
+# Those lines of standard input that begin as the word does; a name may have blanks.
+_dpctl_offer()
+{
+    local line
+    while IFS= read -r line; do
+        [[ $line != "$1"* ]] || COMPREPLY+=("$(printf %q "$line")")
+    done
+}
+
+_dpctl()
+{
+    local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD - 1]} command='' i word words=''
+    COMPREPLY=()
+    case $prev in
+        --socket | --table | --mapping) compopt -o filenames 2>/dev/null
+            mapfile -t COMPREPLY < <(compgen -f -- "$cur"); return ;;
+        --profiles | --output) compopt -o filenames 2>/dev/null
+            mapfile -t COMPREPLY < <(compgen -f -- "$cur"); return ;;
+        --profile) _dpctl_offer "$cur" < <(_dpctl_profiles); return ;;
+        --station) _dpctl_offer "$cur" < <(_dpctl_stations); return ;;
+        --timeout | --in | --out | --in-out | --ident | --max-tsdr | --description | --model) return ;;
+    esac
+    for ((i = 1; i < COMP_CWORD; i++)); do
+        word=${COMP_WORDS[i]}
+        case $word in
+            --socket | --timeout) i=$((i + 1)) ;;
+            -*) ;;
+            *)
+                case "$command" in
+                    '') command=$word ;;
+                    gsd) command="gsd $word" ;;
+                    tec) [ "$word" != set ] || command='tec set' ;;
+                esac
+                ;;
+        esac
+    done
+    if [[ $cur == -* ]]; then
+        words=$(_dpctl_options "$command")
+    else
+        case $command in
+            '') words='status stations info io diag doctor counters read write tec leds watch version is-exchanging
+                       reload tune tag hex decode gsd' ;;
+            info | io | diag | doctor | leds | watch | is-exchanging) _dpctl_offer "$cur" < <(_dpctl_stations); return ;;
+            tec) _dpctl_offer "$cur" < <(echo set && _dpctl_stations); return ;;
+            'tec set') words='TYPE ADDRESS EXT_DIAGNOSTIC INT_DIAG_SELECT RIDE_THROUGH UNUSED_1' ;;
+            gsd) words='check show make types' ;;
+            tune | 'gsd check' | 'gsd show') compopt -o filenames 2>/dev/null
+                mapfile -t COMPREPLY < <(compgen -f -- "$cur"); return ;;
+        esac
+    fi
+    mapfile -t COMPREPLY < <(compgen -W "$words" -- "$cur")
+}
+complete -F _dpctl dpctl

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Replies onto the line: the driver on, the write, and the driver off again within one character after the
+/// last stop bit. The bus thread's own; never waits longer than BusSender::kSpin. Source: wire reference 1.3,
+/// 11.3; rows.
+#pragma once
+
+#include "dpslave/base/bytes.hpp"
+#include "dpslave/base/units.hpp"
+#include "dpslave/fdl/transmission.hpp"
+#include "dpslave/io/driver_enable.hpp"
+#include "dpslave/io/tty.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+namespace dpslave::app {
+
+class BusSender {
+public:
+    /// A wait shorter than this is spun: going to sleep and coming back takes longer.
+    static constexpr std::chrono::microseconds kSpin{25};
+
+    /// `driver` outlives the sender.
+    explicit BusSender(io::DriverEnable& driver) : driver_(driver) {}
+
+    /// The reply leaves now and whole. Gives the moment after the write; nothing: it was not sent (counted).
+    std::optional<Instant> send(Bytes telegram, io::Tty& tty, Baud baud);
+
+    /// Whether the driver is active because of a reply that goes out.
+    bool is_sending() const { return transmission_.is_running(); }
+    /// When finish() has something to do; kNever = nothing goes out, or nobody has to be let go.
+    Instant next_deadline() const { return transmission_.ends_at(); }
+    /// Lets the driver go if the reply is over, or will be within kSpin: that is spun for. Call it until
+    /// is_sending() is false.
+    void finish(const io::Tty& tty);
+    /// The port goes: the driver goes inactive at once, whatever is on its way.
+    void abort();
+
+    std::uint64_t write_errors() const { return write_errors_; }   ///< replies that the port did not take
+    std::uint64_t driver_errors() const { return driver_errors_; } ///< edges that failed
+    std::uint64_t driver_guarded() const { return transmission_.guarded(); }
+
+private:
+    bool make_active(const io::Tty& tty);
+    void make_inactive(Instant now);
+
+    io::DriverEnable& driver_;
+    fdl::Transmission transmission_;
+    std::uint64_t write_errors_ = 0;
+    std::uint64_t driver_errors_ = 0;
+};
+
+} // namespace dpslave::app

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The port of a drive line and the back-end that speaks over it, by the protocol of the line.
+#pragma once
+
+#include "dpslave/app/links.hpp"
+#include "dpslave/app/tty_line.hpp"
+#include "dpslave/base/result.hpp"
+#include "dpslave/drive/backend.hpp"
+#include "dpslave/drive/ei_ascii_client.hpp"
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dpslave::app {
+
+class LineBackend {
+public:
+    /// Opens the port. `is_open` tells whether it is there, also when it vanishes and returns in service; it
+    /// outlives the back-end. The error is a sentence.
+    static Result<std::unique_ptr<LineBackend>, std::string> open(const LineConfig& line,
+                                                                  std::atomic<bool>& is_open);
+
+    drive::Backend& backend() { return *backend_; }
+    /// The drives from now on.
+    void set_units(const std::vector<DriveUnit>& units);
+
+private:
+    std::unique_ptr<TtyLine> tty_;             ///< of EI-ASCII; a Modbus back-end has its port itself
+    drive::EiAsciiClient* ei_ascii_ = nullptr; ///< the back-end, if it is one
+    std::unique_ptr<drive::Backend> backend_;
+};
+
+} // namespace dpslave::app

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Something that one thread builds, another one uses from now on, and the first one throws away again: so
+/// that the user neither allocates nor frees. Waits for nobody.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <utility>
+
+namespace dpslave {
+
+/// Between one giver and one user.
+template <class T>
+class Handover {
+public:
+    Handover() = default;
+    Handover(const Handover&) = delete;
+    Handover& operator=(const Handover&) = delete;
+    ~Handover()
+    {
+        delete offered_.load(std::memory_order_acquire);
+        delete used_up_.load(std::memory_order_acquire);
+    }
+
+    /// Giver: `next` is to be used from now on, and is empty afterwards. False, and nothing was done: what
+    /// was offered before was not taken yet, or what was used up was not collected yet.
+    bool offer(std::unique_ptr<T>& next) noexcept
+    {
+        if (!taken() || used_up_.load(std::memory_order_acquire) != nullptr) return false;
+        offered_.store(next.release(), std::memory_order_release);
+        return true;
+    }
+    /// Giver: what the user is done with. Nothing: it still uses it, or never had anything.
+    std::unique_ptr<T> collect() noexcept
+    {
+        return std::unique_ptr<T>{used_up_.exchange(nullptr, std::memory_order_acquire)};
+    }
+    /// Giver: what was offered last was taken.
+    bool taken() const noexcept { return offered_.load(std::memory_order_acquire) == nullptr; }
+
+    /// User: what is offered, to be looked at before it is taken; nullptr = nothing new. It stays until
+    /// take().
+    const T* offered() const noexcept { return offered_.load(std::memory_order_acquire); }
+    /// User: is something new there? If so `present` becomes it, and what `present` was goes back to the
+    /// giver, which may destroy it at once.
+    bool take(std::unique_ptr<T>& present) noexcept
+    {
+        std::unique_ptr<T> next{offered_.load(std::memory_order_acquire)};
+        if (!next) return false;
+        used_up_.store(present.release(), std::memory_order_release);
+        present = std::move(next);
+        offered_.store(nullptr, std::memory_order_release); // last: the giver may offer again from here on
+        return true;
+    }
+
+private:
+    std::atomic<T*> offered_{nullptr};
+    std::atomic<T*> used_up_{nullptr};
+};
+
+} // namespace dpslave

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Who switches the RS-485 transceiver to sending, and how. Inactive but while a reply is on the line: at
+/// start, at the end, and when the port goes. Source: wire reference 11.3; rows.
+///
+/// What releases it when the program dies without a word (SIGKILL): with `gpio` the next start, or
+/// `dpslaved --release`, which the service unit runs as ExecStopPost, for most chips keep the level of a line
+/// that nobody holds any more. With `kernel` the UART's driver, at the end of what it still has to send. With
+/// `rts` the kernel, as it closes the port; where RTS is low while sending, `dpslaved --release`.
+#pragma once
+
+#include "dpslave/base/result.hpp"
+#include "dpslave/base/units.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace dpslave::io {
+
+class Tty;
+
+enum class Direction : std::uint8_t {
+    none,   ///< the transceiver switches by itself
+    gpio,   ///< a line of a GPIO chip, by us
+    kernel, ///< the UART's driver, by TIOCSRS485
+    rts,    ///< the RTS line of the port, by us
+};
+std::string_view text(Direction direction) noexcept;
+
+struct DriverEnableSettings {
+    Direction direction = Direction::none;
+    std::string gpio_chip{}; ///< with Direction::gpio, as GpioRequest has it
+    unsigned gpio_line = 0;
+    /// Of the GPIO, or of RTS: RTS is asserted while sending, and with active_low it is not. (The pin of a
+    /// bare UART is low while RTS is asserted.)
+    bool active_low = false;
+    /// With Direction::kernel: the receiver stays on while sending, so that our own octets come back to be
+    /// compared (echo = "on"). Off: the driver keeps them from us.
+    bool receive_own = false;
+    friend bool operator==(const DriverEnableSettings&, const DriverEnableSettings&) = default;
+};
+
+class DriverEnable {
+public:
+    /// Takes the GPIO line, inactive, if there is one. The error is a sentence.
+    static Result<DriverEnable, std::string> open(const DriverEnableSettings& settings);
+    /// After a program that died: makes inactive what that one may have left active, and lets go of it.
+    /// Harmless at any time. `port`: the PROFIBUS tty. The error is a sentence, for example that a program
+    /// has the line.
+    static std::optional<std::string> release(const DriverEnableSettings& settings, const std::string& port);
+
+    DriverEnable(DriverEnable&&) noexcept;
+    DriverEnable& operator=(DriverEnable&&) noexcept;
+    ~DriverEnable(); ///< inactive
+
+    /// The port was opened, for the first time or again: sets its part of the switching, reads back whether
+    /// the driver took it, and leaves the line inactive. `port` stays where it is until detach(). The error
+    /// is a sentence that says which ways this port could do; the port is then not fit to send.
+    std::optional<std::string> attach(const Tty& port);
+    /// The port is about to go.
+    void detach() noexcept;
+
+    /// True: set() has to be called around each reply. False: somebody else switches, and set() does nothing.
+    bool by_hand() const noexcept;
+
+    /// Before the first octet is written, and after the last stop bit has gone. No allocation; one system
+    /// call. An error of set(true): nothing may be sent, for a reply without driver enable is no reply. An
+    /// error of either but resource_unavailable_try_again (the guard is at work): the chip has gone, see
+    /// works().
+    std::error_code set(bool sending, Instant now) noexcept;
+
+    /// False: an edge has failed. Nothing is sent until ready() says true. Any thread may ask.
+    bool works() const noexcept;
+    /// Like Port::ready(), for the thread that calls set(): true where it works. Where it does not, tries to
+    /// get it back when the time for that has come: at once, then after 0.5, 1, 2, 4, 4 ... s. It may block
+    /// as long as opening a GPIO chip does, and allocates: not between a request and its reply.
+    bool ready(Instant now);
+    /// When ready() will try again; kNever while it works. For the thread that calls ready().
+    Instant next_try() const noexcept;
+
+    /// Since when the line is active; nothing = it is not. Any thread may ask.
+    std::optional<Instant> active_since() const noexcept;
+    /// The last resort, from another thread: makes the line inactive if it has been active for longer than
+    /// `limit`. True: it had been, and is not any more. Never waits for the thread that calls set().
+    bool drop_if_stuck(Instant now, std::chrono::nanoseconds limit) noexcept;
+
+    /// For the log at start, after attach() and before the first set(): which way works, how long an edge
+    /// takes (the middle of several, measured without making the line active: the bus may be alive), and
+    /// which other ways the port could do.
+    std::string self_check();
+    /// Duration of an edge as self_check() measured it; 0 = not by hand, or not measured.
+    std::chrono::nanoseconds edge_time() const noexcept;
+    /// A sentence if the edge is slow at this rate: longer than two bit times of the eleven within which the
+    /// line has to be released (A-027). The rest is for the wake-up of the thread.
+    std::optional<std::string> doubt(Baud baud) const;
+
+private:
+    struct Held;
+    explicit DriverEnable(std::unique_ptr<Held> held);
+    std::unique_ptr<Held> held_;
+};
+
+} // namespace dpslave::io

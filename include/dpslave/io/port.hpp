@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A serial port that is opened again, with back-off, after it has vanished: the one place where that is
+/// done, for the bus, EI-ASCII and Modbus alike.
+#pragma once
+
+#include "dpslave/base/units.hpp"
+#include "dpslave/io/tty.hpp"
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+namespace dpslave::io {
+
+class Port {
+public:
+    static constexpr std::chrono::milliseconds kFirstWait{500};
+
+    /// Opens `path`; the error is Tty::open's sentence.
+    static Result<Port, std::string> open(std::string path, const TtySettings& settings,
+                                          std::chrono::nanoseconds first_wait = kFirstWait);
+    /// A port that is not open yet: the first ready() tries.
+    Port(std::string path, const TtySettings& settings, std::chrono::nanoseconds first_wait = kFirstWait);
+
+    const std::string& path() const { return path_; }
+    bool is_open() const { return tty_.has_value(); }
+    /// Precondition: is_open().
+    Tty& tty() { return *tty_; }
+
+    /// True: open. False: it is not, and either its time to be tried again has not come or it could not be
+    /// opened. The waits are the first one, twice, four and then always eight times it: 0.5, 1, 2, 4, 4 ...
+    /// s; they begin anew after it was open. It may block as long as open(2) does, and allocates.
+    bool ready(Instant now);
+    /// Closes it: its owner saw that it has gone.
+    void lose(Instant now);
+    /// When ready() will try again; kNever while it is open.
+    Instant next_try() const { return next_try_; }
+    /// The rate from now on, also after it was opened again; Tty::set_baud() where it is open. The error is a
+    /// sentence with the path.
+    std::optional<std::string> set_baud(std::uint32_t baud);
+    const TtySettings& settings() const { return settings_; }
+
+private:
+    void wait(Instant now);
+
+    std::string path_;
+    TtySettings settings_;
+    std::chrono::nanoseconds first_wait_;
+    std::optional<Tty> tty_;
+    Instant next_try_{}; ///< at once
+    unsigned failures_ = 0;
+};
+
+} // namespace dpslave::io

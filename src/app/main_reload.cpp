@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+// The configuration is read again: SIGHUP, or the method Reload. It is judged whole; then either all of it is
+// done or nothing. The order matters: first the bus lets go of those who leave, then their drives get their
+// safe state, and only then new ones take their place.
+#include "dpslave/app/main_thread.hpp"
+#include "dpslave/io/clock.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+namespace dpslave::app {
+
+using control::Done;
+using control::Error;
+using control::Json;
+using control::Reply;
+
+namespace {
+
+std::vector<std::string> sentences(const profile::Faults& faults)
+{
+    std::vector<std::string> all;
+    for (const profile::Fault& fault : faults) all.push_back(to_string(fault));
+    return all;
+}
+
+} // namespace
+
+/// While one is under way the next one waits; all who wait then share it.
+Reply MainThread::on_reload()
+{
+    reload_wanted_ = true;
+    reload_asked_.push_back(next_order_);
+    return control::Later{.token = next_order_++};
+}
+
+void MainThread::mind_reload()
+{
+    switch (reloading_) {
+        case Reloading::idle:
+            if (reload_wanted_) reload();
+            break;
+        case Reloading::bus:
+            if (!bus_has_let_go()) break;
+            plant_.finish();
+            reloading_ = Reloading::drives;
+            answer_reload();
+            break;
+        case Reloading::drives:
+            if (!plant_.is_settled()) break;
+            for (const Station& gone : leaving_) {
+                log_events(gone);
+                lost_before_ += gone.link->events.refused();
+            }
+            leaving_.clear();
+            reloading_ = Reloading::idle;
+            break;
+    }
+}
+
+void MainThread::reload()
+{
+    reload_wanted_ = false;
+    reload_told_ = std::move(reload_asked_);
+    reload_asked_.clear();
+    notifier_.reloading(io::monotonic_now());
+    spdlog::info("reading {} again", config_.file.string());
+    try {
+        reloaded_ = try_reload();
+    } catch (const std::exception& error) { // no descriptor, no thread or no memory left; nothing was changed
+        reloaded_ = {};
+        reloaded_.faults.push_back(fmt::format("a failure of the system: {}", error.what()));
+    }
+    for (const std::string& warning : reloaded_.warnings) spdlog::warn("{}", warning);
+    for (const std::string& fault : reloaded_.faults) spdlog::error("{}", fault);
+    if (!reloaded_.applied) spdlog::error("the new configuration is refused; the one until now runs on");
+    for (const std::string& change : reloaded_.changes) spdlog::info("{}", change);
+    for (const std::string& pending : reloaded_.pending) spdlog::warn("{}", pending);
+    if (reloaded_.applied && reloaded_.changes.empty() && reloaded_.pending.empty())
+        spdlog::info("nothing has changed");
+    if (reloading_ == Reloading::idle) answer_reload();
+}
+
+MainThread::Reloaded MainThread::try_reload()
+{
+    Reloaded result;
+    auto wanted = load_config(config_.file, profiles_);
+    if (!wanted) {
+        result.faults = sentences(wanted.error());
+        return result;
+    }
+    result.warnings = sentences(wanted->warnings);
+    std::vector<std::uint8_t> in_force;
+    for (const Post& post : posts_) in_force.push_back(post.device.address());
+    Plan plan = plan_reload(config_, in_force, std::move(*wanted));
+    if (!plan.refusals.empty()) {
+        result.faults = std::move(plan.refusals);
+        return result;
+    }
+    result.changes = plan.changes;
+    result.pending = plan.pending;
+    if (auto trouble = apply(std::move(plan))) {
+        result.changes.clear();
+        result.pending.clear();
+        result.faults.push_back(std::move(*trouble));
+        return result;
+    }
+    result.applied = true;
+    return result;
+}
+
+/// Nothing: the new configuration is the present one, and the bus is told. Else why not, and nothing was
+/// changed.
+std::optional<std::string> MainThread::apply(Plan plan)
+{
+    if (plan.changes.empty()) {
+        config_ = std::move(plan.config); // what stands elsewhere in the file, and what is pending
+        show_posts();
+        return std::nullopt;
+    }
+    if (auto trouble = plant_.exchange(plan)) return trouble;
+    config_ = std::move(plan.config);
+    repost();
+    roster_ = plant_.roster();
+    reloading_ = Reloading::bus;
+    for (std::string& warning : lamps_.exchange(config_)) spdlog::warn("{}", warning);
+    show_lamps(io::monotonic_now());
+    server_->set_operators(operator_group_of(config_.control), config_.control.operator_group);
+
+    return std::nullopt;
+}
+
+/// The posts of the stations that there are now; who stays keeps his.
+void MainThread::repost()
+{
+    std::vector<Post> before = std::move(posts_);
+    posts_.clear();
+    for (std::size_t i = 0; i < plant_.stations().size(); ++i) {
+        const Station& station = plant_.stations()[i];
+        const auto known = std::find_if(before.begin(), before.end(), [&station](const Post& post) {
+            return post.station.number == station.number;
+        });
+        if (known == before.end()) {
+            posts_.push_back(make_post(station));
+            continue;
+        }
+        posts_.push_back(std::move(*known));
+        before.erase(known);
+        if (posts_[i].config->leds != config_.stations[i].leds)
+            posts_[i].config = std::make_shared<const StationConfig>(config_.stations[i]);
+    }
+    for (Post& gone : before) {
+        answer_those_who_asked(gone.station);
+        leaving_.push_back(std::move(gone.station));
+    }
+    show_posts();
+}
+
+void MainThread::answer_those_who_asked(const Station& gone)
+{
+    for (auto one = asked_.begin(); one != asked_.end();) {
+        if (one->second.station != gone.number) {
+            ++one;
+            continue;
+        }
+        server_->complete(
+            one->first,
+            Error{"DriveRefused",
+                  {{"tag", one->second.tag},
+                   {"reason", fmt::format("station {} has just been changed or removed by a reload",
+                                          gone.config->name)},
+                   {"code", nullptr}}});
+        one = asked_.erase(one);
+    }
+}
+
+/// The bus takes its new roster when those who are not in it have said their last word.
+bool MainThread::bus_has_let_go()
+{
+    bus_.roster.collect();
+    if (roster_ && !bus_.roster.offer(roster_)) return false;
+    return bus_.roster.taken();
+}
+
+void MainThread::answer_reload()
+{
+    status_said_ = status_line(view_);
+    notifier_.ready(status_said_);
+    for (const std::uint32_t token : reload_told_)
+        server_->complete(token, Done{{{"applied", reloaded_.applied},
+                                       {"changes", reloaded_.changes},
+                                       {"pending", reloaded_.pending},
+                                       {"warnings", reloaded_.warnings},
+                                       {"faults", reloaded_.faults}}});
+    reload_told_.clear();
+}
+
+} // namespace dpslave::app

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dpslave/app/plant.hpp"
+
+#include "config_parts.hpp"
+
+#include "dpslave/app/line_backend.hpp"
+#include "dpslave/io/realtime.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+namespace dpslave::app {
+
+namespace {
+
+DriveUnit unit_of(const Station& station)
+{
+    return {.number = station.number, .config = station.config, .link = station.link};
+}
+
+std::vector<DriveUnit> units_on(const DriveLine& line, const std::vector<Station>& stations)
+{
+    std::vector<DriveUnit> units;
+    for (const Station& station : stations)
+        if (station.line.get() == &line) units.push_back(unit_of(station));
+    return units;
+}
+
+bool are_same(const std::vector<DriveUnit>& a, const std::vector<DriveUnit>& b)
+{
+    return std::equal(
+        a.begin(), a.end(), b.begin(), b.end(),
+        [](const DriveUnit& one, const DriveUnit& other) { return one.number == other.number; });
+}
+
+std::string not_opened(const Config& config, const LineConfig& line, const std::string& why)
+{
+    return fmt::format("{}[[line]] \"{}\": {}", place(config, line.port_line), line.name, why);
+}
+
+} // namespace
+
+std::string place(const Config& config, unsigned line)
+{
+    return fmt::format("{}:{}: ", config.file.string(), line);
+}
+
+void guarded(std::atomic<bool>& failed, const char* name, const std::function<void()>& work)
+{
+    try {
+        io::name_thread(name);
+        work();
+    } catch (const std::exception& error) {
+        spdlog::critical("the {} thread had to give up: {}", name, error.what());
+        failed.store(true, std::memory_order_relaxed);
+    }
+}
+
+void DriveLine::tell_to_end()
+{
+    thread.request_stop();
+    wake.ring();
+}
+
+void Plant::end()
+{
+    for (auto* const lines : {&lines_, &leaving_})
+        for (const auto& line : *lines) line->tell_to_end();
+    for (auto* const lines : {&lines_, &leaving_})
+        for (const auto& line : *lines)
+            if (line->thread.joinable()) line->thread.join();
+}
+
+Station Plant::new_station(const StationConfig& config, const std::shared_ptr<DriveLine>& line)
+{
+    Station station;
+    station.number = ++last_number_;
+    station.config = std::make_shared<const StationConfig>(config);
+    station.link = std::make_shared<StationLink>();
+    station.bus = std::make_shared<BusStation>(*station.config, station.link);
+    station.line = line;
+    return station;
+}
+
+std::optional<std::string> Plant::open(const Config& config)
+{
+    std::vector<std::unique_ptr<LineBackend>> backends;
+    for (const LineConfig& line : config.lines) {
+        lines_.push_back(std::make_shared<DriveLine>(line));
+        auto backend = LineBackend::open(line, lines_.back()->link.port_open);
+        if (!backend) return not_opened(config, line, backend.error());
+        backends.push_back(std::move(*backend));
+    }
+    for (const StationConfig& station : config.stations)
+        stations_.push_back(new_station(station, lines_[station.line]));
+    for (std::size_t i = 0; i < lines_.size(); ++i)
+        lines_[i]->work = std::make_unique<DriveThread>(lines_[i]->config, std::move(backends[i]),
+                                                        units_on(*lines_[i], stations_), lines_[i]->link);
+    return std::nullopt;
+}
+
+void Plant::start()
+{
+    for (const auto& line : lines_) start(*line);
+}
+
+void Plant::start(DriveLine& line)
+{
+    line.thread = std::jthread([this, &line](const std::stop_token& stop) {
+        guarded(failed_, "drive", [&] { line.work->run(stop, line.wake); });
+    });
+}
+
+std::unique_ptr<Roster> Plant::roster() const
+{
+    auto roster = std::make_unique<Roster>();
+    for (const Station& station : stations_) roster->push_back(station.bus);
+    return roster;
+}
+
+// ---- the exchange
+
+struct Plant::Next {
+    std::vector<std::shared_ptr<DriveLine>> lines;
+    std::vector<std::unique_ptr<LineBackend>> backends; ///< opened as a trial, in the order of `lines`
+    std::vector<Station> stations;
+    std::vector<Work> works;
+};
+
+/// A port that we have cannot be opened for a trial: its present line lets go of it first.
+bool Plant::has_port(const std::string& port) const
+{
+    const std::string wanted = canonical(port);
+    return std::any_of(lines_.begin(), lines_.end(),
+                       [&wanted](const auto& line) { return canonical(line->config.port) == wanted; });
+}
+
+std::optional<std::string> Plant::make_lines(const Plan& plan, Next& next) const
+{
+    for (std::size_t i = 0; i < plan.lines.size(); ++i) {
+        const LineConfig& config = plan.config.lines[i];
+        const Plan::Line& planned = plan.lines[i];
+        next.lines.push_back(planned.before ? lines_[*planned.before] : std::make_shared<DriveLine>(config));
+        next.backends.emplace_back();
+        if ((planned.before && !planned.is_changed) || has_port(config.port)) continue;
+        auto backend = LineBackend::open(config, next.lines[i]->link.port_open);
+        if (!backend) return not_opened(plan.config, config, backend.error());
+        next.backends[i] = std::move(*backend);
+    }
+    return std::nullopt;
+}
+
+void Plant::make_stations(const Plan& plan, Next& next)
+{
+    for (std::size_t i = 0; i < plan.stations.size(); ++i) {
+        const StationConfig& config = plan.config.stations[i];
+        if (const auto stays = plan.stations[i].stays)
+            next.stations.push_back(stations_[*stays]);
+        else
+            next.stations.push_back(new_station(config, next.lines[config.line]));
+    }
+}
+
+/// What is new for each line that goes on; lines that are new get their threads.
+void Plant::make_works(const Plan& plan, Next& next) const
+{
+    for (std::size_t i = 0; i < next.lines.size(); ++i) {
+        DriveLine& line = *next.lines[i];
+        auto units = units_on(line, next.stations);
+        if (!plan.lines[i].before) {
+            line.work =
+                std::make_unique<DriveThread>(line.config, std::move(next.backends[i]), units, line.link);
+        } else if (plan.lines[i].is_changed || !are_same(units, units_on(line, stations_))) {
+            auto work = std::make_unique<LineWork>();
+            work->units = std::move(units);
+            if (plan.lines[i].is_changed) work->line = plan.config.lines[i];
+            work->backend = std::move(next.backends[i]);
+            next.works.push_back({next.lines[i], std::move(work)});
+        }
+    }
+}
+
+std::optional<std::string> Plant::exchange(const Plan& plan)
+{
+    Next next;
+    if (auto trouble = make_lines(plan, next)) return trouble;
+    make_stations(plan, next);
+    make_works(plan, next);
+    for (std::size_t i = 0; i < next.lines.size(); ++i)
+        if (!plan.lines[i].before) start(*next.lines[i]);
+
+    // From here on nothing can fail.
+    for (const auto& line : lines_)
+        if (std::find(next.lines.begin(), next.lines.end(), line) == next.lines.end())
+            leaving_.push_back(line);
+    for (std::size_t i = 0; i < next.lines.size(); ++i) next.lines[i]->config = plan.config.lines[i];
+    lines_ = std::move(next.lines);
+    stations_ = std::move(next.stations);
+    works_ = std::move(next.works);
+    return std::nullopt;
+}
+
+void Plant::finish()
+{
+    for (Work& work : works_) {
+        ++work.line->works_offered;
+        work.line->link.work.offer(work.work);
+        work.line->wake.ring();
+    }
+    works_.clear();
+    for (const auto& line : leaving_) line->tell_to_end();
+}
+
+bool Plant::is_settled()
+{
+    std::erase_if(leaving_,
+                  [](const auto& line) { return line->link.ended.load(std::memory_order_acquire); });
+    const bool done = std::all_of(lines_.begin(), lines_.end(), [](const auto& line) {
+        return line->link.work_done.load(std::memory_order_acquire) == line->works_offered;
+    });
+    return done && leaving_.empty() && works_.empty();
+}
+
+} // namespace dpslave::app

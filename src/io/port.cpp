@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dpslave/io/port.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace dpslave::io {
+
+Result<Port, std::string> Port::open(std::string path, const TtySettings& settings,
+                                     std::chrono::nanoseconds first_wait)
+{
+    auto tty = Tty::open(path, settings);
+    if (!tty) return Failure{tty.error()};
+    Port port{std::move(path), settings, first_wait};
+    port.tty_.emplace(*std::move(tty));
+    port.next_try_ = kNever;
+    return port;
+}
+
+Port::Port(std::string path, const TtySettings& settings, std::chrono::nanoseconds first_wait)
+    : path_(std::move(path)), settings_(settings), first_wait_(first_wait)
+{}
+
+bool Port::ready(Instant now)
+{
+    if (tty_) return true;
+    if (now < next_try_) return false;
+    auto again = Tty::open(path_, settings_);
+    if (!again) {
+        wait(now);
+        return false;
+    }
+    tty_.emplace(*std::move(again));
+    failures_ = 0;
+    next_try_ = kNever;
+    return true;
+}
+
+void Port::lose(Instant now)
+{
+    if (!tty_) return;
+    tty_.reset();
+    wait(now);
+}
+
+void Port::wait(Instant now)
+{
+    constexpr unsigned kMostDoublings = 3;
+    next_try_ = now + first_wait_ * (1U << std::min(failures_, kMostDoublings));
+    ++failures_;
+}
+
+std::optional<std::string> Port::set_baud(std::uint32_t baud)
+{
+    settings_.baud = baud;
+    if (!tty_) return std::nullopt;
+    auto trouble = tty_->set_baud(baud);
+    if (trouble) *trouble = path_ + ": " + *trouble;
+    return trouble;
+}
+
+} // namespace dpslave::io

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What the kernel tells about the UART behind a tty, and what follows from it: the rate that is really on
+/// the wire, and how soon a received octet is handed on. Source: wire reference 11.2 and 11.5.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dpslave::io {
+
+struct Uart {
+    bool pty = false;             ///< the slave end of a pseudo terminal: it has no UART at all
+    int type = 0;                 ///< PORT_... of linux/serial_core.h; 0 = not known
+    std::uint32_t baud_base = 0;  ///< clock / 16, in bit/s; 0 = not told
+    std::string name;             ///< "ttyS1"; empty = sysfs does not know it
+    std::string driver;           ///< "serial8250", as sysfs calls it; empty = not known
+    std::filesystem::path folder; ///< of the tty in sysfs
+};
+
+/// `sysfs`: where it lies. What cannot be found out stays empty.
+Uart look_at(int fd, const std::filesystem::path& sysfs);
+/// Type and clock once more: some drivers set the clock by the rate.
+void refresh(Uart& uart, int fd);
+
+/// What an integer divisor makes of `asked` bit/s. The 8250 driver divides by the nearest one and reports the
+/// rate that was asked for (93750 from a base of 115200 is 115200 on the wire). Nothing: this UART does not
+/// divide like that, or does not tell its clock.
+std::optional<std::uint32_t> rate_on_the_wire(const Uart& uart, std::uint32_t asked);
+
+/// Drivers round or fall back without an error. The standard wants 0.3 %; that much and the rounding of the
+/// number itself are allowed for, beyond 1 % no telegram comes through. `took`: as the driver reads back.
+/// Empty = good enough, else a sentence without the path.
+std::string judge_rate(const Uart& uart, std::uint32_t asked, std::uint32_t took);
+
+/// A clause that says what to do about a rate that the UART cannot make.
+std::string rate_remedy(const Uart& uart);
+
+/// Has every received octet handed on at once, as far as the driver lets itself be told: receive trigger 1,
+/// latency timer 1 ms. Gives back what is left of delay, each a sentence without the path, with its cost in
+/// bit times.
+std::vector<std::string> hand_on_at_once(const Uart& uart);
+
+} // namespace dpslave::io

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What the bus thread costs, counts and survives.
+#include "bus_bench.hpp"
+
+#include <gmock/gmock.h>
+#include <sys/mman.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace dpslave::test {
+namespace {
+
+using app::PortNews;
+using testing::Ge;
+using testing::Le;
+
+constexpr std::uint8_t kStation = 5;
+constexpr std::size_t kTelegrams = 1500;
+
+class BusThread : public OnABus {
+protected:
+    /// Telegrams with a new value of the drive now and then; each value arrives.
+    void exchange_many(std::size_t count)
+    {
+        std::uint16_t value = 1;
+        for (std::size_t i = 0; i < count; ++i) {
+            if (i % 7 == 0) drive_reads(kStation, ++value);
+            const auto read = exchange(kStation);
+            ASSERT_TRUE(read) << "telegram " << i;
+            ASSERT_EQ(*read, value) << "telegram " << i;
+        }
+    }
+    /// Minor and major page faults of the bus thread, by the kernel's own book (proc(5)).
+    std::uint64_t page_faults() const
+    {
+        std::ifstream file{"/proc/self/task/" + std::to_string(tid) + "/stat"};
+        std::string line;
+        std::getline(file, line);
+        std::istringstream fields{line.substr(line.rfind(')') + 2)}; // the name may hold anything
+        std::string skipped;
+        for (int field = 3; field < 10; ++field) fields >> skipped;
+        std::uint64_t minor = 0, of_children = 0, major = 0;
+        fields >> minor >> of_children >> major;
+        EXPECT_TRUE(fields) << line;
+        return minor + major;
+    }
+};
+
+TEST_F(BusThread, AllocatesNothingWhileItServes)
+{
+    start({}, {station(kStation), station(6)});
+    start_up(kStation);
+    exchange_many(kTelegrams);
+    const std::uint64_t snapshots = links[kStation]->bus_snapshot.latest().counters.data_exchange;
+    stop(); // and nothing at its end
+
+    EXPECT_EQ(allocations(), 0u);
+    EXPECT_GT(snapshots, kTelegrams / 2);                  // it did hand on what it knows,
+    EXPECT_THAT(uart::edges().size(), Ge(2 * kTelegrams)); // and switch the driver
+}
+
+TEST_F(BusThread, MeetsNoPageFaultWhileItServesWithLockedMemory)
+{
+    if (const auto refused = io::lock_memory(); !refused.empty()) GTEST_SKIP() << refused.front();
+    start({}, {station(kStation)});
+    start_up(kStation);
+    exchange_many(50);
+    const std::uint64_t before = page_faults();
+    exchange_many(kTelegrams);
+    const std::uint64_t after = page_faults();
+    const std::uint64_t published = snapshot().page_faults;
+    stop();
+    ::munlockall();
+
+    EXPECT_EQ(after - before, 0u);
+    EXPECT_EQ(published, 0u);
+}
+
+TEST_F(BusThread, CountsTheTurnaroundOfEachReply)
+{
+    start({.baud = Baud::k19_2}, {station(kStation)});
+    for (int i = 0; i < 40; ++i) ASSERT_TRUE(master.ask(fdl_status(kStation)));
+    ASSERT_TRUE(eventually([this] { return snapshot().counters.replies >= 40; }));
+    const app::BusSnapshot seen = snapshot();
+
+    EXPECT_EQ(seen.turnaround_us.count(), seen.counters.replies);
+    EXPECT_EQ(seen.turnaround_tbit.count(), seen.counters.replies);
+    EXPECT_GE(seen.turnaround_tbit.quantile(0), 11u); // min T_SDR is waited for
+    EXPECT_GE(seen.turnaround_us.quantile(0), 573u);  // 11 bits at 19.2 kbit/s
+    EXPECT_LE(seen.turnaround_tbit.quantile(0.5), 1023u);
+    EXPECT_EQ(seen.write_errors + seen.driver_errors + seen.driver_guarded, 0u);
+}
+
+TEST_F(BusThread, SaysWhatItCountsOfItsPageFaults)
+{
+    start({}, {station(kStation)});
+    const std::uint64_t before = page_faults();
+    const std::uint64_t told = snapshot().page_faults;
+    ASSERT_TRUE(master.ask(fdl_status(kStation)));
+
+    EXPECT_LE(told, before); // since it serves, not since it began
+}
+
+class ReopenedPort : public BusThread {
+protected:
+    ReopenedPort() { plug(); }
+    std::string port_path() override { return link_.string(); }
+    void plug()
+    {
+        std::filesystem::remove(link_);
+        std::filesystem::create_symlink(pty.path(), link_);
+    }
+
+private:
+    const std::filesystem::path link_ = folder_.path() / "bus";
+};
+
+TEST_F(ReopenedPort, GoesOnWithItsStationsWhereItWas)
+{
+    start({}, {station(kStation)});
+    start_up(kStation);
+    drive_reads(kStation, 7);
+    ASSERT_EQ(exchange(kStation), 7);
+    pty.hang_up();
+    ASSERT_TRUE(hears_news(PortNews::gone));
+    ASSERT_TRUE(eventually([this] { return !snapshot().port_open; }));
+    EXPECT_FALSE(uart::is_active());
+
+    pty = io::Pty{};
+    plug();
+    ASSERT_TRUE(hears_news(PortNews::back));
+    EXPECT_EQ(exchange(kStation), 7); // still in Data_Exch
+    ASSERT_TRUE(eventually([this] { return snapshot().port_open; }));
+    EXPECT_EQ(links[kStation]->bus_snapshot.latest().counters.left_data_exchange, 0u);
+}
+
+TEST_F(ReopenedPort, LetsTheDriverGoWithThePort)
+{
+    start({.baud = Baud::k9_6}, {station(kStation)});
+    ASSERT_TRUE(master.ask(fdl_status(kStation))); // takes 6.9 ms on the line
+    pty.hang_up();
+    ASSERT_TRUE(hears_news(PortNews::gone));
+
+    EXPECT_FALSE(uart::is_active());
+}
+
+TEST_F(ReopenedPort, IsClosedAgainWhereItsDriverEnableDoesNotWork)
+{
+    start({}, {station(kStation)});
+    pty.hang_up();
+    ASSERT_TRUE(hears_news(PortNews::gone));
+    uart::refuse_edges(true);
+    pty = io::Pty{};
+    plug();
+    ASSERT_TRUE(hears_news(PortNews::driver_refused));
+    EXPECT_TRUE(eventually([this] { return !snapshot().port_open; }));
+
+    uart::refuse_edges(false);
+    ASSERT_TRUE(hears_news(PortNews::back));
+    EXPECT_TRUE(master.ask(fdl_status(kStation)));
+}
+
+TEST_F(BusThread, SearchesTheRateFromTheHighestDown)
+{
+    start({.baud = std::nullopt}, {station(kStation)});
+    ASSERT_TRUE(eventually([this] { return pty.rate() == 1'500'000; }));
+    EXPECT_EQ(snapshot().baud, Baud::k1500);
+    EXPECT_EQ(snapshot().baud_state, fdl::BaudState::baud_search);
+
+    ASSERT_TRUE(master.ask(fdl_status(kStation))); // the first one ends the search, the next is answered
+    ASSERT_TRUE(eventually([this] { return snapshot().baud_state == fdl::BaudState::baud_control; }));
+    EXPECT_EQ(snapshot().baud, Baud::k1500);
+}
+
+TEST_F(BusThread, SwitchesTheLineToTheNextRateAfterTheDwell)
+{
+    start({.baud = std::nullopt}, {station(kStation)});
+
+    ASSERT_TRUE(eventually([this] { return pty.rate() == 500'000; })); // two seconds
+    ASSERT_TRUE(eventually([this] { return snapshot().baud == Baud::k500; }));
+    EXPECT_EQ(snapshot().baud_state, fdl::BaudState::baud_search);
+}
+
+class EchoOnTheLine : public BusThread, public testing::WithParamInterface<fdl::EchoMode> {};
+
+TEST_P(EchoOnTheLine, IsTakenAwayBeforeLayerTwoSeesIt)
+{
+    start({.echo = GetParam()}, {station(kStation)});
+    master.echoes = true;
+    for (int i = 0; i < 20; ++i) ASSERT_TRUE(master.ask(fdl_status(kStation))) << i;
+    ASSERT_TRUE(eventually([this] { return snapshot().counters.replies >= 20; }));
+
+    EXPECT_TRUE(snapshot().echo_heard);
+    // Each of them but those that the master of this test, on a busy machine, sends back too late.
+    EXPECT_LE(snapshot().counters.own_address, 5u);
+    EXPECT_EQ(snapshot().echo_broken, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes, EchoOnTheLine, testing::Values(fdl::EchoMode::on, fdl::EchoMode::automatic),
+                         [](const auto& mode) { return mode.param == fdl::EchoMode::on ? "On" : "Auto"; });
+
+TEST_F(BusThread, TakesAnEchoThatNobodyRemovesForAnAddressConflict)
+{
+    start({.echo = fdl::EchoMode::off}, {station(kStation)});
+    master.echoes = true;
+    for (int i = 0; i < 5; ++i) ASSERT_TRUE(master.ask(fdl_status(kStation)));
+
+    EXPECT_TRUE(eventually([this] { return snapshot().counters.own_address >= 4; }));
+    EXPECT_FALSE(snapshot().echo_heard);
+}
+
+TEST_F(BusThread, LosesNothingWithAutomaticEchoWhereThereIsNone)
+{
+    start({.echo = fdl::EchoMode::automatic}, {station(kStation)});
+    start_up(kStation);
+    exchange_many(50);
+
+    EXPECT_FALSE(snapshot().echo_heard);
+    EXPECT_EQ(snapshot().echo_broken + snapshot().echo_missing, 0u);
+}
+
+} // namespace
+} // namespace dpslave::test

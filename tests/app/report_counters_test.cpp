@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What was counted, as the control interface tells it.
+#include "dpslave/app/report.hpp"
+#include "dpslave/control/interface.hpp"
+
+#include <gtest/gtest.h>
+
+namespace dpslave::app {
+namespace {
+
+using nlohmann::json;
+
+std::uint64_t counter(const json& reply, const std::string& name)
+{
+    for (const json& one : reply.at("groups").at(0).at("counters"))
+        if (one.at("name") == name) return one.at("value").get<std::uint64_t>();
+    ADD_FAILURE() << "no counter " << name;
+    return 0;
+}
+
+TEST(CountersReport, TellsNoFigureBeforeTheFirstReply)
+{
+    const json reply = counters_json(View{});
+
+    EXPECT_EQ(control::reply_mismatch("GetCounters", reply), std::nullopt);
+    ASSERT_EQ(reply.at("turnaround").size(), 2u);
+    for (const json& one : reply.at("turnaround")) {
+        EXPECT_EQ(one.at("count"), 0);
+        for (const char* figure : {"p50", "p99", "p999", "highest"})
+            EXPECT_TRUE(one.at(figure).is_null()) << figure;
+        EXPECT_TRUE(one.at("classes").empty());
+    }
+}
+
+TEST(CountersReport, TellsTheTurnaroundInMicrosecondsAndBitTimes)
+{
+    View view;
+    for (int i = 0; i < 999; ++i) view.bus.turnaround_us.add(66);
+    view.bus.turnaround_us.add(50'000);
+    view.bus.turnaround_tbit.add(12);
+    const json reply = counters_json(view);
+    EXPECT_EQ(control::reply_mismatch("GetCounters", reply), std::nullopt);
+
+    const json& us = reply.at("turnaround").at(0);
+    EXPECT_EQ(us.at("unit"), "us");
+    EXPECT_EQ(us.at("count"), 1000);
+    EXPECT_EQ(us.at("p50"), 79); // the upper end of 64 to 79
+    EXPECT_EQ(us.at("p999"), 79);
+    EXPECT_EQ(us.at("highest"), 50'000);
+    EXPECT_EQ(us.at("classes"), json::parse(R"([{"from":64,"to":79,"count":999},
+                                                {"from":14336,"to":null,"count":1}])"));
+    const json& bits = reply.at("turnaround").at(1);
+    EXPECT_EQ(bits.at("unit"), "T_bit");
+    EXPECT_EQ(bits.at("classes"), json::parse(R"([{"from":12,"to":12,"count":1}])"));
+}
+
+TEST(CountersReport, TellsWhatTheEdgeCounted)
+{
+    View view;
+    view.bus.counters.late = 1;
+    view.bus.too_late = 2;
+    view.bus.driver_errors = 3;
+    view.bus.driver_guarded = 4;
+    view.bus.echo_missing = 5;
+    view.bus.echo_broken = 6;
+    view.bus.page_faults = 7;
+    const json reply = counters_json(view);
+
+    EXPECT_EQ(counter(reply, "late"), 1u);
+    EXPECT_EQ(counter(reply, "too_late"), 2u);
+    EXPECT_EQ(counter(reply, "driver_errors"), 3u);
+    EXPECT_EQ(counter(reply, "driver_guarded"), 4u);
+    EXPECT_EQ(counter(reply, "echo_missing"), 5u);
+    EXPECT_EQ(counter(reply, "echo_broken"), 6u);
+    EXPECT_EQ(counter(reply, "page_faults"), 7u);
+}
+
+} // namespace
+} // namespace dpslave::app

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stand_in_uart.hpp"
+
+#include "dpslave/io/clock.hpp"
+
+#include <linux/serial.h>
+#include <sys/ioctl.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstdarg>
+
+namespace dpslave::test::uart {
+namespace {
+
+std::atomic<bool> active{false};
+std::atomic<bool> refusing{false};
+std::atomic<Shift> shift{Shift::untold};
+std::array<Edge, 16384> seen;
+std::atomic<std::size_t> count{0};
+
+int set_rts(bool to)
+{
+    if (refusing) {
+        errno = EIO;
+        return -1;
+    }
+    if (active.exchange(to) == to) return 0;
+    const std::size_t n = count.load();
+    if (n == seen.size()) std::abort(); // a test that needs more room says so
+    seen[n] = {.active = to, .at = io::monotonic_now()};
+    count.store(n + 1); // edges come from one thread
+    return 0;
+}
+
+int line_status(unsigned* into)
+{
+    if (shift == Shift::untold) {
+        errno = ENOTTY;
+        return -1;
+    }
+    *into = shift == Shift::empty ? unsigned{TIOCSER_TEMT} : 0U;
+    return 0;
+}
+
+} // namespace
+
+void reset()
+{
+    active = refusing = false;
+    shift = Shift::untold;
+    count = 0;
+}
+void refuse_edges(bool refuse)
+{
+    refusing = refuse;
+}
+void shift_register(Shift says)
+{
+    shift = says;
+}
+bool is_active()
+{
+    return active;
+}
+std::vector<Edge> edges()
+{
+    return {seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(count.load())};
+}
+
+} // namespace dpslave::test::uart
+
+// NOLINTNEXTLINE: this is the C library's name
+extern "C" int ioctl(int fd, unsigned long request, ...) noexcept
+{
+    using namespace dpslave::test;
+    va_list rest;
+    va_start(rest, request);
+    void* const argument = va_arg(rest, void*);
+    va_end(rest);
+    switch (request) {
+        case TIOCMGET: *static_cast<int*>(argument) = uart::is_active() ? TIOCM_RTS : 0; return 0;
+        case TIOCMBIS:
+        case TIOCMBIC:
+            if ((*static_cast<const int*>(argument) & TIOCM_RTS) == 0) return 0;
+            return uart::set_rts(request == TIOCMBIS);
+        case TIOCSERGETLSR: return uart::line_status(static_cast<unsigned*>(argument));
+        default: return static_cast<int>(::syscall(SYS_ioctl, fd, request, argument));
+    }
+}

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: Apache-2.0
+// A new configuration for a daemon that serves: by dpctl reload and by SIGHUP.
+#include "gateway.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <sstream>
+
+namespace dpslave::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// In `text` the first `from` behind `behind` becomes `to`.
+std::string changed(std::string text, const std::string& behind, const std::string& from,
+                    const std::string& to)
+{
+    const auto at = text.find(from, text.find(behind));
+    if (at == std::string::npos) throw std::runtime_error(from + " does not stand behind " + behind);
+    return text.replace(at, from.size(), to);
+}
+
+/// What dpctl printed, without the warnings: the bus of these tests has a max_tsdr that is one.
+std::string told(const Outcome& outcome)
+{
+    std::istringstream lines{outcome.out};
+    std::string all;
+    for (std::string line; std::getline(lines, line);)
+        if (line.rfind("warning: ", 0) != 0) all += line + '\n';
+    return all;
+}
+
+class Reload : public ::testing::Test {
+protected:
+    explicit Reload(Wiring wiring = {.units = {"00", "01"}}) : gateway{std::move(wiring)} {}
+
+    Outcome reload(const std::string& wanted)
+    {
+        write_file(gateway.config(), wanted);
+        return gateway.dpctl({"reload"});
+    }
+    /// The configuration without its last station.
+    std::string without_rewinder() const { return text.substr(0, text.rfind("[[station]]")); }
+
+    /// The rewinder's master goes on without a word, as one whose watchdog is off may.
+    void rewinder_exchanges()
+    {
+        Master master{gateway, {"--tags", "55,56w", "--no-watchdog"}, 6};
+        ASSERT_TRUE(master.does("start 30s"));
+        EXPECT_TRUE(master.does("out 1 = 500"));
+        EXPECT_TRUE(gateway.drive().says("unit 01: tag 56 written 5.00"));
+        EXPECT_TRUE(master.does("stop"));
+        EXPECT_TRUE(master.leaves());
+    }
+
+    Gateway gateway;
+    const std::string text = gateway.config_text();
+};
+
+/// The unwinder in data exchange, with a word in each direction that is not zero.
+class ReloadInService : public Reload {
+protected:
+    ReloadInService()
+    {
+        gateway.drive().tell("unit 00");
+        gateway.drive().tell("set 55 12.50");
+        EXPECT_TRUE(master.does("start 30s"));
+        EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
+        EXPECT_TRUE(master.does("out 1 = 700"));
+        EXPECT_TRUE(gateway.drive().says("unit 00: tag 56 written 7.00"));
+        gateway.drive().skip();
+    }
+    /// Nothing of all that was noticed at address 5. It began with "try wait TIME for in 1 = 0". What the
+    /// slave counts is judged and not what the master misses: that also depends on what else the machine has
+    /// to do.
+    void unwinder_noticed_nothing()
+    {
+        EXPECT_TRUE(master.says("not in time")) << "the input was never 0";
+        EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
+        EXPECT_TRUE(master.does("wait 30s for state data-exchange"));
+        EXPECT_EQ(gateway.station(0).at("name"), "unwinder");
+        EXPECT_EQ(gateway.station(0).at("left_count"), 0);
+        EXPECT_EQ(gateway.drive().how_often("unit 00: tag 56 written 0.00"), 0U);
+        gateway.drive().tell("unit 00");
+        gateway.drive().tell("set 55 13.00");
+        EXPECT_TRUE(master.does("wait 30s for in 1 = 1300")) << "and its drive is served";
+        EXPECT_TRUE(master.does("out 1 = 800"));
+        EXPECT_TRUE(gateway.drive().says("unit 00: tag 56 written 8.00"));
+    }
+
+    Master master{gateway, {"--tags", "55,56w"}, 5};
+};
+
+TEST_F(Reload, ZeroesTheOutputsOfAStationThatIsRemoved)
+{
+    rewinder_exchanges();
+    const Outcome outcome = reload(without_rewinder());
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(told(outcome), "station rewinder removed\n");
+    EXPECT_TRUE(gateway.drive().says("unit 01: tag 56 written 0.00"));
+    EXPECT_EQ(gateway.json({"stations"}).at("stations").size(), 1U);
+    Master master{gateway, {"--tags", "55"}, 6};
+    EXPECT_FALSE(master.does("start 500ms") && master.does("expect state data-exchange"));
+    EXPECT_TRUE(master.ever_said("station 6 does not answer"));
+}
+
+TEST_F(Reload, ZeroesTheOutputsOfAStationThatIsChangedAndStartsItAnew)
+{
+    rewinder_exchanges();
+    const Outcome outcome =
+        reload(changed(text, "rewinder", "output_refresh_s = 1.0", "output_refresh_s = 2.0"));
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(told(outcome), "station rewinder changed: it leaves the bus and starts anew at address 6\n");
+    EXPECT_TRUE(gateway.drive().says("unit 01: tag 56 written 0.00"));
+    Master master{gateway, {"--tags", "55,56w"}, 6};
+    EXPECT_TRUE(master.does("start 30s"));
+    EXPECT_TRUE(master.does("out 1 = 300"));
+    EXPECT_TRUE(gateway.drive().says("unit 01: tag 56 written 3.00"));
+    EXPECT_EQ(gateway.drive().how_often("unit 01: tag 56 written 0.00"), 0U)
+        << "no late zero comes behind it";
+}
+
+TEST_F(ReloadInService, OfOtherStationsOnTheSameLineIsNotNoticed)
+{
+    master.tell("try wait 5s for in 1 = 0");
+    const std::string other = changed(text, "rewinder", "output_refresh_s = 1.0", "output_refresh_s = 2.0");
+    EXPECT_THAT(reload(other).out, HasSubstr("rewinder changed"));
+    EXPECT_THAT(reload(without_rewinder()).out, HasSubstr("rewinder removed"));
+    EXPECT_THAT(reload(text).out, HasSubstr("station rewinder added at address 6"));
+    unwinder_noticed_nothing();
+}
+
+TEST_F(ReloadInService, ThatAddsAndRemovesALineIsNotNoticed)
+{
+    Process line{{DPSIM_PROGRAM, "line", "--baud", "38400", "--bits", "10", "--a",
+                  gateway.folder("other-drive"), "--b", gateway.folder("other-gateway")}};
+    ASSERT_TRUE(line.says("ready"));
+    Process drive{{DPSIM_PROGRAM, "drive", "--model", "590", "--port", gateway.folder("other-drive"),
+                   "--baud", "38400", "--log", "--tags",
+                   std::string{DPSLAVE_SOURCE_DIR} + "/config/tags/example.csv", "--unit", "00"}};
+    ASSERT_TRUE(drive.says("ready"));
+    master.tell("try wait 5s for in 1 = 0");
+
+    std::string more = text;
+    more += fmt::format(
+        "[[line]]\nname = \"p4\"\nport = \"{}\"\nprotocol = \"ei-ascii\"\nbaud = 38400\n"
+        "[[station]]\nname = \"dancer\"\naddress = 7\nprofile = \"590\"\nline = \"p4\"\nunit = \"00\"\n",
+        gateway.folder("other-gateway").string());
+    const Outcome added = reload(more);
+    EXPECT_EQ(added.status, 0) << added.err;
+    EXPECT_THAT(added.out, HasSubstr("line p4 added"));
+    EXPECT_TRUE(gateway.daemon().says("dancer: the drive answers"));
+    EXPECT_EQ(gateway.dpctl({"write", "56", "4.00", "--station", "dancer"}).status, 0);
+    EXPECT_TRUE(drive.says("tag 56 written 4.00"));
+
+    EXPECT_THAT(reload(text).out, HasSubstr("line p4 removed"));
+    EXPECT_EQ(gateway.json({"stations"}).at("stations").size(), 2U);
+    unwinder_noticed_nothing();
+    EXPECT_THAT(reload(more).out, HasSubstr("line p4 added")) << "its port was let go";
+    EXPECT_TRUE(gateway.daemon().says("dancer: the drive answers"));
+}
+
+TEST_F(ReloadInService, ThatSetsTheLineInAnotherWayKeepsItsStationsInDataExchange)
+{
+    master.tell("try wait 5s for in 1 = 0");
+    const Outcome outcome = reload(changed(text, "[[line]]", "protocol", "timeout_ms = 250\nprotocol"));
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("line p3 changed"));
+    unwinder_noticed_nothing();
+}
+
+TEST_F(ReloadInService, WithFaultsNamesThemAllAndTheOldConfigurationRunsOn)
+{
+    master.tell("try wait 2s for in 1 = 0");
+    std::string faulty = changed(without_rewinder(), "unwinder", "\"590\"", "\"591\"");
+    faulty += "adress = 7\n";
+    const Outcome outcome = reload(faulty);
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_THAT(outcome.err, HasSubstr("there is no profile \"591\""));
+    EXPECT_THAT(outcome.err, HasSubstr("adress"));
+    EXPECT_THAT(outcome.err, HasSubstr("the one until now runs on"));
+    EXPECT_TRUE(gateway.daemon().says("the new configuration is refused"));
+    EXPECT_EQ(gateway.json({"stations"}).at("stations").size(), 2U);
+    unwinder_noticed_nothing();
+}
+
+TEST_F(ReloadInService, WithALineThatCannotBeOpenedIsRefusedWhole)
+{
+    master.tell("try wait 2s for in 1 = 0");
+    const Outcome outcome = reload(
+        without_rewinder() + "[[line]]\nname = \"p4\"\nport = \"/dev/not-there\"\nprotocol = \"ei-ascii\"\n");
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_THAT(outcome.err, HasSubstr("/dev/not-there"));
+    EXPECT_EQ(gateway.json({"stations"}).at("stations").size(), 2U) << "and the rewinder is still there";
+    unwinder_noticed_nothing();
+}
+
+TEST_F(ReloadInService, OfTheBusIsRefusedByTheNameOfTheKeys)
+{
+    master.tell("try wait 2s for in 1 = 0");
+    const Outcome outcome = reload(changed(text, "[bus]", "baud = 187500", "baud = 93750"));
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_THAT(outcome.err, HasSubstr("[bus] baud cannot change while the bus is served"));
+    EXPECT_THAT(outcome.err, HasSubstr("systemctl restart dpslaved"));
+    unwinder_noticed_nothing();
+}
+
+TEST_F(ReloadInService, OfTheSameFileDoesNothingAlsoBySignal)
+{
+    master.tell("try wait 2s for in 1 = 0");
+    EXPECT_EQ(told(reload("# a comment\n" + text)), "Nothing has changed.\n");
+    gateway.daemon().skip();
+    gateway.daemon().send(SIGHUP);
+    EXPECT_TRUE(gateway.daemon().says("nothing has changed"));
+    unwinder_noticed_nothing();
+}
+
+TEST_F(ReloadInService, OfAnotherAddressOfAnOptionBoardIsPendingUntilTheNextStart)
+{
+    const Outcome outcome = reload(changed(text, "unwinder", "address = 5", "address = 7"));
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("pending: station unwinder: address 7 counts from the next start on"));
+    EXPECT_TRUE(gateway.daemon().says("address 7 counts from the next start on"));
+    const Json info = gateway.json({"info", "unwinder"}).at("stations").at(0);
+    EXPECT_EQ(info.at("address_active"), 5);
+    EXPECT_EQ(info.at("address_pending"), 7);
+    EXPECT_TRUE(master.does("wait 30s for state data-exchange"));
+    EXPECT_EQ(gateway.station(0).at("left_count"), 0);
+
+    EXPECT_EQ(told(reload(text)), "Nothing has changed.\n") << "taken back";
+    EXPECT_TRUE(gateway.json({"info", "unwinder"}).at("stations").at(0).at("address_pending").is_null());
+}
+
+TEST_F(Reload, BySignalAppliesWhatHasChanged)
+{
+    write_file(gateway.config(), without_rewinder());
+    gateway.daemon().send(SIGHUP);
+    EXPECT_TRUE(gateway.daemon().says("station rewinder removed"));
+    EXPECT_TRUE(eventually([&] { return gateway.json({"stations"}).at("stations").size() == 1; }));
+}
+
+TEST_F(Reload, BySeveralAtOnceIsAnsweredToEach)
+{
+    write_file(gateway.config(), without_rewinder());
+    Process first{gateway.dpctl_command({"reload"})}, second{gateway.dpctl_command({"reload"})};
+    EXPECT_EQ(first.wait(), 0);
+    EXPECT_EQ(second.wait(), 0);
+    EXPECT_EQ(gateway.json({"stations"}).at("stations").size(), 1U);
+}
+
+TEST_F(Reload, TellsAWatcherThatHisStationHasGone)
+{
+    Process watch{gateway.dpctl_command({"watch", "rewinder"})};
+    Process all{gateway.dpctl_command({"watch", "--json"})};
+    EXPECT_TRUE(watch.says("Wait_Prm"));
+    EXPECT_TRUE(all.says("rewinder"));
+    EXPECT_EQ(reload(without_rewinder()).status, 0);
+    EXPECT_EQ(watch.wait(), 1);
+    EXPECT_TRUE(watch.ever_said("rewinder"));
+    EXPECT_EQ(reload(text).status, 0);
+    EXPECT_TRUE(all.says("rewinder")) << "who watches all of them sees those who come";
+}
+
+TEST_F(Reload, TellsSomebodyWhoWaitsForADriveThatItsStationHasGone)
+{
+    gateway.drive().tell("unit 01");
+    gateway.drive().tell("slow 2000"); // beyond the time-out: repeated, and slow in being given up
+    Process read{gateway.dpctl_command({"read", "55", "--station", "rewinder"})};
+    EXPECT_EQ(reload(without_rewinder()).status, 0);
+    EXPECT_EQ(read.wait(), 1);
+}
+
+TEST_F(Reload, TakesOverOtherLamps)
+{
+    const std::string lamp = gateway.make_led("other");
+    const Outcome outcome = reload(text + "[station.leds]\nred = \"led:other\"\n");
+    EXPECT_EQ(told(outcome), "station rewinder: other lamps\n");
+    EXPECT_TRUE(eventually([&] { return content(lamp) == "1"; })) << "external fault: there is no master";
+    EXPECT_EQ(reload(text).status, 0);
+    EXPECT_TRUE(eventually([&] { return content(lamp) == "0"; }));
+}
+
+class ReloadOfBoxes : public Reload {
+protected:
+    ReloadOfBoxes() : Reload{{.profile = "605", .units = {"00", "01"}}} {}
+};
+
+TEST_F(ReloadOfBoxes, AppliesAnotherAddressAtOnceAndKeepsWhatWasSetByHandWhereNothingHasChanged)
+{
+    EXPECT_EQ(gateway.dpctl({"tec", "set", "EXT DIAGNOSTIC", "0x6AB5", "--station", "unwinder"}).status, 0);
+    EXPECT_EQ(gateway.dpctl({"tec", "set", "ADDRESS", "20", "--station", "unwinder"}).status, 0);
+    const Outcome outcome = reload(changed(text, "rewinder", "address = 6", "address = 8"));
+    EXPECT_EQ(told(outcome), "station rewinder changed: it leaves the bus and starts anew at address 8\n");
+    EXPECT_EQ(gateway.station(0).at("address"), 20);
+    EXPECT_EQ(gateway.station(1).at("address"), 8);
+    EXPECT_EQ(gateway.tec("EXT DIAGNOSTIC"), 0x6AB5);
+
+    const Outcome taken = reload(changed(text, "rewinder", "address = 6", "address = 20"));
+    EXPECT_EQ(taken.status, 1);
+    EXPECT_THAT(taken.err,
+                HasSubstr("address 20 is that of station unwinder now, to which it was set by hand"));
+    EXPECT_EQ(gateway.station(1).at("address"), 8);
+}
+
+} // namespace
+} // namespace dpslave::test
