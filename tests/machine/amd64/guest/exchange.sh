@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: Apache-2.0
+# Data exchange whatever comes: another rate, noise, a dead process, a port that goes. A master is exchanging throughout.
+# shellcheck shell=bash
+
+# The count of Data_Exchange telegrams grows by ten and more.
+goes_on() {
+    local from
+    from=$(counter data_exchange)
+    counts_ten() { [ "$(counter data_exchange)" -ge $((from + 10)) ]; }
+    eventually counts_ten
+}
+
+# From here the drive and the master of start.sh go on running.
+ask_monitor() { # COMMAND...: of qemu
+    exec 8<>"$monitor_port"
+    printf '{"execute":"qmp_capabilities"}\n' >&8
+    printf '%s\n' "$@" >&8
+    timeout 2 cat <&8 | tee "$bench/monitor.log" || true
+    exec 8>&-
+}
+
+breaks_are_survived() {
+    local before
+    before=$(counter "flaw: bad character")
+    ask_monitor '{"execute":"chardev-send-break","arguments":{"id":"bus"}}' '{"execute":"chardev-send-break","arguments":{"id":"bus"}}'
+    counts_a_break() { [ "$(counter "flaw: bad character")" -gt "$before" ]; }
+    eventually counts_a_break
+    goes_on
+    exchanging
+}
+
+noise_is_survived() {
+    local before=0 round
+    flaws() { dpctl counters | awk '/flaw:/ {sum += $1} END {print sum}'; }
+    before=$(flaws)
+    for round in 1 2 3 4 5 6 7 8; do
+        head -c 200 /dev/urandom >"$bus_far_port"
+        sleep "0.$round"
+    done
+    goes_on
+    [ "$(flaws)" -gt "$before" ] || fail "no flaw was counted"
+    eventually exchanging
+    dpctl counters
+}
+
+returns_after_kill() {
+    local pid
+    pid=$(main_pid)
+    mark_log
+    kill -9 "$pid"
+    other_process() { is_active && [ "$(main_pid)" != "$pid" ] && [ "$(main_pid)" != 0 ]; }
+    eventually other_process
+    eventually exchanging
+    goes_on
+}
+
+# A card that comes back has the usual clock again: 19200 bit/s it can do.
+vanished_port_returns() {
+    local restarts
+    configure "port = \"$card_port\"" 'baud = 19200' 'direction = "none"' </dev/null
+    restart_service
+    start_master "$card_far_port" 19200
+    restarts=$(systemctl show dpslaved -P NRestarts)
+    eventually exchanging
+    echo "$card_slot" >/sys/bus/pci/drivers/serial/unbind
+    eventually logged "$card_port has gone"
+    is_active
+    echo "$card_slot" >/sys/bus/pci/drivers/serial/bind
+    goes_on
+    eventually exchanging
+    expect_equal "restarts of the service" "$(systemctl show dpslaved -P NRestarts)" "$restarts"
+    leave_master
+}
+trigger_is_one_octet() { expect_equal "rx_trig_bytes" "$(cat "/sys/class/tty/${bus_port##*/}/rx_trig_bytes")" 1; }
+
+prove "given a UART with a FIFO, when the service has it, then it interrupts after one octet" trigger_is_one_octet
+prove "given data exchange, when the line breaks, then the break is counted and the exchange goes on" breaks_are_survived
+prove "given data exchange, when random octets come between the telegrams, then they are counted and the exchange goes on" \
+    noise_is_survived
+prove "given data exchange, when the process is killed, then systemd starts another and the master has it in Data_Exch again" \
+    returns_after_kill
+leave_master
+prove "given data exchange, when the UART's card goes and comes back, then the same process exchanges data again" vanished_port_returns

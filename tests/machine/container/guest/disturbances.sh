@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: Apache-2.0
+# What the service manager is for: a program that hangs, is killed, or is told to go.
+# shellcheck shell=bash disable=SC2034,SC2154 # what the files of the guest share
+
+# Stops one thread of a process and nothing else, as a debugger does, until it is gone or 60 s are over.
+stall_thread() {
+    perl -e '
+        my ($thread) = @ARGV;
+        my ($ptrace, $seize, $interrupt, $wait_all) =
+            ((`uname -m` =~ /^aarch64/ ? 117 : 101), 0x4206, 0x4207, 0x40000000);
+        syscall($ptrace, $seize, $thread + 0, 0, 0) == 0 or die "PTRACE_SEIZE: $!\n";
+        syscall($ptrace, $interrupt, $thread + 0, 0, 0) == 0 or die "PTRACE_INTERRUPT: $!\n";
+        alarm 60;
+        while (waitpid($thread, $wait_all) > 0) { print "stopped\n" if ($? & 0xff) == 0x7f; }' "$1"
+}
+is_stopped() { grep -q '^State:.*tracing stop' "/proc/$1/task/$2/status"; }
+
+is_woken_by_watchdog() {
+    local pid thread before
+    pid=$(main_pid)
+    thread=$(bus_thread "$pid")
+    before=$(restarts)
+    mark
+    stall_thread "$thread" &
+    eventually is_stopped "$pid" "$thread"
+    expect_no_text "$(grep '^State' "/proc/$pid/task/$pid/status")" "stop" # the main thread lives
+    eventually restarted_since "$before"
+    eventually has_said "Watchdog timeout"
+    eventually exchanging
+    expect_other "process" "$(main_pid)" "$pid"
+    wait
+}
+prove "given a bus thread that stands still alone, when the watchdog's time is over, then a new one exchanges data" \
+    is_woken_by_watchdog
+
+survives_kill() {
+    local pid before
+    pid=$(main_pid)
+    before=$(restarts)
+    kill -9 "$pid"
+    eventually restarted_since "$before"
+    eventually exchanging
+    expect_other "process" "$(main_pid)" "$pid"
+}
+prove "given Data_Exchange, when the daemon is killed with -9, then it is back in Data_Exchange" survives_kill
+
+stops() {
+    mark
+    expect_status 0 systemctl stop dpslaved
+    expect_equal "state" "$(property dpslaved ActiveState)" inactive
+    expect_equal "result" "$(property dpslaved Result)" success
+    expect_equal "exit status" "$(property dpslaved ExecMainStatus)" 0
+    eventually has_said "leaving the bus"
+    [ ! -e /run/dpslaved ] || fail "/run/dpslaved is still there"
+    eventually drive_has_said 1 "tag 56 written 0.00"
+    expect_status 3 dpctl status
+    systemctl start dpslaved
+    eventually exchanging
+}
+prove "given Data_Exchange, when the service is stopped, then it ends with 0 and the drive's outputs are zero" stops
