@@ -2,6 +2,7 @@
 // [[station]]: one PROFIBUS slave address, its device type and its drive.
 #include "config_parts.hpp"
 
+#include "dpslave/io/led_sink.hpp"
 #include "dpslave/profile/wording.hpp"
 
 #include <algorithm>
@@ -289,29 +290,20 @@ private:
         }
     }
 
-    static bool legal_sink(Table& leds, const std::string& lamp, std::string_view sink)
+    bool legal_sink(Table& leds, const std::string& lamp, const std::string& sink) const
     {
         const auto refuse = [&](const std::string& what) {
             leds.refuse(lamp, "sink " + in_quotes(sink) + ": " + what);
             return false;
         };
-        if (sink.starts_with("line:"))
-            return refuse(
-                "lines of a GPIO chip are not part of this release; write \"gpio:N\" or \"led:NAME\".");
-        if (sink.starts_with("gpio:")) {
-            std::uint16_t number = 0;
-            const char* const end = sink.data() + sink.size();
-            const auto [stop, error] = std::from_chars(sink.data() + 5, end, number);
-            return (error == std::errc{} && stop == end) ||
-                   refuse("behind gpio: stands the number of the GPIO, 0 to 65535.");
-        }
-        if (sink.starts_with("led:")) {
-            const std::string_view name = sink.substr(4);
-            const bool plain =
-                !name.empty() && name.find('/') == std::string_view::npos && name != "." && name != "..";
-            return plain || refuse("behind led: stands the name of a folder in <sysfs>/class/leds.");
-        }
-        return refuse("write \"gpio:N\" for a GPIO of sysfs or \"led:NAME\" for an LED of the LED class.");
+        if (const auto trouble = io::judge_led_sink(sink)) return refuse(*trouble + ".");
+        const auto line = io::line_of_led_sink(sink);
+        const io::DriverEnableSettings& driver = bus_.driver_enable;
+        const bool is_drivers = line && driver.direction == io::Direction::gpio &&
+                                line->line == driver.gpio_line &&
+                                canonical(line->chip) == canonical(driver.gpio_chip);
+        return !is_drivers || refuse("this line switches the transceiver (gpio_line in [bus]): a lamp needs "
+                                     "a line of its own.");
     }
 
     void warn(Place at, std::string what)

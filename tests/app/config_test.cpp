@@ -414,16 +414,30 @@ INSTANTIATE_TEST_SUITE_P(
         BadChange{"unit = \"00\"", "unit = \"00\"\n[station.leds]\nblue = \"gpio:1\"",
                   "21:1: ", "known here are red, green"},
         BadChange{"unit = \"00\"", "unit = \"00\"\n[station.leds]\nred = \"gpio:x\"",
-                  "21:7: ", "number of the GPIO"},
+                  "21:7: ", "gpio:LABEL:OFFSET"},
         BadChange{"unit = \"00\"", "unit = \"00\"\n[station.leds]\nred = \"gpio:\"",
-                  "21:7: ", "number of the GPIO"},
+                  "21:7: ", "gpio:LABEL:OFFSET"},
         BadChange{"unit = \"00\"", "unit = \"00\"\n[station.leds]\nred = \"led:a/b\"",
                   "21:7: ", "name of a folder"},
-        BadChange{"unit = \"00\"", "unit = \"00\"\n[station.leds]\nred = \"line:/dev/gpiochip0:24\"",
-                  "21:7: ", "not part of this release"},
+        BadChange{"unit = \"00\"", "unit = \"00\"\n[station.leds]\nred = \"line:/dev/gpiochip0\"",
+                  "21:7: ", "line:CHIP:LINE"},
         BadChange{"unit = \"00\"", "unit = \"00\"\n[station.leds]\nred = \"23\"", "21:7: ", "\"led:NAME\""},
         BadChange{"unit = \"00\"", "unit = \"00\"\n[station.leds]\nred = \"gpio:1\"\ngreen = \"gpio:1\"",
                   "22:9: ", "sink \"gpio:1\" stands on line 21 already"}));
+
+TEST_F(ConfigFile, a_lamp_may_be_a_line_of_a_GPIO_chip_but_not_that_of_the_driver_enable)
+{
+    const std::string lamp =
+        with(kGood, "unit = \"00\"", "unit = \"00\"\n[station.leds]\nred = \"line:/dev/gpiochip0:24\"");
+    const auto by_gpio = [&](const std::string& number) {
+        return with(lamp, "direction = \"none\"",
+                    "direction = \"gpio\"\ngpio_chip = \"/dev/gpiochip0\"\ngpio_line = " + number);
+    };
+
+    EXPECT_EQ(good(lamp).stations[0].leds[0].sink, "line:/dev/gpiochip0:24");
+    EXPECT_EQ(good(by_gpio("23")).stations[0].leds.size(), 1U);
+    EXPECT_THAT(short_forms(bad(by_gpio("24"))), ElementsAre(HasSubstr("switches the transceiver")));
+}
 
 TEST_F(ConfigFile, two_stations_with_one_address_are_a_fault_that_names_both_lines)
 {
