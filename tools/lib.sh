@@ -19,7 +19,7 @@ build_packages=(
     libgpiod-dev scdoc
 )
 # What the tests need beside that.
-test_packages=(libgtest-dev libgmock-dev binutils python3 python3-pymodbus python3-serial python3-serial-asyncio)
+test_packages=(libgtest-dev libgmock-dev systemd udev binutils python3 python3-pymodbus python3-serial python3-serial-asyncio)
 
 # Installs those of the named packages that are missing; asks nothing, and touches apt only when it must.
 install_missing() {

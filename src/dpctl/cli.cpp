@@ -120,13 +120,14 @@ constexpr const char* kFooter =
     "Their description is the Varlink interface org.dpslaved.Control: see\n" DPSLAVE_DATA_FOLDER
     "/org.dpslaved.Control.varlink, or ask the daemon:\n"
     "varlinkctl introspect /run/dpslaved/control.sock org.dpslaved.Control\n"
-    "What needs no daemon (tag, hex, decode) or judges its replies (doctor) says the form of its --json in "
+    "What needs no daemon (tag, hex, decode) or judges its replies (doctor, tune) says the form of its "
+    "--json in "
     "its\n"
     "own --help.\n"
     "Exit codes:\n"
     "  0  fine\n"
     "  1  refused by the daemon or the drive, a faulty answer or input, not found, or not so (is-exchanging, "
-    "doctor)\n"
+    "doctor, tune)\n"
     "  2  usage\n"
     "  3  no daemon";
 

@@ -28,11 +28,12 @@ int set_rts(bool to)
         errno = EIO;
         return -1;
     }
-    if (active.exchange(to) == to) return 0;
+    if (active == to) return 0; // edges come from one thread
     const std::size_t n = count.load();
     if (n == seen.size()) std::abort(); // a test that needs more room says so
     seen[n] = {.active = to, .at = io::monotonic_now()};
-    count.store(n + 1); // edges come from one thread
+    count.store(n + 1);
+    active = to; // last: who sees the line sees the edge too
     return 0;
 }
 
