@@ -46,7 +46,9 @@ fdl::StationSettings station_settings(const BusConfig& config, io::Port& port, c
     }
     settings.baud = Baud::k1500; // if it can be done, else the next lower one
     settings.search.emplace();
-    if (port.is_open()) settings.search->rates = port.tty().bauds().can;
+    if (!port.is_open()) return settings;
+    // A port that vanishes while it is asked can do nothing; all rates are tried when it is back.
+    if (const auto can = port.tty().bauds().can; can.any()) settings.search->rates = can;
     return settings;
 }
 
@@ -66,6 +68,8 @@ io::TtySettings bus_tty_settings(const Config& config)
     settings.baud = static_cast<std::uint32_t>(config.bus.baud.value_or(kEveryUart));
     settings.mark_errors = true;
     settings.prompt = true;
+    const io::DriverEnableSettings& driver = config.bus.driver_enable;
+    settings.drop_rts_at_close = driver.direction != io::Direction::rts || !driver.active_low;
     return settings;
 }
 
@@ -117,7 +121,7 @@ void BusThread::run(std::stop_token stop, io::EventFd& wake)
 void BusThread::leave_bus()
 {
     while (sender_.is_sending()) {
-        octets_before(next_wake());
+        octets_before(sender_.next_deadline() - 2 * kSpin);
         finish_sending();
     }
     for (const Place& place : places_) {

@@ -5,6 +5,7 @@
 #include "dpslave/app/main_thread.hpp"
 #include "dpslave/app/plant.hpp"
 #include "dpslave/app/version.hpp"
+#include "dpslave/io/clock.hpp"
 #include "dpslave/io/driver_enable.hpp"
 #include "dpslave/io/port.hpp"
 #include "dpslave/io/realtime.hpp"
@@ -106,6 +107,7 @@ ExitStatus run_daemon(const Config& config, const std::filesystem::path& profile
 
     // The bus first: its last word to the drive lines is what puts the outputs into their safe state.
     end(bus_thread, bus_wake);
+    static_cast<void>(driver->set(false, io::monotonic_now())); // also after a bus thread that had to give up
     plant.end();
     spdlog::info("ended");
     return by_signal ? ExitStatus::ended_by_signal : ExitStatus::device_not_opened;

@@ -74,10 +74,12 @@ void DriveThread::run(std::stop_token stop, io::EventFd& wake)
         const auto transaction = poller_.next(io::monotonic_now());
         if (transaction) carry_out(*transaction);
         publish(); // also what the poller has decided without the drive
-        if (next_ && leaving_is_over())
+        if (next_ && leaving_is_over()) {
             take_over();
-        else if (!transaction)
+        } else if (!transaction) {
             rest(wake.fd(), io::monotonic_now());
+            wake.clear(); // work and stop are looked at right after this
+        }
     }
     farewell();
     link_.ended.store(true, std::memory_order_release);

@@ -189,6 +189,15 @@ void plan_rest(const Config& present, Plan& plan)
             fmt::format("group {} may operate, for callers from now on", plan.config.control.operator_group));
 }
 
+/// The order alone makes no difference to anybody, but whoever counts lines and stations has to learn it.
+void plan_order(Plan& plan)
+{
+    bool moved = false;
+    for (std::size_t i = 0; i < plan.lines.size(); ++i) moved = moved || plan.lines[i].before != i;
+    for (std::size_t i = 0; i < plan.stations.size(); ++i) moved = moved || plan.stations[i].stays != i;
+    if (moved && plan.changes.empty()) plan.changes.emplace_back("lines or stations stand in another order");
+}
+
 } // namespace
 
 /// Their members are compared as they stand, so that none can be forgotten; only what they point to by
@@ -213,6 +222,7 @@ Plan plan_reload(const Config& present, const std::vector<std::uint8_t>& in_forc
     plan_stations(present, plan);
     refuse_addresses_in_use(present, in_force, plan);
     plan_rest(present, plan);
+    plan_order(plan);
     return plan;
 }
 

@@ -10,6 +10,7 @@
 
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -104,17 +105,16 @@ using Opened = Result<std::unique_ptr<LedSink>, std::string>;
 
 /// 0, or errno. The kernel makes the pin's folder in the course of the export; udev gives its files to the
 /// group a little later.
-int wait_until_writable(const fs::path& file)
+int wait_until_writable(const fs::path& file, std::chrono::milliseconds patience)
 {
-    constexpr int kTries = 50;
-    constexpr int kPauseMs = 10;
-    int error = 0;
-    for (int i = 0; i < kTries; ++i) {
+    constexpr std::chrono::milliseconds kPause{10};
+    for (;;) {
         if (::access(file.c_str(), W_OK) == 0) return 0;
-        error = errno;
-        ::poll(nullptr, 0, kPauseMs);
+        const int error = errno;
+        if (patience <= kPause) return error;
+        patience -= kPause;
+        ::poll(nullptr, 0, static_cast<int>(kPause.count()));
     }
-    return error;
 }
 
 /// "LABEL:OFFSET" as the number that this pin has in sysfs since the last boot; nothing: no such chip or pin.
@@ -146,13 +146,15 @@ Opened open_gpio(const std::string& sink, const std::string& name, const fs::pat
     const std::string number = std::to_string(*found);
     const fs::path pin = gpio / ("gpio" + number);
     std::error_code ignored;
+    std::chrono::milliseconds patience{0}; // a pin that was there before has the rights that it gets
     if (!fs::exists(pin, ignored)) {
+        patience = std::chrono::milliseconds{250};
         // EBUSY: somebody exported it between the look and the write; the pin is there then.
         if (const int error = write_attribute(gpio / "export", number); error != 0 && error != EBUSY)
             return Failure{sentence(sink, gpio / "export", error, kAdvice)};
     }
     for (const char* const attribute : {"direction", "value"})
-        if (const int error = wait_until_writable(pin / attribute); error != 0)
+        if (const int error = wait_until_writable(pin / attribute, patience); error != 0)
             return Failure{sentence(sink, pin / attribute, error, kAdvice)};
     // "low" makes an output of it that was never high, which "out" does not promise; it means the pin, and 0
     // the lamp, which differs where the pin is active low.

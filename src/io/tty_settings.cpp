@@ -104,6 +104,7 @@ std::string apply(int fd, const TtySettings& settings, const Uart& uart)
     if (settings.mark_errors)
         wanted.c_iflag |= INPCK | PARMRK; // breaks are marked too: neither IGNBRK nor BRKINT
     wanted.c_cflag = BOTHER | CREAD | CLOCAL | format_of(settings);
+    if (settings.drop_rts_at_close) wanted.c_cflag |= HUPCL;
     wanted.c_ispeed = wanted.c_ospeed = settings.baud;
     wanted.c_cc[VMIN] = 0; // with VTIME 0: read() returns at once, whatever the flags of the descriptor say
     wanted.c_cc[VTIME] = 0;

@@ -12,6 +12,7 @@
 #include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <termios.h>
 
 #include <array>
 #include <numeric>
@@ -51,6 +52,20 @@ TEST(TtyOpen, SetsEveryRateOfProfibus)
         ASSERT_TRUE(tty) << tty.error();
         EXPECT_EQ(cable.rate(), rate);
     }
+}
+
+TEST(TtyOpen, LetsTheKernelDropRtsAtTheCloseUnlessThatWouldMeanSending)
+{
+    const auto drops = [](bool wanted) {
+        Pty cable;
+        const Tty tty = opened(cable.path(), {.baud = 9'600, .drop_rts_at_close = wanted});
+        termios now{};
+        EXPECT_EQ(::tcgetattr(tty.fd(), &now), 0);
+        return (now.c_cflag & HUPCL) != 0;
+    };
+
+    EXPECT_TRUE(drops(true));
+    EXPECT_FALSE(drops(false));
 }
 
 TEST(TtyOpen, SetsARawLineThatTheOtherEndSeesUnchanged)

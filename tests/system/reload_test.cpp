@@ -106,6 +106,19 @@ TEST_F(Reload, ZeroesTheOutputsOfAStationThatIsRemoved)
     EXPECT_TRUE(master.ever_said("station 6 does not answer"));
 }
 
+TEST_F(Reload, RemovesTheRightStationAlsoAfterTheirOrderWasAnother)
+{
+    const auto first = text.find("[[station]]"), second = text.rfind("[[station]]");
+    const std::string turned =
+        text.substr(0, first) + text.substr(second) + "\n" + text.substr(first, second - first);
+    EXPECT_EQ(told(reload(turned)), "lines or stations stand in another order\n");
+
+    EXPECT_EQ(told(reload(without_rewinder())), "station rewinder removed\n");
+    EXPECT_EQ(gateway.station().at("name"), "unwinder");
+    Master master{gateway, {"--tags", "55"}};
+    EXPECT_TRUE(master.does("start 30s"));
+}
+
 TEST_F(Reload, ZeroesTheOutputsOfAStationThatIsChangedAndStartsItAnew)
 {
     rewinder_exchanges();

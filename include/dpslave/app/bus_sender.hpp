@@ -44,6 +44,7 @@ public:
 private:
     bool make_active(const io::Tty& tty);
     void make_inactive(Instant now);
+    std::optional<bool> shift_register(const io::Tty& tty) const;
 
     io::DriverEnable& driver_;
     fdl::Transmission transmission_;

@@ -26,8 +26,8 @@ public:
 /// "line:CHIP:LINE": a GPIO character device, chip as GpioRequest has it. "led:NAME":
 /// <sysfs>/class/leds/NAME, trigger none. "gpio:N": <sysfs>/class/gpio, exported if need be, an output;
 /// "gpio:LABEL:OFFSET" where N is another one after each boot. The lamp is dark at first. It may wait half a
-/// second for udev to give a pin of sysfs to the group. The error is a sentence with path, reason and what to
-/// do.
+/// second for udev to give a pin that it has exported to the group. The error is a sentence with path, reason
+/// and what to do.
 Result<std::unique_ptr<LedSink>, std::string> open_led_sink(const std::string& sink,
                                                             const std::filesystem::path& sysfs);
 

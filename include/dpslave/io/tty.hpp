@@ -23,13 +23,14 @@
 namespace dpslave::io {
 
 struct TtySettings {
-    std::uint32_t baud = 0;   ///< bit/s, any number: what the UART makes of it is read back and judged
-    int data_bits = 8;        ///< 7 or 8
-    char parity = 'E';        ///< 'N', 'E', 'O'
-    int stop_bits = 1;        ///< 1 or 2
-    bool mark_errors = false; ///< tell bad characters (parity, framing, break) by Chunk::bad_character;
-                              ///< without it one with wrong parity reads as 00
-    bool prompt = false;      ///< every octet is to be handed on as soon as it has come: receive trigger 1
+    std::uint32_t baud = 0;        ///< bit/s, any number: what the UART makes of it is read back and judged
+    int data_bits = 8;             ///< 7 or 8
+    char parity = 'E';             ///< 'N', 'E', 'O'
+    int stop_bits = 1;             ///< 1 or 2
+    bool mark_errors = false;      ///< tell bad characters (parity, framing, break) by Chunk::bad_character;
+                                   ///< without it one with wrong parity reads as 00
+    bool drop_rts_at_close = true; ///< open(2) raises RTS; the kernel drops it again, whoever closes the port
+    bool prompt = false; ///< every octet is to be handed on as soon as it has come: receive trigger 1
 };
 
 /// What one read gave.
