@@ -8,7 +8,8 @@ target_compile_options(dpslave_flags INTERFACE
   $<$<BOOL:${DPSLAVE_WARNINGS_AS_ERRORS}>:-Werror>)
 if(DPSLAVE_SANITIZE)
   target_compile_options(dpslave_flags INTERFACE
-    -fsanitize=${DPSLAVE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    -fsanitize=${DPSLAVE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>) # g++ guesses wrong in code that it has instrumented
   target_link_options(dpslave_flags INTERFACE -fsanitize=${DPSLAVE_SANITIZE})
 endif()
 
