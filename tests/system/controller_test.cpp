@@ -353,8 +353,8 @@ TEST(Controller, RefusesSyncAndFreeze)
     ASSERT_TRUE(master.does("start 30s"));
     EXPECT_TRUE(master.does("sync"));
     EXPECT_TRUE(master.does("freeze"));
-    EXPECT_TRUE(master.does("out 1 = 500"));
-    EXPECT_TRUE(gateway.drive().says("tag 24 written")) << "no Sync holds it back";
+    EXPECT_TRUE(master.does("out 1 = 505"));
+    EXPECT_TRUE(gateway.drive().says("tag 24 written 50.5")) << "no Sync holds it back";
     const Json station = gateway.station();
     EXPECT_EQ(station.at("sync"), false);
     EXPECT_EQ(station.at("freeze"), false);
