@@ -46,12 +46,24 @@ release_makes_low() {
     expect_level "$enable_line" 0
     wait || true
 }
+# The end of a service that is not started again: what is low then was made low by ExecStopPost, although somebody has
+# begun to edit the configuration.
 low_after_crash() {
     direct_by_gpio "$enable_line" false 9600
+    mkdir -p /run/systemd/system/dpslaved.service.d
+    printf '[Service]\nRestart=no\n' >/run/systemd/system/dpslaved.service.d/once.conf
+    systemctl daemon-reload
     restart_service
     start_master "$bus_far_port" 9600
+    cp "$conf" "$bench/good.toml"
+    echo "bus = [" >>"$conf"
     catch_level "$enable_line" 1 "$(main_pid)" KILL
-    eventually has_level "$enable_line" 0
+    eventually systemctl is-failed dpslaved
+    expect_level "$enable_line" 0
+    cp "$bench/good.toml" "$conf"
+    rm -r /run/systemd/system/dpslaved.service.d
+    systemctl daemon-reload
+    restart_service
     eventually exchanging
     leave_master
 }
@@ -59,4 +71,5 @@ low_after_crash() {
 prove "given direction kernel, when a master is served, then the PL011 switches RS-485 and data are exchanged" by_the_driver
 prove "given direction gpio, when a master is served, then the line is high around each reply and low else" high_around_each_reply
 prove "given a chip that keeps its levels, when dpslaved was killed while sending, then --release makes the line low" release_makes_low
-prove "given a chip that keeps its levels, when the service is killed while sending, then its end makes the line low" low_after_crash
+prove "given a chip that keeps its levels, when the service is killed while sending, then its ExecStopPost makes it low" \
+    low_after_crash

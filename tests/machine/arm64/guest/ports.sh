@@ -19,11 +19,14 @@ level_pattern() { # LINE LEVEL
     local levels=(lo hi)
     echo "gpio-$(sysfs_number "$1") .*out ${levels[$2]}"
 }
-# The level of a line: also of one that nobody has, whose level the chip keeps.
+# The level of a line. One that nobody has is taken for a moment: sysfs GPIO leaves direction and level as they are.
 level() { # LINE
-    local level
+    local level number
     for level in 0 1; do
         if grep -q -E -e "$(level_pattern "$1" "$level")" "$(level_file "$1")"; then echo "$level" && return; fi
     done
-    gpioget --dir-as-is "$(chip_device)" "$1"
+    number=$(sysfs_number "$1")
+    echo "$number" >/sys/class/gpio/export
+    cat "/sys/class/gpio/gpio$number/value"
+    echo "$number" >/sys/class/gpio/unexport
 }
