@@ -27,7 +27,8 @@ constexpr std::array kLateSteps = std::to_array<std::string_view>({
     "away.",
     "Where the machine cannot be faster, set max_tsdr under [bus] and give the master the GSD that `dpctl "
     "gsd make` then writes.",
-    "dpctl counters: do `late` and `overtaken` still grow?",
+    "dpctl tune: what holds this machine up, and which rates it can serve.",
+    "dpctl counters: do `late`, `too_late` and `overtaken` still grow?",
 });
 constexpr std::array kDoubleSteps = std::to_array<std::string_view>({
     "Check that no other PROFIBUS-DP slave or master has the same address.",
@@ -48,13 +49,22 @@ constexpr std::array kRetrySteps = std::to_array<std::string_view>({
 constexpr std::array kPortSteps = std::to_array<std::string_view>({
     "Look at the port ([bus] port): journalctl -u dpslaved says what the system answered.",
 });
+constexpr std::array kDriverSteps = std::to_array<std::string_view>({
+    "Look whether the GPIO chip is there and nobody else has the line (gpioinfo): gpio_chip and gpio_line "
+    "under "
+    "[bus].",
+    "journalctl -u dpslaved says which ways of [bus] direction this port can do.",
+    "dpctl counters: do `driver_errors` and `driver_guarded` still grow?",
+});
 
 std::string seen_late(const Facts& f)
 {
-    const std::int64_t late = counted(f, "late"), overtaken = counted(f, "overtaken");
-    if (late + overtaken == 0) return {};
-    return fmt::format("{} suppressed because MaxTsdr had passed, {} dropped because something followed them",
-                       late == 1 ? "1 reply was" : fmt::format("{} replies were", late),
+    const std::int64_t late = counted(f, "late"), written_late = counted(f, "too_late"),
+                       overtaken = counted(f, "overtaken");
+    if (late + written_late + overtaken == 0) return {};
+    return fmt::format("{} suppressed because MaxTsdr had passed, {} begun in time and written too late, {} "
+                       "dropped because something followed them",
+                       late == 1 ? "1 reply was" : fmt::format("{} replies were", late), written_late,
                        plural(overtaken, "request"));
 }
 std::string seen_double(const Facts& f)
@@ -84,6 +94,13 @@ std::string seen_port(const Facts& f)
                        : fmt::format("the port did not take {}",
                                      errors == 1 ? "1 reply" : fmt::format("{} replies", errors));
 }
+std::string seen_driver(const Facts& f)
+{
+    const std::int64_t failed = counted(f, "driver_errors"), guarded = counted(f, "driver_guarded");
+    if (failed + guarded == 0) return {};
+    return fmt::format("{} failed, and the guard let the driver go {}",
+                       failed == 1 ? "1 edge" : fmt::format("{} edges", failed), plural(guarded, "time"));
+}
 
 constexpr std::array kRules = std::to_array<Rule>({
     {"bus.late", Scope::bus, false, "replies came too late, or requests were overtaken",
@@ -96,6 +113,8 @@ constexpr std::array kRules = std::to_array<Rule>({
      "The master does not hear the replies", kRetrySteps, kGateway, seen_retries},
     {"bus.port", Scope::bus, false, "the port does not take replies", "The port of the bus fails", kPortSteps,
      kGateway, seen_port},
+    {"bus.driver", Scope::bus, false, "the driver enable cannot be switched, or is not let go in time",
+     "The transceiver is not switched as it should be", kDriverSteps, kGateway, seen_driver},
 });
 
 } // namespace

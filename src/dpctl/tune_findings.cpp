@@ -11,6 +11,9 @@
 #include <cstdlib>
 
 namespace dpslave::dpctl {
+
+using io::UartKind;
+
 namespace {
 
 using Findings = std::vector<TuneFinding>;
@@ -57,7 +60,7 @@ void configured_rate(const TuneFacts& facts, const std::vector<RateJudgment>& ra
                        facts.port.path + " cannot serve a bus: " + rates.front().reason,
                        "everything",
                        {}});
-        if (uart_of(facts.port) == Uart::mini)
+        if (uart_of(facts.port) == UartKind::mini)
             out.back().steps = {
                 "Raspberry Pi: write dtoverlay=disable-bt (or miniuart-bt) into config.txt, restart, "
                 "and use /dev/ttyAMA0"};
@@ -106,8 +109,8 @@ void configured_rate(const TuneFacts& facts, const std::vector<RateJudgment>& ra
 void uart(const TuneFacts& facts, Findings& out)
 {
     const io::PortFacts& port = facts.port;
-    const Uart kind = uart_of(port);
-    if (kind == Uart::i8250 && port.uart_clock && std::abs(divisor_error(*port.uart_clock, Baud::k187_5)) > 1)
+    const UartKind kind = uart_of(port);
+    if (is_16550(kind) && port.uart_clock && std::abs(divisor_error(*port.uart_clock, Baud::k187_5)) > 1)
         out.push_back(
             {Severity::know,
              "uart.clock",
@@ -117,7 +120,7 @@ void uart(const TuneFacts& facts, Findings& out)
              {"For more take a UART whose clock is a multiple of 24 MHz: its rates are exact from 93.75 "
               "kbit/s up"}});
     const std::string trigger = "/sys/class/tty/" + port.name + "/rx_trig_bytes";
-    if ((kind == Uart::i8250 || kind == Uart::omap) && port.trigger.value_or(1) > 1) {
+    if (io::is_8250(kind) && port.trigger.value_or(1) > 1) {
         TuneFinding finding{
             Severity::better,
             "uart.trigger",
@@ -134,7 +137,7 @@ void uart(const TuneFacts& facts, Findings& out)
             finding.steps = {"The driver does not let it be set: leave room for it in max_tsdr"};
         out.push_back(std::move(finding));
     }
-    if (kind == Uart::pl011 || kind == Uart::imx || kind == Uart::unknown) {
+    if (kind == UartKind::pl011 || kind == UartKind::imx || kind == UartKind::unknown) {
         const std::uint32_t timeout = idle_timeout(port);
         out.push_back(
             {Severity::know,
@@ -142,7 +145,7 @@ void uart(const TuneFacts& facts, Findings& out)
              fmt::format(
                  "The UART keeps fewer characters than its trigger until the line was idle for {} bit "
                  "times{}",
-                 timeout, kind == Uart::unknown ? " at most, as far as is known" : ""),
+                 timeout, kind == UartKind::unknown ? " at most, as far as is known" : ""),
              fmt::format("{} bit times at every rate", timeout - kCharacter.count),
              {"The driver has no setting for it: the figures above have room for it"}});
     }
@@ -157,9 +160,9 @@ void uart(const TuneFacts& facts, Findings& out)
 void usb(const TuneFacts& facts, Baud baud, Findings& out)
 {
     const io::PortFacts& port = facts.port;
-    const Uart kind = uart_of(port);
-    if (!is_usb(kind)) return;
-    if (kind == Uart::ftdi && port.latency_timer_ms.value_or(1) > 1)
+    const UartKind kind = uart_of(port);
+    if (!io::is_usb(kind)) return;
+    if (kind == UartKind::ftdi && port.latency_timer_ms.value_or(1) > 1)
         out.push_back({Severity::better,
                        "usb.latency_timer",
                        fmt::format("The adapter gathers characters for {} ms", *port.latency_timer_ms),
@@ -190,7 +193,7 @@ std::string rt_package(const std::string& release)
 void kernel(const TuneFacts& facts, Baud baud, Findings& out)
 {
     const io::MachineFacts& machine = facts.machine;
-    if (!machine.preempt_rt && !is_usb(uart_of(facts.port)) && !facts.port.pty)
+    if (!machine.preempt_rt && !io::is_usb(uart_of(facts.port)) && !facts.port.pty)
         out.push_back(
             {Severity::better,
              "kernel.stock",

@@ -10,6 +10,9 @@
 #include <tuple>
 
 namespace dpslave::dpctl {
+
+using io::UartKind;
+
 namespace {
 
 // Software parts to plan with, us (wire 11.6, [R]).
@@ -44,19 +47,19 @@ struct Weighed {
 std::optional<std::string> doubt(const TuneFacts& facts, Baud baud)
 {
     const io::PortFacts& port = facts.port;
-    const Uart uart = uart_of(port);
+    const UartKind uart = uart_of(port);
     const auto rate = static_cast<std::uint32_t>(baud);
-    if (uart == Uart::pty) return "a pty is no wire: for trying only";
-    if (is_usb(uart)) return "USB gives no bound: measure it";
+    if (uart == UartKind::pty) return "a pty is no wire: for trying only";
+    if (io::is_usb(uart)) return "USB gives no bound: measure it";
     if (facts.machine.virtual_machine) return "a virtual machine: measure it";
-    if (uart == Uart::unknown)
+    if (uart == UartKind::unknown)
         return fmt::format("unknown driver {}: measure it", port.driver.empty() ? "?" : port.driver);
-    if (uart == Uart::mediatek || port.dma) return "DMA holds characters back: measure it";
+    if (uart == UartKind::mediatek || port.dma) return "DMA holds characters back: measure it";
     // One interrupt for each character (wire 11.5).
-    if (uart == Uart::i8250 && port.trigger == 1 && baud == Baud::k1500)
+    if (is_16550(uart) && port.trigger == 1 && baud == Baud::k1500)
         return fmt::format("{} interrupts a second: too many for most boards", rate / kCharacter.count);
     // The 8250 driver refills the transmit FIFO only when it is empty (wire 11.5, "Transmit").
-    if (uart == Uart::i8250 && port.fifo.value_or(1) <= 16 && baud >= Baud::k500)
+    if (is_16550(uart) && port.fifo.value_or(1) <= 16 && baud >= Baud::k500)
         return fmt::format("gaps in replies of more than {} octets, unless the FIFO is refilled within {} us",
                            port.fifo.value_or(1), kCharacter.count * 1'000'000 / rate);
     return std::nullopt;
@@ -96,7 +99,7 @@ std::optional<Weighed> uart_refuses(const io::PortFacts& port, std::optional<dou
 {
     if (!port.pty && !port.serial)
         return Weighed{Verdict::cannot, port.there ? "no serial port" : "no such port"};
-    if (uart_of(port) == Uart::mini) return Weighed{Verdict::cannot, "no parity, and PROFIBUS is 8E1"};
+    if (uart_of(port) == UartKind::mini) return Weighed{Verdict::cannot, "no parity, and PROFIBUS is 8E1"};
     if (error && std::abs(*error) > kTolerance)
         return Weighed{Verdict::cannot, makes_other_rate(*error, baud)};
     return std::nullopt;
@@ -134,9 +137,9 @@ bool is_tuned(const TuneFacts& facts)
 SoftwarePart software_part(const TuneFacts& facts)
 {
     SoftwarePart part{kStockKernelLow, kStockKernelHigh};
-    const Uart uart = uart_of(facts.port);
-    if (is_usb(uart)) {
-        const int timer = facts.port.latency_timer_ms.value_or(uart == Uart::ftdi ? kFtdiTimerMs : 1);
+    const UartKind uart = uart_of(facts.port);
+    if (io::is_usb(uart)) {
+        const int timer = facts.port.latency_timer_ms.value_or(uart == UartKind::ftdi ? kFtdiTimerMs : 1);
         part.low_us = part.high_us = kUsb + static_cast<std::uint32_t>(std::max(timer - 1, 0)) * 1000;
     } else if (facts.machine.preempt_rt) {
         part = {kRealtimeKernel, is_tuned(facts) ? kRealtimeKernel : kStockKernelLow};

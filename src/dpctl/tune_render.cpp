@@ -9,6 +9,9 @@
 #include <algorithm>
 
 namespace dpslave::dpctl {
+
+using io::UartKind;
+
 namespace {
 
 constexpr std::size_t kColumns = 80;
@@ -59,19 +62,20 @@ std::string processor_words(const io::MachineFacts& machine)
     return out;
 }
 
-std::string_view uart_words(Uart uart)
+std::string_view uart_words(UartKind uart)
 {
     switch (uart) {
-        case Uart::pty: return "pty";
-        case Uart::i8250: return "8250 family";
-        case Uart::omap: return "8250_omap";
-        case Uart::pl011: return "PL011";
-        case Uart::imx: return "i.MX";
-        case Uart::mediatek: return "MediaTek";
-        case Uart::mini: return "mini-UART";
-        case Uart::ftdi: return "FTDI";
-        case Uart::usb_other: return "USB adapter";
-        case Uart::unknown: break;
+        case UartKind::pty: return "pty";
+        case UartKind::i8250:
+        case UartKind::i8250_kin: return "8250 family";
+        case UartKind::omap: return "8250_omap";
+        case UartKind::pl011: return "PL011";
+        case UartKind::imx: return "i.MX";
+        case UartKind::mediatek: return "MediaTek";
+        case UartKind::mini: return "mini-UART";
+        case UartKind::ftdi: return "FTDI";
+        case UartKind::usb_other: return "USB adapter";
+        case UartKind::unknown: break;
     }
     return "unknown UART";
 }

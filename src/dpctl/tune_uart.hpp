@@ -1,30 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 /// What is known of UARTs and their drivers: which rates they make, and how long they keep received
-/// characters to themselves. Pure. Source: wire reference 11.2 and 11.5.
+/// characters to themselves, as far as a look from outside shows it. Pure. Source: wire reference 11.2
+/// and 11.5.
 #pragma once
 
 #include "dpslave/base/units.hpp"
 #include "dpslave/io/machine.hpp"
+#include "dpslave/io/uart_kind.hpp"
 
 #include <cstdint>
 #include <optional>
 
 namespace dpslave::dpctl {
 
-enum class Uart : std::uint8_t {
-    pty,       ///< no UART at all
-    i8250,     ///< 16550 and its kin: integer divisor, receive trigger in sysfs
-    omap,      ///< 8250_omap (AM335x): FIFO of 64
-    pl011,     ///< fractional divisor, idle time-out of 32 T_bit that cannot be changed
-    imx,       ///< rational divisor, aging timer
-    mediatek,  ///< receives by DMA
-    mini,      ///< mini-UART of the Raspberry Pi: no parity
-    ftdi,      ///< USB, latency timer
-    usb_other, ///< USB: CP210x, CH34x, CDC-ACM ...
-    unknown,
-};
-Uart uart_of(const io::PortFacts& port);
-bool is_usb(Uart uart);
+/// By its driver, or by what else gives it away.
+io::UartKind uart_of(const io::PortFacts& port);
+/// The 8250 family but 8250_omap, which has its own ways.
+bool is_16550(io::UartKind kind);
 
 /// Idle time on the line after which fewer characters than the receive trigger are handed on, T_bit; 0 =
 /// every character is handed on at once, or the delay is not of this kind (USB, pty). Of a UART that is not

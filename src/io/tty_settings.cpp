@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tty_settings.hpp"
 
+#include "dpslave/io/uart_kind.hpp"
+
 #include <asm/termbits.h>
 #include <linux/serial.h>
 #include <sys/ioctl.h>
 
 #include <cerrno>
-#include <string_view>
 
 namespace dpslave::io {
 namespace {
-
-/// The mini UART of a Raspberry Pi: its driver takes PARENB, and the hardware sends without (wire
-/// reference 11.5).
-constexpr std::string_view kWithoutParity = "bcm2835-aux-uart";
 
 constexpr tcflag_t kFormat = CSIZE | PARENB | PARODD | CMSPAR | CSTOPB;
 
@@ -61,7 +58,7 @@ std::string cannot_tell()
 }
 
 /// What the driver made of a rate. c_ospeed counts: the CBAUD bits read back differ by driver.
-std::string read_back(int fd, std::uint32_t asked, Uart uart, termios2& got)
+std::string read_back(int fd, std::uint32_t asked, Uart& uart, termios2& got)
 {
     if (::ioctl(fd, TCGETS2, &got) < 0) return cannot_tell();
     refresh(uart, fd);
@@ -93,7 +90,7 @@ std::optional<bool> transmitter_empty(int fd)
     return (status & TIOCSER_TEMT) != 0;
 }
 
-std::string apply(int fd, const TtySettings& settings, const Uart& uart)
+std::string apply(int fd, const TtySettings& settings, Uart& uart)
 {
     // Old output first: setting would wait until the driver had sent it, for ever if the other end holds it
     // up.
@@ -117,7 +114,7 @@ std::string apply(int fd, const TtySettings& settings, const Uart& uart)
     if (!uart.pty && (got.c_cflag & kFormat) != (wanted.c_cflag & kFormat))
         return "this UART cannot do " + text(wanted.c_cflag) + " (it took " + text(got.c_cflag) +
                "): use another adapter";
-    if (settings.parity != 'N' && uart.driver == kWithoutParity)
+    if (settings.parity != 'N' && uart_kind(uart.driver) == UartKind::mini)
         return "this UART has no parity (the mini UART of a Raspberry Pi): use its other UART, as ttyAMA0";
 
     if (!uart.pty) ask_for_low_latency(fd);
@@ -125,7 +122,7 @@ std::string apply(int fd, const TtySettings& settings, const Uart& uart)
     return {};
 }
 
-std::string change_rate(int fd, std::uint32_t baud, const Uart& uart)
+std::string change_rate(int fd, std::uint32_t baud, Uart& uart)
 {
     flush_output(fd); // else the change waits until it has gone
     termios2 wanted{};

@@ -13,12 +13,12 @@ namespace dpslave::io {
 std::chrono::nanoseconds character_time(const TtySettings& settings);
 
 /// Raw, at the rate and format asked for, everything old thrown away; then reads back what the driver made of
-/// it. Empty = done, else a sentence without the path.
-std::string apply(int fd, const TtySettings& settings, const Uart& uart);
+/// it. `uart` is asked for its clock again. Empty = done, else a sentence without the path.
+std::string apply(int fd, const TtySettings& settings, Uart& uart);
 
-/// Another rate, all else as it is; what was not sent or read yet is thrown away. Empty = done, else a
-/// sentence without the path.
-std::string change_rate(int fd, std::uint32_t baud, const Uart& uart);
+/// Another rate, all else as it is; what was not sent or read yet is thrown away. `uart` is asked for its
+/// clock again. Empty = done, and nothing was allocated; else a sentence without the path.
+std::string change_rate(int fd, std::uint32_t baud, Uart& uart);
 
 /// Whether the last stop bit has gone. Nothing: the driver does not tell, and errno says why.
 std::optional<bool> transmitter_empty(int fd);

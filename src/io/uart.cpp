@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "uart.hpp"
 
+#include "dpslave/io/uart_kind.hpp"
+
 #include <linux/major.h>
 #include <linux/serial.h>
 #include <linux/serial_core.h>
@@ -83,29 +85,25 @@ std::string in_bit_times(long milliseconds)
            " bit times at 9.6 kbit/s, " + std::to_string(milliseconds * 1'500) + " at 1.5 Mbit/s)";
 }
 
-// Drivers whose receivers are known (wire reference 11.5).
-constexpr std::array<std::string_view, 3> kPlain8250{"serial8250", "serial", "of_serial"};
-constexpr std::array<std::string_view, 6> kLike16550{"serial8250",  "serial",   "of_serial",
-                                                     "dw-apb-uart", "omap8250", "bcm2835-aux-uart"};
-constexpr std::array<std::string_view, 2> kFtdi{"ftdi_sio", "ftdi"};
-constexpr std::array<std::string_view, 6> kUsb{"cp210x", "ch341", "ch341-uart", "pl2303", "cdc_acm", "ch343"};
+bool is_plain_8250(const Uart& uart)
+{
+    return uart_kind(uart.driver) == UartKind::i8250;
+}
 
 /// How long the receiver waits on an idle line before it hands on fewer octets than its trigger, in bit
 /// times; 0 = it has no such wait, or nothing is known about it.
-int idle_wait(const Uart& uart)
+std::uint32_t idle_wait(const Uart& uart)
 {
-    if (uart.driver == "uart-pl011") return 32;
-    if (uart.driver == "imx-uart") return 88; // aging timer of 8 characters
     constexpr std::array kWithoutFifo{PORT_8250, PORT_16450};
-    if (is_one_of(kPlain8250, uart.driver) && is_one_of(kWithoutFifo, uart.type)) return 0;
-    return is_one_of(kLike16550, uart.driver) ? 44 : 0;
+    if (is_plain_8250(uart) && is_one_of(kWithoutFifo, uart.type)) return 0;
+    return idle_timeout(uart_kind(uart.driver));
 }
 
 std::optional<std::string> trigger_warning(const Uart& uart)
 {
     const auto trigger = set_to_one(uart.folder / "rx_trig_bytes");
     if (trigger == 1) return std::nullopt;
-    const int wait = idle_wait(uart);
+    const std::uint32_t wait = idle_wait(uart);
     if (trigger)
         return "the UART hands on what it receives by " + std::to_string(*trigger) +
                " octets, and fewer only after the line was idle for a while" +
@@ -119,13 +117,13 @@ std::optional<std::string> trigger_warning(const Uart& uart)
 
 std::optional<std::string> usb_warning(const Uart& uart)
 {
-    if (is_one_of(kFtdi, uart.driver)) {
+    const UartKind kind = uart_kind(uart.driver);
+    if (!is_usb(kind)) return std::nullopt;
+    if (kind == UartKind::ftdi) {
         const long timer = set_to_one(uart.folder / "device/latency_timer").value_or(16);
         if (timer != 1)
             return "the USB adapter gathers what it receives" + costs("up to " + in_bit_times(timer)) +
                    ". Better: " + as_root(uart, "device/latency_timer");
-    } else if (!is_one_of(kUsb, uart.driver)) {
-        return std::nullopt;
     }
     return "the USB adapter hands on what it receives once in a USB frame" +
            costs("up to " + in_bit_times(1)) + ". A UART on the board does better";
@@ -165,7 +163,7 @@ std::optional<std::uint32_t> rate_on_the_wire(const Uart& uart, std::uint32_t as
     // ...) have fractions, other oversampling, or a clock that follows the rate.
     constexpr std::array kWhole{PORT_8250, PORT_16450, PORT_16550, PORT_16550A, PORT_16750, PORT_NS16550A};
     if (uart.baud_base == 0 || asked == 0 || !is_one_of(kWhole, uart.type)) return std::nullopt;
-    if (!uart.driver.empty() && !is_one_of(kPlain8250, uart.driver)) return std::nullopt;
+    if (!uart.driver.empty() && !is_plain_8250(uart)) return std::nullopt;
     const std::uint64_t base = uart.baud_base;
     const std::uint64_t divisor = std::max<std::uint64_t>((base + asked / 2) / asked, 1);
     return static_cast<std::uint32_t>((base + divisor / 2) / divisor);
@@ -174,7 +172,7 @@ std::optional<std::uint32_t> rate_on_the_wire(const Uart& uart, std::uint32_t as
 std::string rate_remedy(const Uart& uart)
 {
     const std::string choice = "choose a rate that it can do, or another adapter";
-    if (uart.baud_base == 0 || (!uart.driver.empty() && !is_one_of(kPlain8250, uart.driver))) return choice;
+    if (uart.baud_base == 0 || (!uart.driver.empty() && !is_plain_8250(uart))) return choice;
     return choice + "; the driver believes that the UART reaches " + std::to_string(uart.baud_base) +
            " bit/s: if its clock is another one, root tells it so with `setserial " +
            (uart.name.empty() ? "PORT" : "/dev/" + uart.name) + " baud_base N`";

@@ -67,7 +67,7 @@ public:
 
     /// Another rate from now on. What was not sent or read yet is thrown away, and so is what comes within
     /// two characters, which it waits for: the one under way is half of each rate. The error is a sentence
-    /// without the path; then the rate is whatever the driver took.
+    /// without the path; then the rate is whatever the driver took. Without an error nothing is allocated.
     std::optional<std::string> set_baud(std::uint32_t baud);
     /// Tries all of them and goes back to the present one. What comes meanwhile is lost.
     TtyBauds bauds();
