@@ -4,6 +4,7 @@
 #include "dpslave/app/bus_thread.hpp"
 #include "dpslave/app/main_thread.hpp"
 #include "dpslave/app/plant.hpp"
+#include "dpslave/app/service.hpp"
 #include "dpslave/app/version.hpp"
 #include "dpslave/io/clock.hpp"
 #include "dpslave/io/driver_enable.hpp"
@@ -76,6 +77,8 @@ ExitStatus run_daemon(const Config& config, const std::filesystem::path& profile
     }
     auto port = open_bus(config, *driver);
     if (!port) return ExitStatus::device_not_opened;
+    if (const auto trouble = keep({config.bus.driver_enable, config.bus.port}, runtime_folder()))
+        spdlog::warn("{}", *trouble);
     BusLink link;
     Plant plant{link.failed};
     if (const auto trouble = plant.open(config)) {

@@ -84,6 +84,22 @@ int say_whether_configured(const std::string& file)
     return 1;
 }
 
+/// What the daemon that has ended had in use, else what is configured. Whatever is wrong, the last step of a
+/// service is no failure: of a faulty configuration its start complains.
+int release_driver(const std::string& file, const std::string& profiles)
+{
+    namespace app = dpslave::app;
+    set_up_log();
+    auto driver = app::kept_driver(app::runtime_folder());
+    if (!driver) {
+        const auto config = app::load_config(file, profiles);
+        if (!config) return 0;
+        driver = app::DriverInUse{config->bus.driver_enable, config->bus.port};
+    }
+    if (const auto trouble = app::release(*driver)) spdlog::warn("not released: {}", *trouble);
+    return 0;
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -112,13 +128,8 @@ int main(int argc, char** argv)
     }
 
     if (is_configured) return say_whether_configured(file);
+    if (release) return release_driver(file, profiles);
     const auto config = dpslave::app::load_config(file, profiles);
-    if (release) {
-        set_up_log();
-        if (const auto trouble = config ? dpslave::app::release_driver(config->bus) : std::nullopt)
-            spdlog::warn("not released: {}", *trouble);
-        return 0;
-    }
     if (!config) {
         for (const dpslave::profile::Fault& fault : config.error())
             std::fprintf(stderr, "%s\n", to_string(fault).c_str());

@@ -22,7 +22,7 @@ constexpr unsigned kBaud = 9'600; // a reply takes long: much of the time the li
 class Switched {
 public:
     explicit Switched(bool active_low = false)
-        : gateway({.bus_baud = kBaud, .environment = environment(), .started = false})
+        : gateway({.bus_baud = kBaud, .environment = environment, .started = false})
     {
         use(chip.path(), kLine, active_low);
         chip.watch(kLine, gateway.folder("bus-gateway"), kBaud);
@@ -38,10 +38,9 @@ public:
                          "\ngpio_active_low = " + (active_low ? "true" : "false") + "\n");
         write_file(gateway.config(), text);
     }
-    static Environment environment() { return {{"LD_LIBRARY_PATH", GPIO_STAND_IN_FOLDER}}; }
     Outcome run_daemon(Arguments more = {}) const
     {
-        return run(gateway.daemon_command(std::move(more)), environment());
+        return run(gateway.daemon_command(std::move(more)), environment);
     }
     /// The driver has been on and off for so many more replies.
     ::testing::AssertionResult answers(unsigned replies)
@@ -51,6 +50,9 @@ public:
     }
 
     Folder folder;
+    /// As the service manager starts it.
+    const Environment environment{{"LD_LIBRARY_PATH", GPIO_STAND_IN_FOLDER},
+                                  {"RUNTIME_DIRECTORY", (folder / "").string()}};
     stand_in::ChipFile chip{folder / "gpiochip0", "pl061"};
     Gateway gateway;
 };
@@ -166,6 +168,29 @@ TEST(DriverEnable, WhoseChipIsPulledSilencesTheDaemonUntilItIsBack)
     EXPECT_EQ(at.chip.watched().writes_while_inactive, 0U);
     EXPECT_EQ(at.gateway.daemon().end(), 0);
     EXPECT_FALSE(at.chip.high(kLine));
+    at.gateway.start_daemon();
+}
+
+TEST(DriverEnable, OfAKilledDaemonIsReleasedWhateverHasBecomeOfTheConfiguration)
+{
+    Switched at;
+    const std::string good = content(at.gateway.config()) + "\n";
+    std::string other = good;
+    other.replace(other.find("gpio_line = 5"), 13, "gpio_line = 4");
+    for (const std::string& edited : {other, "bus = [\n" + good}) {
+        SCOPED_TRACE(edited);
+        at.gateway.start_daemon();
+        EXPECT_EQ(at.gateway.daemon().end(SIGKILL), 128 + SIGKILL);
+        at.chip.leave(kLine, true); // as if that had come in the middle of a reply
+        write_file(at.gateway.config(), edited);
+
+        const Outcome released = at.run_daemon({"--release"});
+
+        EXPECT_EQ(released.status, 0);
+        EXPECT_EQ(released.err, "");
+        EXPECT_FALSE(at.chip.high(kLine));
+        write_file(at.gateway.config(), good);
+    }
     at.gateway.start_daemon();
 }
 

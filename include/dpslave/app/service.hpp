@@ -14,9 +14,24 @@ namespace dpslave::app {
 /// shipped. A file that is missing or faulty is for load_config() to complain of: false.
 bool is_unconfigured(const std::filesystem::path& file);
 
+/// The folder that the service manager gives this service while it runs (systemd.exec(5),
+/// RUNTIME_DIRECTORY); empty = it was started by hand.
+std::filesystem::path runtime_folder();
+
+/// What enables the RS-485 driver, and where.
+struct DriverInUse {
+    io::DriverEnableSettings settings;
+    std::string port; ///< the PROFIBUS tty
+};
+/// Writes it down in `runtime` for the time after the daemon's end: the configuration may be another one
+/// then, or a faulty one. An empty `runtime`: nothing is done. The error is a sentence.
+std::optional<std::string> keep(const DriverInUse& driver, const std::filesystem::path& runtime);
+/// Nothing: nothing was kept there.
+std::optional<DriverInUse> kept_driver(const std::filesystem::path& runtime);
+
 /// For the time after the daemon's end, however it came: makes the line that enables the RS-485 driver
 /// inactive, where nobody else does that (dpslave/io/driver_enable.hpp says who). A line that another process
 /// holds stays as it is; this and any other failure is a sentence.
-std::optional<std::string> release_driver(const BusConfig& bus);
+std::optional<std::string> release(const DriverInUse& driver);
 
 } // namespace dpslave::app
