@@ -271,7 +271,7 @@ void BusThread::follow_rate()
 void BusThread::set_baud(Baud baud)
 {
     sender_.abort();
-    if (port_.set_baud(static_cast<std::uint32_t>(baud))) lose_port();
+    if (const auto trouble = port_.set_baud(static_cast<std::uint32_t>(baud))) refuse_port(*trouble);
 }
 
 /// Snapshots for the main thread, one station a round at most: what a telegram costs does not grow with their
@@ -321,29 +321,47 @@ void BusThread::watch_port()
 void BusThread::lose_port()
 {
     if (!port_.is_open()) return;
-    close_port();
+    let_go_of_port();
+    port_.lose(io::monotonic_now());
     tell(PortNews::gone);
 }
 
-void BusThread::close_port()
+/// It can be opened, and is of no use.
+void BusThread::refuse_port(const std::string& why)
+{
+    let_go_of_port();
+    port_.refuse(io::monotonic_now(), why);
+    tell_trouble();
+}
+
+void BusThread::let_go_of_port()
 {
     sender_.abort();
     epoll_.remove(port_.tty().fd());
     driver_.detach();
-    port_.lose(io::monotonic_now());
+}
+
+void BusThread::tell_trouble()
+{
+    auto why = port_.take_trouble();
+    if (!why) return;
+    auto told = std::make_unique<std::string>(*std::move(why));
+    static_cast<void>(link_.port_trouble.offer(told)); // not read yet: the older one is as true
 }
 
 /// Nothing is sent through a port whose driver enable does not work: then it is as good as not there.
 void BusThread::try_reopen(Instant now)
 {
-    if (!port_.ready(now)) return;
-    watch_port();
-    if (driver_.attach(port_.tty())) {
-        close_port();
-        if (!std::exchange(refusal_told_, true)) tell(PortNews::driver_refused);
+    if (!port_.ready(now)) {
+        tell_trouble();
         return;
     }
-    refusal_told_ = guard_told_ = false;
+    watch_port();
+    if (const auto trouble = driver_.attach(port_.tty())) {
+        refuse_port(port_.path() + ": " + *trouble);
+        return;
+    }
+    guard_told_ = false;
     tell(PortNews::back);
 }
 

@@ -54,6 +54,7 @@ DriveThread::DriveThread(LineConfig line, std::unique_ptr<LineBackend> backend,
       link_(link),
       words_(block_rule().max_tags)
 {
+    link_.port_open.store(backend_ != nullptr, std::memory_order_relaxed);
     if (backend_)
         backend_->set_units(units);
     else
@@ -352,6 +353,7 @@ bool DriveThread::is_open()
         return false;
     }
     backend_ = std::move(*opened);
+    link_.port_open.store(true, std::memory_order_relaxed);
     std::vector<DriveUnit> units;
     for (const Unit& unit : units_) units.push_back({unit.number, unit.config, unit.link});
     backend_->set_units(units);

@@ -249,12 +249,6 @@ void MainThread::log_port_news()
                 spdlog::error("{} has gone; it is opened again as soon as it returns", port);
                 break;
             case PortNews::back: spdlog::info("{} is back", port); break;
-            case PortNews::driver_refused:
-                spdlog::error(
-                    "{} is back, but the driver enable does not work with it: it was closed again, and is "
-                    "tried again; `dpctl tune` says which ways of [bus] direction it can do",
-                    port);
-                break;
             case PortNews::driver_gone:
                 spdlog::error(
                     "the driver enable of {} cannot be switched: nothing is sent until it works again; look "
@@ -270,6 +264,8 @@ void MainThread::log_port_news()
             case PortNews::driver_back: spdlog::info("the driver enable of {} works again", port); break;
         }
     }
+    if (std::unique_ptr<std::string> why; bus_.port_trouble.take(why))
+        spdlog::error("{}; it is tried again", *why);
 }
 
 /// Whatever has become of the bus thread, the bus is not held for long.

@@ -7,15 +7,14 @@
 
 namespace dpslave::app {
 
-TtyLine::TtyLine(io::Port port, std::atomic<bool>& is_open) : port_(std::move(port)), is_open_(is_open)
-{
-    is_open_.store(port_.is_open(), std::memory_order_relaxed);
-}
+TtyLine::TtyLine(io::Port port, std::atomic<bool>& is_open) : port_(std::move(port)), is_open_(is_open) {}
 
 bool TtyLine::ready()
 {
     if (port_.is_open()) return true;
-    if (!port_.ready(now())) return false;
+    const bool is_back = port_.ready(now());
+    if (const auto why = port_.take_trouble()) spdlog::error("{}; it is tried again", *why);
+    if (!is_back) return false;
     is_open_.store(true, std::memory_order_relaxed);
     spdlog::info("{} is back", port_.path());
     return true;

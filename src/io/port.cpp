@@ -27,11 +27,11 @@ bool Port::ready(Instant now)
     if (now < next_try_) return false;
     auto again = Tty::open(path_, settings_);
     if (!again) {
+        note(again.error());
         wait(now);
         return false;
     }
     tty_.emplace(*std::move(again));
-    failures_ = 0;
     next_try_ = kNever;
     return true;
 }
@@ -40,7 +40,30 @@ void Port::lose(Instant now)
 {
     if (!tty_) return;
     tty_.reset();
+    failures_ = 0;
+    trouble_.clear();
+    trouble_is_new_ = false;
     wait(now);
+}
+
+void Port::refuse(Instant now, std::string why)
+{
+    tty_.reset();
+    note(std::move(why));
+    wait(now);
+}
+
+std::optional<std::string> Port::take_trouble()
+{
+    if (!std::exchange(trouble_is_new_, false)) return std::nullopt;
+    return trouble_;
+}
+
+void Port::note(std::string why)
+{
+    if (why == trouble_) return;
+    trouble_ = std::move(why);
+    trouble_is_new_ = true;
 }
 
 void Port::wait(Instant now)

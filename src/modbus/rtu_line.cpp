@@ -60,14 +60,16 @@ void RtuLine::use_port()
     modbus_set_socket(context_.get(), port_.tty().fd());
     late_until_ = {};
     heard_at_ = io::monotonic_now();
-    is_open_.store(true, std::memory_order_relaxed);
 }
 
 bool RtuLine::ready()
 {
     if (port_.is_open()) return true;
-    if (!port_.ready(io::monotonic_now())) return false;
+    const bool is_back = port_.ready(io::monotonic_now());
+    if (const auto why = port_.take_trouble()) spdlog::error("{}; it is tried again", *why);
+    if (!is_back) return false;
     use_port();
+    is_open_.store(true, std::memory_order_relaxed);
     spdlog::info("{} is back", settings_.port);
     return true;
 }

@@ -195,6 +195,12 @@ protected:
             return news == wanted;
         });
     }
+    /// Why the port stays closed; empty = the bus thread did not say it.
+    std::string hears_trouble()
+    {
+        std::unique_ptr<std::string> why;
+        return eventually([&] { return link.port_trouble.take(why); }) ? *why : "";
+    }
     virtual std::string port_path() { return pty.path(); }
 
     io::Pty pty;

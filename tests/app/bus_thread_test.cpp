@@ -15,6 +15,7 @@ namespace {
 using app::PortNews;
 using testing::Ge;
 using testing::Le;
+using testing::StartsWith;
 
 constexpr std::uint8_t kStation = 5;
 constexpr std::size_t kTelegrams = 1500;
@@ -110,9 +111,10 @@ class ReopenedPort : public BusThread {
 protected:
     ReopenedPort() { plug(); }
     std::string port_path() override { return link_.string(); }
+    void unplug() { std::filesystem::remove(link_); }
     void plug()
     {
-        std::filesystem::remove(link_);
+        unplug();
         std::filesystem::create_symlink(pty.path(), link_);
     }
 
@@ -157,12 +159,22 @@ TEST_F(ReopenedPort, IsClosedAgainWhereItsDriverEnableDoesNotWork)
     uart::refuse_edges(true);
     pty = io::Pty{};
     plug();
-    ASSERT_TRUE(hears_news(PortNews::driver_refused));
+    EXPECT_THAT(hears_trouble(), StartsWith(port_path() + ": driver enable: "));
     EXPECT_TRUE(eventually([this] { return !snapshot().port_open; }));
 
     uart::refuse_edges(false);
     ASSERT_TRUE(hears_news(PortNews::back));
     EXPECT_TRUE(master.ask(fdl_status(kStation)));
+}
+
+TEST_F(ReopenedPort, SaysWhyItCannotBeOpened)
+{
+    start({}, {station(kStation)});
+    unplug();
+    pty.hang_up();
+    ASSERT_TRUE(hears_news(PortNews::gone));
+
+    EXPECT_THAT(hears_trouble(), StartsWith(port_path() + " is not there"));
 }
 
 TEST_F(BusThread, SearchesTheRateFromTheHighestDown)

@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Optional;
 using testing::StartsWith;
 
 constexpr TtySettings kBus{.baud = 187'500, .mark_errors = true};
@@ -116,6 +117,38 @@ TEST_F(LostPort, IsTriedAgainAfterHalfASecondThenOneTwoAndAlwaysFour)
         now = port->next_try();
         EXPECT_FALSE(port->ready(now));
     }
+}
+
+TEST_F(LostPort, SaysEachReasonOnceWhyItCannotBeOpenedAgain)
+{
+    EXPECT_EQ(port->take_trouble(), std::nullopt); // not tried yet
+    EXPECT_FALSE(port->ready(port->next_try()));
+    EXPECT_THAT(port->take_trouble(), Optional(StartsWith(socket.path() + " is not there")));
+    EXPECT_EQ(port->take_trouble(), std::nullopt);
+    EXPECT_FALSE(port->ready(port->next_try()));
+    EXPECT_EQ(port->take_trouble(), std::nullopt); // the same
+
+    fs::create_symlink("/dev/null", socket.path());
+    EXPECT_FALSE(port->ready(port->next_try()));
+    EXPECT_THAT(port->take_trouble(), Optional(HasSubstr("is no serial port")));
+}
+
+TEST_F(LostPort, ThatIsRefusedOnceItIsOpenIsTriedLessAndLessOften)
+{
+    socket.plug();
+    Instant now = kStart;
+    for (const auto wait : {500ms, 1000ms, 2000ms, 4000ms, 4000ms}) {
+        ASSERT_EQ(port->next_try(), now + wait);
+        now = port->next_try();
+        ASSERT_TRUE(port->ready(now));
+        port->refuse(now, "its driver enable does not work");
+        EXPECT_FALSE(port->is_open());
+        EXPECT_EQ(port->take_trouble().has_value(), wait == 500ms);
+    }
+    ASSERT_TRUE(port->ready(port->next_try()));
+    port->lose(kStart + 60s);
+
+    EXPECT_EQ(port->next_try(), kStart + 60s + 500ms);
 }
 
 TEST_F(LostPort, IsNotTouchedBeforeItsTime)

@@ -82,7 +82,9 @@ private:
     void tell(PortNews news) { link_.port_news.push(news); } // full: the log is not worth a lost telegram
     void watch_port();
     void lose_port();
-    void close_port();
+    void refuse_port(const std::string& why);
+    void let_go_of_port();
+    void tell_trouble();
     void try_reopen(Instant now);
     void mind_driver(Instant now);
 
@@ -115,7 +117,6 @@ private:
     std::uint64_t telegrams_seen_ = 0;
     std::uint64_t faults_at_start_ = 0;
     bool driver_worked_ = true;
-    bool refusal_told_ = false;
     bool guard_told_ = false;
     std::uint64_t guarded_ = 0; ///< as seen last
 };

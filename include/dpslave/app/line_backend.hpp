@@ -17,8 +17,8 @@ namespace dpslave::app {
 
 class LineBackend {
 public:
-    /// Opens the port. `is_open` tells whether it is there, also when it vanishes and returns in service; it
-    /// outlives the back-end. The error is a sentence.
+    /// Opens the port. `is_open` is told when it vanishes and returns in service, not that it was opened
+    /// now, which may be a trial; it outlives the back-end. The error is a sentence.
     static Result<std::unique_ptr<LineBackend>, std::string> open(const LineConfig& line,
                                                                   std::atomic<bool>& is_open);
 

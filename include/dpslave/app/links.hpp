@@ -19,6 +19,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace dpslave::app {
@@ -79,8 +80,7 @@ using Roster = std::vector<std::shared_ptr<BusStation>>;
 enum class PortNews : std::uint8_t {
     gone,
     back,
-    driver_refused, ///< the port is back, but its driver enable does not work: it was closed again
-    driver_gone,    ///< an edge of the driver enable failed: nothing is sent until it works again
+    driver_gone, ///< an edge of the driver enable failed: nothing is sent until it works again
     driver_back,
     driver_guarded, ///< only the guard made it inactive; told once until the port is opened again
 };
@@ -116,6 +116,8 @@ struct BusLink {
     /// The stations from now on, main -> bus, and back what is no longer on the bus.
     Handover<Roster> roster;
     Ring<PortNews, 8> port_news; ///< bus -> main
+    /// Why the port is closed and stays so, bus -> main: a sentence with its path, each reason once.
+    Handover<std::string> port_trouble;
 };
 
 /// What a drive said no to, in words; the newest few of a line.

@@ -13,7 +13,7 @@ namespace dpslave::app {
 
 class TtyLine final : public drive::SerialLine {
 public:
-    /// `is_open` tells the main thread whether the port is there; it outlives the line.
+    /// `port` is open. `is_open` tells the main thread when it goes and returns; it outlives the line.
     TtyLine(io::Port port, std::atomic<bool>& is_open);
 
     bool write(Bytes octets) override;

@@ -29,10 +29,16 @@ public:
 
     /// True: open. False: it is not, and either its time to be tried again has not come or it could not be
     /// opened. The waits are the first one, twice, four and then always eight times it: 0.5, 1, 2, 4, 4 ...
-    /// s; they begin anew after it was open. It may block as long as open(2) does, and allocates.
+    /// s. It may block as long as open(2) does, and allocates.
     bool ready(Instant now);
-    /// Closes it: its owner saw that it has gone.
+    /// Closes it: its owner saw that it has gone. The waits begin anew.
     void lose(Instant now);
+    /// Closes it: it can be opened, and is of no use for the reason `why`, a sentence with the path. The
+    /// waits go on to grow.
+    void refuse(Instant now, std::string why);
+    /// Why it could not be opened again, or was refused: a sentence with the path. Each reason once, until it
+    /// has changed or the port was lost anew; nothing: there is none, or it was told.
+    std::optional<std::string> take_trouble();
     /// When ready() will try again; kNever while it is open.
     Instant next_try() const { return next_try_; }
     /// The rate from now on, also after it was opened again; Tty::set_baud() where it is open. The error is a
@@ -42,6 +48,7 @@ public:
 
 private:
     void wait(Instant now);
+    void note(std::string why);
 
     std::string path_;
     TtySettings settings_;
@@ -49,6 +56,8 @@ private:
     std::optional<Tty> tty_;
     Instant next_try_{}; ///< at once
     unsigned failures_ = 0;
+    std::string trouble_; ///< the newest; empty = none since the port was lost
+    bool trouble_is_new_ = false;
 };
 
 } // namespace dpslave::io

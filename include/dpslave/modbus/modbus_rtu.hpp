@@ -37,8 +37,8 @@ class RtuLine;
 /// further time-out at most: Modbus has nothing in an answer that tells which request it belongs to.
 class ModbusRtu final : public drive::Backend {
 public:
-    /// Opens the port. The error is a sentence for the log with path, reason and what to do. `is_open` tells
-    /// whether the port is there, also when it vanishes and returns in service; it outlives the back-end.
+    /// Opens the port. The error is a sentence for the log with path, reason and what to do. `is_open`
+    /// is told when the port vanishes and returns in service; it outlives the back-end.
     static Result<std::unique_ptr<ModbusRtu>, std::string> open(const RtuSettings& settings,
                                                                 std::atomic<bool>& is_open);
     ~ModbusRtu() override;
