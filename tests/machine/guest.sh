@@ -4,6 +4,7 @@
 #   source /host/guest.sh
 #   prove "given …, when …, then …" a_function      one test; goes on after a failure
 #   require "given …, when …, then …" a_function    one test; without it nothing further makes sense
+#   subject FILE                                    the tests in it
 #   finish                                          exit status 0 if all have passed
 #
 # Results go to standard output; what each test did (set -x) goes to the file $trace, and its end to the results when
@@ -49,6 +50,17 @@ require() {
     prove "$@" # not in front of ||: there bash ignores set -e, in the test as well
     # shellcheck disable=SC2181
     [ $? -eq 0 ] || { echo "# nothing further can be shown without this" && finish; }
+}
+
+# A file that is not there or cannot be parsed has no tests: that is a failure, not silence.
+subject() {
+    if bash -n "$1"; then
+        # shellcheck source=/dev/null
+        source "$1"
+    else
+        tests_failed=$((tests_failed + 1))
+        printf 'not ok - %s cannot be read\n' "$1"
+    fi
 }
 
 finish() {

@@ -73,8 +73,8 @@ cached() {
             step "making $path (once)" >&2
             rm -rf "$path.part"
             mkdir -p "$path.part"
-            "$maker" "$path.part" "$@" >&2
-            mv "$path.part" "$path"
+            "$maker" "$path.part" "$@" >&2 || exit 1 # bash ignores set -e here: a maker looks at each of its commands
+            mv "$path.part" "$path" || exit 1
         fi
         touch "$path"
         find "$machine_cache" -mindepth 1 -maxdepth 1 -type d -name "${name%%.*}.*" -mtime +14 -exec rm -rf {} +

@@ -48,18 +48,19 @@ module_files() { # FOLDER NAME...
     local folder=$1 name
     shift
     for name in "$@"; do
-        modprobe -d "$folder" -S "$kernel" --show-depends "$name" | awk '/^insmod/ {print $2}'
-    done | awk '!seen[$0]++'
+        modprobe -d "$folder" -S "$kernel" --show-depends "$name" || return
+    done | awk '/^insmod/ && !seen[$2]++ {print $2}'
 }
 
 # initrd: loads the drivers of the disk and of the shared folder, then hands over to systemd.
 make_initrd() { # FOLDER
-    local work=$1/initrd.work file number=100
+    local work=$1/initrd.work file files number=100
+    files=$(module_files "$1" virtio_pci virtio_blk ext4 9pnet_virtio 9p) || return
     mkdir -p "$work"/{bin,proc,sys,dev,newroot,mod} && cp "$1/bin/busybox" "$work/bin/" && cp "$machine/vm/init" "$work/init" || return
     while read -r file; do
         number=$((number + 1))
         cp "$file" "$work/mod/$number-$(basename "$file")" || return
-    done < <(module_files "$1" virtio_pci virtio_blk ext4 9pnet_virtio 9p)
+    done <<<"$files"
     (cd "$work" && find . | cpio -o -H newc --quiet | zstd -q -3 -f -o "$1/initrd") && rm -rf "$work"
 }
 
@@ -74,9 +75,9 @@ make_modules() { # FOLDER
             "$source/kernel/irq/irq_sim.c" "$source/drivers/leds/uleds.c" || die "$source cannot be unpacked"
     rm -f "$1"/*.deb
     # irq_to_desc() is not there for modules; the other function is, and does the same.
-    sed -i 's/handle_simple_irq(irq_to_desc(irqnum))/generic_handle_irq_safe(irqnum)/' "$1/irq_sim.c"
-    printf '#include <linux/module.h>\nMODULE_LICENSE("GPL");\n' >>"$1/irq_sim.c"
-    echo 'obj-m := irq_sim.o gpio-sim.o uleds.o' >"$1/Makefile"
+    sed -i 's/handle_simple_irq(irq_to_desc(irqnum))/generic_handle_irq_safe(irqnum)/' "$1/irq_sim.c" &&
+        printf '#include <linux/module.h>\nMODULE_LICENSE("GPL");\n' >>"$1/irq_sim.c" &&
+        echo 'obj-m := irq_sim.o gpio-sim.o uleds.o' >"$1/Makefile" || die "the sources of the modules cannot be edited"
     make -s -C "/lib/modules/$kernel/build" M="$1" modules >"$1/make.log" 2>&1 ||
         die "gpio-sim cannot be built: $(tail -n 3 "$1/make.log")"
 }

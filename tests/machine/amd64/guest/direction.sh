@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Who switches the RS-485 transceiver to sending: a GPIO line here, which is judged by the kernel's trace and by its pin.
 # shellcheck shell=bash
-source ./edges.sh
+source ./edges.sh || exit 1
 
 high_around_each_reply() {
     direct_by_gpio "$enable_line" false
@@ -72,7 +72,7 @@ start_endless_master() { # PORT BAUD
 }
 end_endless_master() {
     rm "$bench/endless"
-    pkill -x dpsim -f -- "--port $bus_far_port" || true
+    pkill -f -- "^dpsim master --port $bus_far_port " || true # it may be just between two masters
     wait "$endless" || true
 }
 

@@ -82,8 +82,18 @@ vanished_port_returns() {
     leave_master
 }
 trigger_is_one_octet() { expect_equal "rx_trig_bytes" "$(cat "/sys/class/tty/${bus_port##*/}/rx_trig_bytes")" 1; }
+# The flag of the port (TIOCGSERIAL, ASYNC_LOW_LATENCY), asked by another program than the service.
+low_latency_is_set() {
+    expect_equal "low latency" "$(perl -e '
+        use Fcntl;
+        sysopen(my $port, $ARGV[0], O_RDONLY | O_NOCTTY | O_NONBLOCK) or die "$ARGV[0]: $!\n";
+        my $serial = "\0" x 128;
+        ioctl($port, 0x541E, $serial) or die "TIOCGSERIAL: $!\n";
+        print unpack("x16 L", $serial) >> 13 & 1, "\n"' "$bus_port")" 1
+}
 
 prove "given a UART with a FIFO, when the service has it, then it interrupts after one octet" trigger_is_one_octet
+prove "given a UART, when the service has it, then it is asked for low latency" low_latency_is_set
 prove "given data exchange, when the line breaks, then the break is counted and the exchange goes on" breaks_are_survived
 prove "given data exchange, when random octets come between the telegrams, then they are counted and the exchange goes on" \
     noise_is_survived

@@ -2,7 +2,7 @@
 # Who switches the RS-485 transceiver to sending: the driver of the PL011, or a line of the PL061. That chip's driver
 # keeps the level of a line whose user died, as those of most boards do.
 # shellcheck shell=bash
-source ./edges.sh
+source ./edges.sh || exit 1
 
 # Flags and delays that the driver of the port holds (TIOCGRS485), asked by another program than the service.
 rs485_of() { # PORT

@@ -4,7 +4,7 @@
 
 upgrades() {
     local invocation second before
-    systemctl start dpslaved@second
+    systemctl enable --now dpslaved@second
     eventually second is-exchanging
     before=$(sha256sum "$config")
     invocation=$(property dpslaved InvocationID)
@@ -45,6 +45,7 @@ installs_again() {
 }
 prove "given the removed package, when it is installed again, then it finds its configuration and exchanges data" installs_again
 
+# What the administrator has put there is his to take away; his "enable" of a further bus goes with the package.
 purges() {
     rm -rf /etc/dpslaved/second.toml /etc/systemd/system/dpslaved.service.d /etc/systemd/system/dpslaved@.service.d
     dpkg -P dpslaved-sim dpslaved

@@ -2,9 +2,9 @@
 # What the tests in the container have around them: the configuration, the masters and drives on the host, the service.
 # shellcheck shell=bash disable=SC2034,SC2154 # what the files of the guest share
 # shellcheck source=../../guest.sh
-source /host/guest.sh
+source /host/guest.sh || exit 1
 # shellcheck source=/dev/null
-source /host/world.env # bus_baud, drive_baud
+source /host/world.env || exit 1 # bus_baud, drive_baud
 # shellcheck disable=SC2154 # what world.env sets
 : "$bus_baud" "$drive_baud"
 export SYSTEMD_PAGER=cat LC_ALL=C DEBIAN_FRONTEND=noninteractive
