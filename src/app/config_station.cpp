@@ -232,10 +232,26 @@ private:
                                         " does not support the rate of the bus, " +
                                         std::to_string(static_cast<std::uint32_t>(*bus_.baud)) +
                                         " bit/s: its [max_tsdr] does not list it.");
-        if (bus_.max_tsdr > 0)
-            for (Tbit& each : personality.max_tsdr)
-                if (each.count > 0) each = Tbit{bus_.max_tsdr};
+        if (bus_.max_tsdr > 0) set_max_tsdr(personality, table);
         station.personality = std::make_shared<const dp::Personality>(std::move(personality));
+    }
+
+    /// One for all rates; less than the GSD promises is legal, and seldom meant.
+    void set_max_tsdr(dp::Personality& personality, const Table& table)
+    {
+        bool warned = false;
+        for (const Baud baud : kBauds) {
+            Tbit& each = personality.max_tsdr[index_of(baud)];
+            if (each.count == 0) continue;
+            const bool is_used = !bus_.baud || *bus_.baud == baud;
+            if (is_used && bus_.max_tsdr < each.count && !std::exchange(warned, true))
+                warn(table.place(), "'max_tsdr' in [bus] is below the " + std::to_string(each.count) +
+                                        " bit times of this station's profile at " +
+                                        std::to_string(static_cast<std::uint32_t>(baud)) +
+                                        " bit/s: answers that the master would still take are not given. "
+                                        "Name the rate of the bus, or a max_tsdr that suits all of them.");
+            each = Tbit{bus_.max_tsdr};
+        }
     }
 
     void read_tags(Table& table, StationConfig& station)

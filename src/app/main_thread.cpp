@@ -96,8 +96,10 @@ void MainThread::show_posts()
 std::optional<std::string> MainThread::open_socket()
 {
     // systemd makes this folder for the service; whoever starts the program by hand need not.
-    std::error_code refused; // the socket itself tells why it cannot be made
-    std::filesystem::create_directories(config_.control.socket.parent_path(), refused);
+    std::error_code refused;
+    const std::filesystem::path folder = config_.control.socket.parent_path();
+    std::filesystem::create_directories(folder, refused);
+    if (refused) return fmt::format("{}: the folder cannot be made: {}", folder.string(), refused.message());
     control::ServerSettings settings;
     settings.socket = config_.control.socket;
     settings.operator_group = operator_group_of(config_.control);

@@ -61,7 +61,8 @@ std::string seen_late(const Facts& f)
 {
     const std::int64_t late = counted(f, "late"), written_late = counted(f, "too_late"),
                        overtaken = counted(f, "overtaken");
-    if (late + written_late + overtaken == 0) return {};
+    const std::int64_t all = late + written_late + overtaken;
+    if (all < 10 || all * kOften < counted(f, "requests")) return {};
     return fmt::format("{} suppressed because MaxTsdr had passed, {} begun in time and written too late, {} "
                        "dropped because something followed them",
                        late == 1 ? "1 reply was" : fmt::format("{} replies were", late), written_late,
@@ -103,7 +104,8 @@ std::string seen_driver(const Facts& f)
 }
 
 constexpr std::array kRules = std::to_array<Rule>({
-    {"bus.late", Scope::bus, false, "replies came too late, or requests were overtaken",
+    {"bus.late", Scope::bus, false,
+     "more than one reply in a thousand came too late, or its request was overtaken",
      "This machine answers too late", kLateSteps, kGateway, seen_late},
     {"bus.double_address", Scope::bus, false, "somebody else sends with one of our addresses",
      "External communications fault: an address is used twice", kDoubleSteps, kBoard, seen_double},

@@ -111,6 +111,14 @@ bool Station::rate_is_kept(std::size_t good, std::size_t bad, Instant at)
     return !baud_change_;
 }
 
+void Station::count(Flaw flaw)
+{
+    if (baud_state_ == BaudState::baud_search)
+        ++counters_.search_flaws;
+    else
+        ++counters_.flaws[static_cast<std::size_t>(flaw)];
+}
+
 /// Takes the telegrams off the front of rx_; what is left at the end is the beginning of one.
 void Station::consume(Instant read_at, bool all_read)
 {

@@ -274,12 +274,13 @@ TEST_P(DoctorCounter, FromThisNumberOnIsAFinding)
 INSTANTIATE_TEST_SUITE_P(
     Bus, DoctorCounter,
     testing::Values(
-        Counted{"Late", "late", 1, 0, "bus.late",
-                "1 reply was suppressed because MaxTsdr had passed, 0 begun in time and written too late, 0 "
-                "requests dropped because something followed them"},
         Counted{
-            "WrittenLate", "too_late", 2, 0, "bus.late",
-            "0 replies were suppressed because MaxTsdr had passed, 2 begun in time and written too late, 0 "
+            "Late", "late", 100, 99, "bus.late",
+            "100 replies were suppressed because MaxTsdr had passed, 0 begun in time and written too late, 0 "
+            "requests dropped because something followed them"},
+        Counted{
+            "WrittenLate", "too_late", 100, 99, "bus.late",
+            "0 replies were suppressed because MaxTsdr had passed, 100 begun in time and written too late, 0 "
             "requests dropped because something followed them"},
         Counted{"DriverFails", "driver_errors", 1, 0, "bus.driver",
                 "1 edge failed, and the guard let the driver go 0 times"},

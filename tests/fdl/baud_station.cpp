@@ -2,6 +2,8 @@
 /// A station that searches its rate, on a bus whose masters have one (wire reference 7; C-24).
 #include "bench.hpp"
 
+#include <numeric>
+
 using namespace dpslave;
 using namespace test;
 using fdl::BaudState;
@@ -51,6 +53,22 @@ TEST_F(Searching, TokensAndShortAcknowledgesAreNoEvidence)
     bus.master_sends(sc());
 
     EXPECT_EQ(station.baud_state(), BaudState::baud_search);
+}
+
+TEST_F(Searching, WhatIsNoTelegramAtARateThatIsTriedIsNoFlawOfTheLine)
+{
+    const auto flaws = [this] {
+        const auto& each = station.counters().flaws;
+        return std::accumulate(each.begin(), each.end(), std::uint64_t{0});
+    };
+    bus.master_sends(octets("11 12"));
+    EXPECT_EQ(flaws(), 0u);
+    EXPECT_EQ(station.counters().search_flaws, 2u);
+
+    bus.master_sends(sd1(kUs, kMaster, kFdlStatus)); // the search has ended
+    bus.master_sends(octets("11 12"));
+    EXPECT_EQ(flaws(), 2u);
+    EXPECT_EQ(station.counters().search_flaws, 2u);
 }
 
 TEST_F(Searching, BrokenTelegramsAreNoEvidence)

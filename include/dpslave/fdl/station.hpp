@@ -40,7 +40,9 @@ struct Counters {
     std::uint64_t late = 0;      ///< replies suppressed because the deadline had passed
     std::uint64_t own_address =
         0; ///< telegrams that carry one of our addresses as sender: an address conflict
-    std::array<std::uint64_t, kFlaws> flaws{};
+    std::array<std::uint64_t, kFlaws> flaws{}; ///< at the rate of the bus
+    /// While the rate is searched: what is no telegram at a rate that is tried says nothing about the line.
+    std::uint64_t search_flaws = 0;
 };
 
 class Station {
@@ -122,7 +124,7 @@ private:
     void on_sdn(const Telegram& telegram, Instant at);
     void drop_unfinished();
     void cancel_reply();
-    void count(Flaw flaw) { ++counters_.flaws[static_cast<std::size_t>(flaw)]; }
+    void count(Flaw flaw);
 
     // From a request to its reply.
     void on_request(std::uint8_t address, const Telegram& request, Instant at);
