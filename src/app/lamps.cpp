@@ -50,7 +50,7 @@ void Lamps::set(std::size_t station, const led::Condition& condition)
 
 void Lamps::show(Instant now)
 {
-    for (Lamp& lamp : lamps_) lamp.sink->set(led::lit(lamp.pattern, now));
+    for (Lamp& lamp : lamps_) lamp.sink->set(led::lit(lamp.pattern, now), now);
 }
 
 Instant Lamps::next_change(Instant now) const

@@ -7,8 +7,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <system_error>
 
 namespace dpslave::dpctl {
 
@@ -259,6 +263,16 @@ std::string shown(const io::ThreadFacts& thread)
     return "ordinary scheduling";
 }
 
+/// How the interrupt's thread gets above the bus thread, which has `ours`.
+std::vector<std::string> lift_above(int ours, const io::ThreadFacts& irq, int usual)
+{
+    constexpr int kHighest = 99; // of SCHED_FIFO
+    if (ours < kHighest) return {fmt::format("chrt -f -p {} {}", std::min(ours + 5, kHighest), irq.id)};
+    return {fmt::format("priority = {} under [realtime], and restart dpslaved: nothing goes above {}", usual,
+                        kHighest),
+            "Then ask again, dpctl tune: the restart makes a new thread of the interrupt"};
+}
+
 void threads(const TuneFacts& facts, Findings& out)
 {
     constexpr int kDefaultPriority = 80; // [realtime] priority
@@ -266,14 +280,13 @@ void threads(const TuneFacts& facts, Findings& out)
     const auto bus = facts.bus ? facts.bus->thread : std::nullopt;
     const int ours = bus && bus->is_realtime() ? bus->priority : kDefaultPriority;
     const auto& irq = facts.port.irq_thread;
-    if (irq && irq->priority < ours)
+    if (irq && irq->priority <= ours) // above it, not beside it: wire 11.1
         out.push_back(
-            {Severity::better,
-             "irq.priority",
+            {Severity::better, "irq.priority",
              fmt::format("The thread of the port's interrupt ({}) has {}, the bus thread {}", irq->name,
                          shown(*irq), bus ? shown(*bus) : fmt::format("SCHED_FIFO {} by default", ours)),
              "whatever runs between the two priorities, and the bus thread's own spinning",
-             {fmt::format("chrt -f -p {} {}", std::min(ours + 5, 98), irq->id)}});
+             lift_above(ours, *irq, kDefaultPriority)});
     const bool slow = std::any_of(machine.unbound_workers.begin(), machine.unbound_workers.end(),
                                   [](const auto& one) { return !one.is_realtime(); });
     if (slow && machine.preempt_rt && !facts.port.pty)
@@ -294,21 +307,55 @@ void threads(const TuneFacts& facts, Findings& out)
                                        one.id, one.name, shown(one)),
                            "seen on a Raspberry Pi 4: 250 us instead of 60",
                            {fmt::format("chrt -o -p 0 {}   or stop that program", one.id)}});
-    if (machine.processors > 1 && machine.isolated.empty() && !facts.port.pty)
-        out.push_back(
-            {Severity::know,
-             "cpu.isolated",
-             "No processor is kept free for the bus",
-             "caches and interrupts of other programs: some 10 us",
-             {fmt::format("isolcpus={0} on the kernel's command line, and cpu = {0} under [realtime]",
-                          machine.processors - 1)}});
-    else if (!machine.isolated.empty() && bus && bus->cpus != machine.isolated)
-        out.push_back({Severity::better,
-                       "cpu.not_pinned",
-                       fmt::format("Processor {} is isolated, but the bus thread runs on {}",
-                                   machine.isolated, bus->cpus),
-                       "the isolation is without use",
-                       {fmt::format("cpu = {} under [realtime]", std::atoi(machine.isolated.c_str()))}});
+}
+
+/// The processors in a list of the kernel ("0-2,5"); nothing = it is none.
+std::optional<std::set<int>> processors_in(std::string_view list)
+{
+    constexpr int kMost = 8192; // CONFIG_NR_CPUS of the largest machines
+    std::set<int> out;
+    const char* const end = list.data() + list.size();
+    for (const char* at = list.data();; ++at) {
+        int first = 0;
+        auto read = std::from_chars(at, end, first);
+        int last = first;
+        if (read.ec == std::errc{} && read.ptr != end && *read.ptr == '-')
+            read = std::from_chars(read.ptr + 1, end, last);
+        if (read.ec != std::errc{} || first < 0 || last < first || last >= kMost) return std::nullopt;
+        for (int one = first; one <= last; ++one) out.insert(one);
+        at = read.ptr;
+        if (at == end) return out;
+        if (*at != ',') return std::nullopt;
+    }
+}
+
+void isolation(const TuneFacts& facts, Findings& out)
+{
+    const io::MachineFacts& machine = facts.machine;
+    if (machine.isolated.empty()) {
+        if (machine.processors > 1 && !facts.port.pty)
+            out.push_back(
+                {Severity::know,
+                 "cpu.isolated",
+                 "No processor is kept free for the bus",
+                 "caches and interrupts of other programs: some 10 us",
+                 {fmt::format("isolcpus={0} on the kernel's command line, and cpu = {0} under [realtime]",
+                              machine.processors - 1)}});
+        return;
+    }
+    if (!facts.bus || !facts.bus->thread) return;
+    const std::string& runs_on = facts.bus->thread->cpus;
+    const auto isolated = processors_in(machine.isolated), used = processors_in(runs_on);
+    if (!isolated || !used) return;
+    if (std::includes(isolated->begin(), isolated->end(), used->begin(), used->end())) return;
+    out.push_back({Severity::better,
+                   "cpu.not_pinned",
+                   fmt::format("{} isolated, but the bus thread runs on {}",
+                               isolated->size() == 1 ? "Processor " + machine.isolated + " is"
+                                                     : "Processors " + machine.isolated + " are",
+                               runs_on),
+                   "the isolation is without use",
+                   {fmt::format("cpu = {} under [realtime]", *isolated->begin())}});
 }
 
 void daemon(const TuneFacts& facts, Findings& out)
@@ -362,6 +409,7 @@ std::vector<TuneFinding> tune_findings(const TuneFacts& facts, const std::vector
     kernel(facts, baud, out);
     processors(facts, baud, out);
     threads(facts, out);
+    isolation(facts, out);
     daemon(facts, out);
     std::stable_sort(out.begin(), out.end(),
                      [](const auto& one, const auto& other) { return one.severity < other.severity; });

@@ -64,16 +64,11 @@ public:
     Attribute(fs::path file, std::string on) : file_(std::move(file)), on_(std::move(on)) {}
     ~Attribute() override { static_cast<void>(write_attribute(file_, "0")); }
 
-    void set(bool lit) override
-    {
-        if (lit == lit_) return;
-        if (write_attribute(file_, lit ? std::string_view{on_} : "0") == 0) lit_ = lit;
-    }
-
 private:
+    bool write(bool lit) override { return write_attribute(file_, lit ? std::string_view{on_} : "0") == 0; }
+
     fs::path file_;
     std::string on_;
-    bool lit_ = false; // open_led_sink() has darkened it
 };
 
 /// A line of a GPIO chip.
@@ -81,24 +76,21 @@ class LineLamp final : public LedSink {
 public:
     LineLamp(GpioRequest request, GpioLine line) : request_(std::move(request)), line_(std::move(line)) {}
 
-    void set(bool lit) override
+private:
+    bool write(bool lit) override
     {
-        if (lit == lit_) return;
         if (!line_) { // its chip had gone
             auto again = GpioLine::request(request_);
-            if (!again) return;
+            if (!again) return false;
             line_.emplace(std::move(*again));
         }
-        if (line_->set(lit))
-            line_.reset();
-        else
-            lit_ = lit;
+        if (!line_->set(lit)) return true;
+        line_.reset();
+        return false;
     }
 
-private:
     GpioRequest request_;
     std::optional<GpioLine> line_; // inactive when it is taken, and when it goes
-    bool lit_ = false;
 };
 
 using Opened = Result<std::unique_ptr<LedSink>, std::string>;
@@ -197,6 +189,15 @@ std::pair<std::string, std::string> cut(const std::string& text, std::size_t col
 }
 
 } // namespace
+
+void LedSink::set(bool lit, Instant now)
+{
+    // After a failure nobody knows how the lamp shines: what is wanted counts, not what it showed last.
+    if (lit == wanted_ && !(failed_ && now - tried_ >= kPause)) return;
+    wanted_ = lit;
+    tried_ = now;
+    failed_ = !write(lit);
+}
 
 std::optional<GpioRequest> line_of_led_sink(const std::string& sink)
 {

@@ -111,10 +111,15 @@ class ReopenedPort : public BusThread {
 protected:
     ReopenedPort() { plug(); }
     std::string port_path() override { return link_.string(); }
-    void unplug() { std::filesystem::remove(link_); }
+    /// First the name: the number of a pty that has gone is given to the next one, whoever opens it.
+    void pull()
+    {
+        std::filesystem::remove(link_);
+        pty.hang_up();
+    }
     void plug()
     {
-        unplug();
+        std::filesystem::remove(link_);
         std::filesystem::create_symlink(pty.path(), link_);
     }
 
@@ -128,7 +133,7 @@ TEST_F(ReopenedPort, GoesOnWithItsStationsWhereItWas)
     start_up(kStation);
     drive_reads(kStation, 7);
     ASSERT_EQ(exchange(kStation), 7);
-    pty.hang_up();
+    pull();
     ASSERT_TRUE(hears_news(PortNews::gone));
     ASSERT_TRUE(eventually([this] { return !snapshot().port_open; }));
     EXPECT_FALSE(uart::is_active());
@@ -145,7 +150,7 @@ TEST_F(ReopenedPort, LetsTheDriverGoWithThePort)
 {
     start({.baud = Baud::k9_6}, {station(kStation)});
     ASSERT_TRUE(master.ask(fdl_status(kStation))); // takes 6.9 ms on the line
-    pty.hang_up();
+    pull();
     ASSERT_TRUE(hears_news(PortNews::gone));
 
     EXPECT_FALSE(uart::is_active());
@@ -154,7 +159,7 @@ TEST_F(ReopenedPort, LetsTheDriverGoWithThePort)
 TEST_F(ReopenedPort, IsClosedAgainWhereItsDriverEnableDoesNotWork)
 {
     start({}, {station(kStation)});
-    pty.hang_up();
+    pull();
     ASSERT_TRUE(hears_news(PortNews::gone));
     uart::refuse_edges(true);
     pty = io::Pty{};
@@ -170,8 +175,7 @@ TEST_F(ReopenedPort, IsClosedAgainWhereItsDriverEnableDoesNotWork)
 TEST_F(ReopenedPort, SaysWhyItCannotBeOpened)
 {
     start({}, {station(kStation)});
-    unplug();
-    pty.hang_up();
+    pull();
     ASSERT_TRUE(hears_news(PortNews::gone));
 
     EXPECT_THAT(hears_trouble(), StartsWith(port_path() + " is not there"));

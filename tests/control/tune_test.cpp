@@ -419,7 +419,33 @@ TEST_F(Tune, TheInterruptsThreadBelongsAboveTheBusThread)
 
     EXPECT_THAT(finding("irq.priority").steps, ElementsAre("chrt -f -p 85 80"));
     tree.kernel_thread(80, "irq/45-481a8000", 80, 1);
+    EXPECT_THAT(names(), Contains("irq.priority")) << "beside it is not above it";
+    tree.kernel_thread(80, "irq/45-481a8000", 81, 1);
     EXPECT_THAT(names(), Not(Contains("irq.priority")));
+}
+
+TEST_F(Tune, TheInterruptsThreadIsNeverSentWhereTheBusThreadIsAlready)
+{
+    on(test::beaglebone, "/dev/ttyS4");
+    serves(Baud::k9_6);
+
+    bus_->thread->priority = 98;
+    EXPECT_THAT(finding("irq.priority").steps, ElementsAre("chrt -f -p 99 80"));
+}
+
+TEST_F(Tune, ABusThreadAtTheHighestPriorityHasToComeDownForTheInterruptsThread)
+{
+    on(test::beaglebone, "/dev/ttyS4");
+    serves(Baud::k9_6);
+    bus_->thread->priority = 99;
+
+    for (const int irq : {50, 99}) {
+        tree.kernel_thread(80, "irq/45-481a8000", irq, 1);
+        const std::vector<std::string> steps = finding("irq.priority").steps;
+        ASSERT_FALSE(steps.empty()) << irq;
+        EXPECT_THAT(steps.front(), HasSubstr("priority = 80 under [realtime], and restart dpslaved")) << irq;
+        EXPECT_THAT(steps, Each(Not(HasSubstr("chrt")))) << irq;
+    }
 }
 
 TEST_F(Tune, AnOrdinaryKernelWorkerIsNamedOnPreemptRt)
@@ -452,6 +478,43 @@ TEST_F(Tune, AnIsolatedProcessorIsForTheBusThread)
 
     bus_->thread->cpus = "0-2";
     EXPECT_THAT(finding("cpu.not_pinned").steps, ElementsAre("cpu = 3 under [realtime]"));
+    EXPECT_EQ(finding("cpu.not_pinned").what, "Processor 3 is isolated, but the bus thread runs on 0-2");
+}
+
+TEST_F(Tune, ABusThreadIsPinnedWhereverAllItsProcessorsAreIsolated)
+{
+    on(test::tuned_pi, "/dev/ttyAMA0");
+    serves(Baud::k9_6);
+    for (const auto& [isolated, cpus] : std::vector<std::pair<const char*, const char*>>{
+             {"2-3", "3"}, {"2-3", "2-3"}, {"2-3", "2,3"}, {"1,3", "3"}, {"0-1,3", "0,3"}, {"8-11", "10"}}) {
+        tree.file("sys/devices/system/cpu/isolated", std::string{isolated} + "\n");
+        bus_->thread->cpus = cpus;
+        EXPECT_THAT(names(), Not(Contains("cpu.not_pinned"))) << cpus << " of " << isolated;
+    }
+}
+
+TEST_F(Tune, ABusThreadThatMayLeaveTheIsolatedProcessorsIsNotPinned)
+{
+    on(test::tuned_pi, "/dev/ttyAMA0");
+    serves(Baud::k9_6);
+    for (const auto& [isolated, cpus] : std::vector<std::pair<const char*, const char*>>{
+             {"2-3", "1"}, {"2-3", "1-2"}, {"2-3", "0-3"}, {"2,5", "3"}, {"2-3", "13"}}) {
+        tree.file("sys/devices/system/cpu/isolated", std::string{isolated} + "\n");
+        bus_->thread->cpus = cpus;
+        EXPECT_THAT(finding("cpu.not_pinned").steps, ElementsAre("cpu = 2 under [realtime]"))
+            << cpus << " of " << isolated;
+    }
+    EXPECT_EQ(finding("cpu.not_pinned").what, "Processors 2-3 are isolated, but the bus thread runs on 13");
+}
+
+TEST_F(Tune, ProcessorsThatAreNotKnownAreNotJudged)
+{
+    on(test::tuned_pi, "/dev/ttyAMA0");
+    serves(Baud::k9_6);
+    for (const char* cpus : {"", "x", "3,", "3-", "-3", "3-2", "0-2000000000", "3 4", "99999999999"}) {
+        bus_->thread->cpus = cpus;
+        EXPECT_THAT(names(), Not(Contains("cpu.not_pinned"))) << cpus;
+    }
 }
 
 TEST_F(Tune, ADaemonWithoutTheRightToRealTimeIsToldHowToGetIt)

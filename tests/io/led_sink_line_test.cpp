@@ -6,11 +6,17 @@
 
 #include <gmock/gmock.h>
 
+#include <chrono>
+
 namespace dpslave::io {
 namespace {
 
+using namespace std::chrono_literals;
+
 using testing::AllOf;
 using testing::HasSubstr;
+
+constexpr Instant kAtFirst{1h};
 
 class LampOnALine : public GpioFolder {
 protected:
@@ -30,11 +36,11 @@ TEST_F(LampOnALine, IsDarkAtFirstThenFollowsAndIsDarkAfterwards)
         ASSERT_TRUE(lamp) << lamp.error();
         EXPECT_FALSE(chip.high(4));
         EXPECT_EQ(chip.consumer(4), "dpslaved lamp");
-        (*lamp)->set(true);
+        (*lamp)->set(true, kAtFirst);
         EXPECT_TRUE(chip.high(4));
-        (*lamp)->set(false);
+        (*lamp)->set(false, kAtFirst);
         EXPECT_FALSE(chip.high(4));
-        (*lamp)->set(true);
+        (*lamp)->set(true, kAtFirst);
     }
     EXPECT_FALSE(chip.high(4));
     EXPECT_FALSE(chip.is_taken(4));
@@ -44,10 +50,10 @@ TEST_F(LampOnALine, IsOrderedOnlyWhatChanges)
 {
     auto lamp = open_led_sink(sink(4), folder);
     ASSERT_TRUE(lamp) << lamp.error();
-    (*lamp)->set(true);
+    (*lamp)->set(true, kAtFirst);
     const unsigned before = chip.edges(4);
 
-    (*lamp)->set(true);
+    (*lamp)->set(true, kAtFirst);
 
     EXPECT_EQ(chip.edges(4), before);
 }
@@ -66,13 +72,31 @@ TEST_F(LampOnALine, OfAChipThatWasPulledShinesAgainWithAChangeAfterItIsBack)
 {
     auto lamp = open_led_sink(sink(4), folder);
     ASSERT_TRUE(lamp) << lamp.error();
+    (*lamp)->set(true, kAtFirst);
     chip.remove();
-    (*lamp)->set(true);
-    EXPECT_FALSE(chip.high(4));
+    (*lamp)->set(false, kAtFirst);
     chip.come_back();
 
-    (*lamp)->set(true);
+    (*lamp)->set(true, kAtFirst);
 
+    EXPECT_TRUE(chip.high(4));
+}
+
+TEST_F(LampOnALine, OfAChipThatWasPulledIsAskedForOnceASecondUntilItIsBack)
+{
+    auto lamp = open_led_sink(sink(4), folder);
+    ASSERT_TRUE(lamp) << lamp.error();
+    chip.remove();
+    (*lamp)->set(true, kAtFirst);
+    EXPECT_FALSE(chip.high(4));
+    chip.come_back();
+    const unsigned before = chip.requests(4);
+
+    for (auto passed = 0ms; passed < 1s; passed += 5ms) (*lamp)->set(true, kAtFirst + passed);
+    EXPECT_EQ(chip.requests(4), before);
+    EXPECT_FALSE(chip.high(4));
+    (*lamp)->set(true, kAtFirst + 1s);
+    EXPECT_EQ(chip.requests(4), before + 1);
     EXPECT_TRUE(chip.high(4));
 }
 

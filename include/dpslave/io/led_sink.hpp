@@ -3,8 +3,10 @@
 #pragma once
 
 #include "dpslave/base/result.hpp"
+#include "dpslave/base/units.hpp"
 #include "dpslave/io/gpio.hpp"
 
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -19,8 +21,18 @@ public:
     LedSink& operator=(const LedSink&) = delete;
     virtual ~LedSink() = default; ///< leaves the lamp dark
 
-    /// Writes only what changes. A lamp that has gone is tried again with the next change and hinders nobody.
-    virtual void set(bool lit) = 0;
+    /// Writes only what changes. A lamp that has gone is tried again with the next change, or when kPause has
+    /// passed: each try may wait for a bus (I2C), and the main loop comes here every few ms.
+    void set(bool lit, Instant now);
+
+    static constexpr std::chrono::seconds kPause{1};
+
+private:
+    virtual bool write(bool lit) = 0; ///< false: the lamp cannot be written
+
+    bool wanted_ = false; // open_led_sink() has darkened it
+    bool failed_ = false;
+    Instant tried_{}; ///< of the last write
 };
 
 /// "line:CHIP:LINE": a GPIO character device, chip as GpioRequest has it. "led:NAME":
