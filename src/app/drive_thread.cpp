@@ -50,21 +50,15 @@ DriveThread::DriveThread(LineConfig line, std::unique_ptr<LineBackend> backend,
     : line_(std::move(line)),
       backend_(std::move(backend)),
       units_(units.begin(), units.end()),
-      poller_(settings_of(units, line_), block_rule()),
+      poller_(settings_of(units, line_), LineBackend::block_rule(line_)),
       link_(link),
-      words_(block_rule().max_tags)
+      words_(LineBackend::block_rule(line_).max_tags)
 {
     link_.port_open.store(backend_ != nullptr, std::memory_order_relaxed);
     if (backend_)
         backend_->set_units(units);
     else
         next_open_ = io::monotonic_now() + kOpenAgainAfter; // whoever has the port is about to let go of it
-}
-
-/// Of a port that is not open yet: one tag at a time, which every protocol takes.
-drive::BlockRule DriveThread::block_rule() const
-{
-    return backend_ ? backend_->backend().block_rule() : drive::BlockRule{};
 }
 
 void DriveThread::run(std::stop_token stop, io::EventFd& wake)
@@ -101,7 +95,7 @@ void DriveThread::fetch()
         unit.ended = ended;
         if (outputs != nullptr) {
             poller_.set_outputs(i, *outputs);
-            unit.has_layout = outputs->layout.generation != 0;
+            unit.layout = outputs->layout.generation;
         }
         while (const auto order = unit.link->demand_orders.pop()) poller_.set_demand(i, *order);
     }
@@ -236,7 +230,7 @@ void DriveThread::forget_trouble(const Unit& unit, const drive::Transaction& acc
 void DriveThread::rest(int wake, Instant now) const
 {
     const bool busy = std::any_of(units_.begin(), units_.end(),
-                                  [](const Unit& unit) { return unit.has_layout && unit.answered; });
+                                  [](const Unit& unit) { return unit.layout != 0 && unit.answered; });
     const std::chrono::nanoseconds tick = busy ? kTickWithLayout : kTickIdle;
     const auto wait = std::clamp<std::chrono::nanoseconds>(poller_.next_deadline() - now,
                                                            std::chrono::nanoseconds{0}, tick);
@@ -251,6 +245,9 @@ void DriveThread::farewell()
 {
     const Instant end = io::monotonic_now() + kFarewell;
     fetch();
+    // Usually the bus has said so; one that hangs or had to give up has not.
+    for (std::size_t i = 0; i < units_.size(); ++i)
+        poller_.left_data_exchange(i, {.generation = units_[i].layout});
     poller_.ride_no_longer(); // nobody is there any more to zero the outputs later
     while (poller_.safe_state_pending() && io::monotonic_now() < end) {
         if (const auto transaction = poller_.next(io::monotonic_now()))
@@ -318,9 +315,9 @@ void DriveThread::take_over()
     }
     units_ = std::move(units);
     if (backend_) backend_->set_units(next_->units);
-    poller_.exchange(settings_of(next_->units, line_), stays, block_rule());
-    words_.resize(
-        std::max<std::size_t>(words_.size(), block_rule().max_tags)); // those who stay keep their rule
+    const drive::BlockRule rule = LineBackend::block_rule(line_);
+    poller_.exchange(settings_of(next_->units, line_), stays, rule);
+    words_.resize(std::max<std::size_t>(words_.size(), rule.max_tags)); // those who stay keep their rule
     forget_troubles_of_the_gone();
     for (const LineOrder& order : std::exchange(early_orders_, {})) operate(order);
     next_.reset();
@@ -357,7 +354,6 @@ bool DriveThread::is_open()
     std::vector<DriveUnit> units;
     for (const Unit& unit : units_) units.push_back({unit.number, unit.config, unit.link});
     backend_->set_units(units);
-    words_.resize(std::max<std::size_t>(words_.size(), block_rule().max_tags));
     spdlog::info("line {}: {} is open", line_.name, line_.port);
     return true;
 }

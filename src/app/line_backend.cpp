@@ -5,21 +5,36 @@
 
 namespace dpslave::app {
 
+namespace {
+
+modbus::RtuSettings rtu_settings(const LineConfig& line)
+{
+    modbus::RtuSettings settings;
+    settings.port = line.port;
+    settings.baud = line.baud;
+    settings.data_bits = line.format.data_bits;
+    settings.parity = line.format.parity;
+    settings.stop_bits = line.format.stop_bits;
+    settings.timeout = line.timeout;
+    return settings;
+}
+
+} // namespace
+
 LineWork::~LineWork() = default;
+
+drive::BlockRule LineBackend::block_rule(const LineConfig& line)
+{
+    return line.protocol == kModbusRtu ? modbus::ModbusRtu::block_rule(rtu_settings(line))
+                                       : drive::BlockRule{};
+}
 
 Result<std::unique_ptr<LineBackend>, std::string> LineBackend::open(const LineConfig& line,
                                                                     std::atomic<bool>& is_open)
 {
     auto made = std::make_unique<LineBackend>();
     if (line.protocol == kModbusRtu) {
-        modbus::RtuSettings settings;
-        settings.port = line.port;
-        settings.baud = line.baud;
-        settings.data_bits = line.format.data_bits;
-        settings.parity = line.format.parity;
-        settings.stop_bits = line.format.stop_bits;
-        settings.timeout = line.timeout;
-        auto opened = modbus::ModbusRtu::open(settings, is_open);
+        auto opened = modbus::ModbusRtu::open(rtu_settings(line), is_open);
         if (!opened) return Failure{opened.error()};
         made->backend_ = std::move(*opened);
         return made;

@@ -51,12 +51,12 @@ ModbusRtu::~ModbusRtu() = default;
 
 /// One more transaction costs 20 characters and the latency of the drive, a word that is read over costs two
 /// characters (reference, section 6).
-drive::BlockRule ModbusRtu::block_rule() const
+drive::BlockRule ModbusRtu::block_rule(const RtuSettings& settings)
 {
     constexpr std::uint32_t kTransaction = 20;
     constexpr std::uint32_t kLatencyMs = 5;
-    const auto bits = static_cast<std::uint32_t>(bits_of_a_character(settings_));
-    const std::uint32_t gap = (kTransaction * bits + settings_.baud * kLatencyMs / 1000) / (2 * bits);
+    const auto bits = static_cast<std::uint32_t>(bits_of_a_character(settings));
+    const std::uint32_t gap = (kTransaction * bits + settings.baud * kLatencyMs / 1000) / (2 * bits);
     return {.max_tags = kMostRegisters,
             .max_gap = static_cast<std::uint16_t>(std::min<std::uint32_t>(gap, kMostRegisters)),
             .max_written = kMostRegisters};

@@ -39,9 +39,9 @@ private:
         std::uint32_t number = 0;
         std::shared_ptr<const StationConfig> config;
         std::shared_ptr<StationLink> link;
-        std::int64_t zero_after_ms = 0; ///< as said to the poller last
-        Generation ended = 0;           ///< as said to the poller last
-        bool has_layout = false;
+        std::int64_t zero_after_ms = 0;           ///< as said to the poller last
+        Generation ended = 0;                     ///< as said to the poller last
+        Generation layout = 0;                    ///< whose outputs the poller has; 0 = none
         bool was_known = false, answered = false; ///< as said in the log last
         bool leaves = false;                      ///< it is not among the drives that come next
     };
@@ -63,7 +63,6 @@ private:
     void take_over();
     void forget_troubles_of_the_gone();
     bool is_open();
-    drive::BlockRule block_rule() const;
 
     LineConfig line_;
     std::unique_ptr<LineBackend> backend_; ///< null: the port could not be opened yet

@@ -22,6 +22,9 @@ public:
     static Result<std::unique_ptr<LineBackend>, std::string> open(const LineConfig& line,
                                                                   std::atomic<bool>& is_open);
 
+    /// Of the back-end that this line has, or will have once its port can be opened.
+    static drive::BlockRule block_rule(const LineConfig& line);
+
     drive::Backend& backend() { return *backend_; }
     /// The drives from now on.
     void set_units(const std::vector<DriveUnit>& units);

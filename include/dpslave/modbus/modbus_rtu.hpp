@@ -45,7 +45,8 @@ public:
 
     /// As many registers as every frame of 256 octets holds, and gaps as long as reading over them is cheaper
     /// than a request of its own at this rate.
-    drive::BlockRule block_rule() const override;
+    static drive::BlockRule block_rule(const RtuSettings& settings);
+    drive::BlockRule block_rule() const override { return block_rule(settings_); }
 
     /// Function 3. A number of the IEEE area is scaled by the row's decimals and rounded to nearest, ties
     /// away from zero.
