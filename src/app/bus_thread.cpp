@@ -83,7 +83,13 @@ BusThread::BusThread(const BusConfig& config, io::Port port, io::DriverEnable& d
       link_(link),
       roster_(std::move(roster))
 {
+    link_.baud.store(station_.baud(), std::memory_order_relaxed);
     seat_newcomers();
+}
+
+BusThread::~BusThread()
+{
+    driver_.detach(); // the port goes
 }
 
 void BusThread::run(std::stop_token stop, io::EventFd& wake)
@@ -212,10 +218,13 @@ void BusThread::hear(Bytes octets, Instant read_at, bool more)
 void BusThread::send()
 {
     const auto reply = station_.take_transmit();
-    if (!reply || !port_.is_open()) return;
+    if (!reply) return;
     const Baud baud = station_.baud();
-    const auto written = sender_.send(*reply, port_.tty(), baud);
-    if (!written) return;
+    const auto written = port_.is_open() ? sender_.send(*reply, port_.tty(), baud) : std::nullopt;
+    if (!written) {
+        ++unsent_;
+        return;
+    }
     const Tbit length{static_cast<std::uint32_t>(reply->size()) * kCharacter.count};
     const Instant over = *written + duration_of(length, baud);
     echo_.sent(*reply, over + duration_of(fdl::kTsyn, baud), over + echo_latency(baud));
@@ -271,6 +280,7 @@ void BusThread::follow_rate()
 void BusThread::set_baud(Baud baud)
 {
     sender_.abort();
+    link_.baud.store(baud, std::memory_order_relaxed);
     if (const auto trouble = port_.set_baud(static_cast<std::uint32_t>(baud))) refuse_port(*trouble);
 }
 
@@ -298,6 +308,7 @@ void BusThread::show_bus(Instant now)
                             .last_telegram = last_telegram_,
                             .counters = station_.counters(),
                             .write_errors = sender_.write_errors(),
+                            .unsent = unsent_,
                             .turnaround_us = turnaround_us_,
                             .turnaround_tbit = turnaround_tbit_,
                             .too_late = too_late_,
@@ -343,9 +354,12 @@ void BusThread::let_go_of_port()
 
 void BusThread::tell_trouble()
 {
-    auto why = port_.take_trouble();
-    if (!why) return;
-    auto told = std::make_unique<std::string>(*std::move(why));
+    if (const auto why = port_.take_trouble()) tell(*why + "; it is tried again");
+}
+
+void BusThread::tell(std::string words)
+{
+    auto told = std::make_unique<std::string>(std::move(words));
     static_cast<void>(link_.port_trouble.offer(told)); // not read yet: the older one is as true
 }
 
@@ -363,6 +377,9 @@ void BusThread::try_reopen(Instant now)
     }
     guard_told_ = false;
     tell(PortNews::back);
+    std::string warnings;
+    for (const std::string& one : port_.tty().warnings()) warnings += (warnings.empty() ? "" : ". ") + one;
+    if (!warnings.empty()) tell(port_.path() + ": " + warnings);
 }
 
 /// An edge of the driver enable that failed is told once, and the way back is tried for. So is the first time

@@ -2,6 +2,7 @@
 #include "dpslave/app/daemon.hpp"
 
 #include "dpslave/app/bus_thread.hpp"
+#include "dpslave/app/driver_guard.hpp"
 #include "dpslave/app/main_thread.hpp"
 #include "dpslave/app/plant.hpp"
 #include "dpslave/app/service.hpp"
@@ -15,6 +16,8 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <thread>
 
 namespace dpslave::app {
@@ -38,13 +41,21 @@ std::optional<io::Port> open_bus(const Config& config, io::DriverEnable& driver)
     if (const auto trouble = driver.attach(port->tty())) return refuse(*trouble);
     for (const std::string& warning : port->tty().warnings())
         spdlog::warn("{}: {}", config.bus.port, warning);
-    spdlog::info("{}: {}", config.bus.port, driver.self_check());
-    if (!config.bus.baud)
-        if (const std::string missing = port->tty().bauds().why_not; !missing.empty())
-            spdlog::warn("{}: {}", config.bus.port, missing);
-    if (config.bus.baud)
-        if (const auto doubt = driver.doubt(*config.bus.baud))
-            spdlog::warn("{}: {}", config.bus.port, *doubt);
+    if (const auto trouble = driver.self_check()) {
+        driver.detach();
+        return refuse(*trouble);
+    }
+    spdlog::info("{}: {}", config.bus.port, driver.in_words());
+    Baud highest = Baud::k9_6; // that the bus may have
+    if (config.bus.baud) {
+        highest = *config.bus.baud;
+    } else {
+        const io::TtyBauds bauds = port->tty().bauds();
+        if (!bauds.why_not.empty()) spdlog::warn("{}: {}", config.bus.port, bauds.why_not);
+        for (const Baud baud : kBauds)
+            if (bauds.can.test(index_of(baud))) highest = std::max(highest, baud);
+    }
+    if (const auto doubt = driver.doubt(highest)) spdlog::warn("{}: {}", config.bus.port, *doubt);
     return std::move(*port);
 }
 
@@ -54,12 +65,19 @@ std::string rate_in_words(const BusConfig& bus)
     return fmt::format("{} bit/s", static_cast<std::uint32_t>(*bus.baud));
 }
 
-/// Tells a thread to end and waits for it.
-void end(std::jthread& thread, io::EventFd& wake)
+/// Tells the bus thread to end and waits for it. False: it hangs in a call of the system.
+bool end(std::jthread& thread, io::EventFd& wake, const BusLink& link)
 {
+    constexpr std::chrono::seconds kPatience{2}; // more than twice the longest telegram at any rate
     thread.request_stop();
     wake.ring();
-    if (thread.joinable()) thread.join();
+    const Instant limit = io::monotonic_now() + kPatience;
+    while (!link.ended.load(std::memory_order_acquire)) {
+        if (io::monotonic_now() > limit) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds{1});
+    }
+    thread.join();
+    return true;
 }
 
 } // namespace
@@ -81,15 +99,20 @@ ExitStatus run_daemon(const Config& config, const std::filesystem::path& profile
         spdlog::warn("{}", *trouble);
     BusLink link;
     Plant plant{link.failed};
+    const auto give_up = [&driver] {
+        driver->detach(); // the port goes before it
+        return ExitStatus::device_not_opened;
+    };
     if (const auto trouble = plant.open(config)) {
         spdlog::error("{}", *trouble);
-        return ExitStatus::device_not_opened;
+        return give_up();
     }
-    MainThread main_thread(config, profiles, plant, link, *driver, signals);
+    DriverGuard guard{*driver, link.baud};
+    MainThread main_thread(config, profiles, plant, link, guard, signals);
     if (const auto trouble = main_thread.open_socket()) {
         spdlog::error("{}: [control] socket: {}; set it to a place where this user may write",
                       config.file.string(), *trouble);
-        return ExitStatus::device_not_opened;
+        return give_up();
     }
 
     BusThread bus(config.bus, std::move(*port), *driver, plant.roster(), link);
@@ -98,18 +121,26 @@ ExitStatus run_daemon(const Config& config, const std::filesystem::path& profile
                  rate_in_words(config.bus));
 
     plant.start();
+    guard.start(config.realtime.priority);
     io::EventFd bus_wake;
     std::jthread bus_thread([&](const std::stop_token& stop) {
         guarded(link.failed, "bus", [&] {
             say_warnings(io::enter_realtime(config.realtime.priority, config.realtime.cpu));
             bus.run(stop, bus_wake);
         });
+        link.ended.store(true, std::memory_order_release);
     });
 
     const bool by_signal = main_thread.run();
 
     // The bus first: its last word to the drive lines is what puts the outputs into their safe state.
-    end(bus_thread, bus_wake);
+    if (!end(bus_thread, bus_wake, link)) {
+        spdlog::critical("the bus thread hangs in a call of the system for {}: the program ends without it",
+                         config.bus.port);
+        plant.end(); // meanwhile the guard has the driver enable
+        spdlog::shutdown();
+        std::_Exit(static_cast<int>(ExitStatus::device_not_opened)); // what it uses cannot be taken away
+    }
     static_cast<void>(driver->set(false, io::monotonic_now())); // also after a bus thread that had to give up
     plant.end();
     spdlog::info("ended");

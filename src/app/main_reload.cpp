@@ -128,7 +128,7 @@ std::optional<std::string> MainThread::apply(Plan plan)
     for (std::string& warning : lamps_.exchange(config_)) spdlog::warn("{}", warning);
     show_lamps(io::monotonic_now());
     server_->set_operators(operator_group_of(config_.control), config_.control.operator_group);
-
+    answer_those_who_asked();
     return std::nullopt;
 }
 
@@ -151,28 +151,31 @@ void MainThread::repost()
         if (posts_[i].config->leds != config_.stations[i].leds)
             posts_[i].config = std::make_shared<const StationConfig>(config_.stations[i]);
     }
-    for (Post& gone : before) {
-        answer_those_who_asked(gone.station);
-        leaving_.push_back(std::move(gone.station));
-    }
+    for (Post& gone : before) leaving_.push_back(std::move(gone.station));
     show_posts();
 }
 
-void MainThread::answer_those_who_asked(const Station& gone)
+/// Those whose station has gone. The last step: what their caller sent behind it is answered on the spot, out
+/// of the new configuration.
+void MainThread::answer_those_who_asked()
 {
-    for (auto one = asked_.begin(); one != asked_.end();) {
-        if (one->second.station != gone.number) {
-            ++one;
-            continue;
+    for (const Station& gone : leaving_) {
+        for (auto one = asked_.begin(); one != asked_.end();) {
+            if (one->second.station != gone.number) {
+                ++one;
+                continue;
+            }
+            const auto [token, asked] = *one;
+            asked_.erase(one);
+            server_->complete(
+                token,
+                Error{"DriveRefused",
+                      {{"tag", asked.tag},
+                       {"reason", fmt::format("station {} has just been changed or removed by a reload",
+                                              gone.config->name)},
+                       {"code", nullptr}}});
+            one = asked_.upper_bound(token);
         }
-        server_->complete(
-            one->first,
-            Error{"DriveRefused",
-                  {{"tag", one->second.tag},
-                   {"reason", fmt::format("station {} has just been changed or removed by a reload",
-                                          gone.config->name)},
-                   {"code", nullptr}}});
-        one = asked_.erase(one);
     }
 }
 

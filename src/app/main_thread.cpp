@@ -32,27 +32,15 @@ bool tests_itself(Instant earlier)
     return failures.empty();
 }
 
-/// "Twice the longest telegram": then nobody is sending any more.
-constexpr int kDriverGuard = 2;
-
-/// At the lowest rate that it can be sent at.
-std::chrono::nanoseconds longest_telegram(const BusConfig& bus)
-{
-    constexpr std::uint32_t bits_of_a_character = 11;
-    constexpr Tbit longest{static_cast<std::uint32_t>(fdl::kMaxTelegram) * bits_of_a_character};
-    return duration_of(longest, bus.baud.value_or(Baud::k9_6));
-}
-
 } // namespace
 
 MainThread::MainThread(Config config, std::filesystem::path profiles, Plant& plant, BusLink& bus,
-                       io::DriverEnable& driver, io::Signals& signals)
+                       const DriverGuard& guard, io::Signals& signals)
     : config_(std::move(config)),
       profiles_(std::move(profiles)),
       plant_(plant),
       bus_(bus),
-      driver_(driver),
-      driver_limit_(kDriverGuard * longest_telegram(config_.bus)),
+      guard_(guard),
       signals_(signals),
       started_(io::monotonic_now())
 {
@@ -153,7 +141,6 @@ std::chrono::milliseconds MainThread::tick_length() const
 
 void MainThread::tick(Instant now)
 {
-    guard_driver(now);
     mind_reload();
     refresh();
     log_news();
@@ -266,18 +253,11 @@ void MainThread::log_port_news()
             case PortNews::driver_back: spdlog::info("the driver enable of {} works again", port); break;
         }
     }
-    if (std::unique_ptr<std::string> why; bus_.port_trouble.take(why))
-        spdlog::error("{}; it is tried again", *why);
-}
-
-/// Whatever has become of the bus thread, the bus is not held for long.
-void MainThread::guard_driver(Instant now)
-{
-    if (driver_.drop_if_stuck(now, driver_limit_))
-        spdlog::error(
-            "the driver enable of {} was active for longer than any telegram takes, and was made inactive: "
-            "the bus thread did not come to it in time",
-            config_.bus.port);
+    if (std::unique_ptr<std::string> why; bus_.port_trouble.take(why)) spdlog::error("{}", *why);
+    if (const std::uint64_t dropped = guard_.dropped(); std::exchange(dropped_seen_, dropped) != dropped)
+        spdlog::error("the driver enable of {} was active for longer than any telegram takes, and was made "
+                      "inactive: the bus thread did not come to it in time",
+                      port);
 }
 
 void MainThread::show_lamps(Instant now)

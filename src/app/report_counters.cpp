@@ -36,6 +36,8 @@ json bus_counters(const View& view)
         "replies begun in time whose write ended behind MaxTsdr: see [realtime] and max_tsdr");
     add(c, "own_address", fdl.own_address, "telegrams of somebody else who uses one of our addresses");
     add(c, "write_errors", view.bus.write_errors, "replies that the port did not take");
+    add(c, "unsent", view.bus.unsent,
+        "replies that did not go out: those, or the port was closed, or the driver enable did not work");
     add(c, "driver_errors", view.bus.driver_errors,
         "edges of the driver enable that failed: look at gpio_chip, gpio_line and the log");
     add(c, "driver_guarded", view.bus.driver_guarded,

@@ -34,7 +34,8 @@ Traffic traffic_of(const Json& counters)
     for (const Json& group : list(counters, "groups"))
         if (text(group, "name") == "bus") bus = &group;
     Traffic traffic;
-    traffic.replies = counter(*bus, "replies").value_or(0);
+    const std::uint64_t replies = counter(*bus, "replies").value_or(0);
+    traffic.replies = replies - std::min(replies, counter(*bus, "unsent").value_or(0));
     traffic.too_late = counter(*bus, "late").value_or(0) + counter(*bus, "too_late").value_or(0);
     traffic.overtaken = counter(*bus, "overtaken").value_or(0);
     traffic.repeated = counter(*bus, "retries").value_or(0);

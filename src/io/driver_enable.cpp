@@ -214,6 +214,20 @@ std::optional<std::string> DriverEnable::Held::attach_kernel(int fd)
     return std::nullopt;
 }
 
+namespace {
+
+std::string cannot_switch(const DriverEnableSettings& settings, const std::error_code& error)
+{
+    const std::string how = error.message();
+    if (settings.direction != Direction::gpio)
+        return "driver enable: RTS cannot be switched (" + how + "): choose another way, [bus] direction";
+    return "driver enable: line " + std::to_string(settings.gpio_line) + " of GPIO chip " +
+           settings.gpio_chip + " cannot be switched (" + how +
+           "): look at the chip and its bus, or choose another line";
+}
+
+} // namespace
+
 DriverEnable::DriverEnable(std::unique_ptr<Held> held) : held_(std::move(held)) {}
 DriverEnable::DriverEnable(DriverEnable&&) noexcept = default;
 DriverEnable& DriverEnable::operator=(DriverEnable&&) noexcept = default;
@@ -337,18 +351,24 @@ bool DriverEnable::drop_if_stuck(Instant now, std::chrono::nanoseconds limit) no
     return dropped;
 }
 
-std::string DriverEnable::self_check()
+std::optional<std::string> DriverEnable::self_check()
 {
     Held& h = *held_;
     std::array<std::chrono::nanoseconds, 15> edges{};
     for (auto& edge : edges) {
         const Instant before = monotonic_now();
-        if (by_hand()) static_cast<void>(h.edge(false));
+        const std::error_code error = by_hand() ? h.edge(false) : std::error_code{};
+        if (error) return cannot_switch(h.settings, error);
         edge = monotonic_now() - before;
     }
     std::sort(edges.begin(), edges.end());
     h.edge_time = by_hand() ? edges[edges.size() / 2] : 0ns;
+    return std::nullopt;
+}
 
+std::string DriverEnable::in_words() const
+{
+    const Held& h = *held_;
     const DriverEnableSettings& s = h.settings;
     std::string found = "driver enable: ";
     switch (s.direction) {

@@ -2,6 +2,8 @@
 /// The driver enable around each reply (rows ): RTS of a UART that stands in for one.
 #include "bus_bench.hpp"
 
+#include "dpslave/app/driver_guard.hpp"
+
 #include <algorithm>
 
 namespace dpslave::test {
@@ -114,10 +116,32 @@ TEST_F(DriverEnableOfTheBus, ThatDoesNotWorkKeepsTheReplyBackUntilItWorksAgain)
     EXPECT_EQ(master.ask(fdl_status(kStation), 2), std::nullopt); // nothing without driver enable
     ASSERT_TRUE(hears_news(PortNews::driver_gone));
     EXPECT_TRUE(eventually([this] { return snapshot().driver_errors >= 1; }));
+    EXPECT_TRUE(eventually([this] { return snapshot().unsent >= 2; })); // that one, and all after it
 
     uart::refuse_edges(false);
     ASSERT_TRUE(hears_news(PortNews::driver_back));
     ask_status();
+}
+
+/// Nobody comes to let it go: the bus thread hangs, or the program is at its end.
+TEST_F(DriverEnableOfTheBus, IsLetGoByAThreadOfItsOwnAfterTwiceTheLongestTelegramAtTheRateOfTheBus)
+{
+    const auto port = io::Tty::open(pty.path(), {.baud = 1'500'000});
+    ASSERT_TRUE(port) << port.error();
+    auto driver = io::DriverEnable::open({.direction = io::Direction::rts});
+    ASSERT_TRUE(driver) << driver.error();
+    ASSERT_EQ(driver->attach(*port), std::nullopt);
+    std::atomic<Baud> baud{Baud::k1500};
+    app::DriverGuard guard{*driver, baud};
+    guard.start(0);
+    ASSERT_FALSE(driver->set(true, io::monotonic_now()));
+
+    ASSERT_TRUE(eventually([&] { return guard.dropped() == 1; }));
+    EXPECT_FALSE(uart::is_active());
+    const auto edges = uart::edges();
+    ASSERT_EQ(edges.size(), 2u);
+    EXPECT_GE(edges[1].at - edges[0].at, microseconds{3740}); // 2 * 255 * 7.33 us
+    driver->detach();
 }
 
 TEST_F(DriverEnableOfTheBus, IsInactiveAtTheEndAndTheLastReplyIsWhole)

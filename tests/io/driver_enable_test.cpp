@@ -241,7 +241,8 @@ TEST_F(ByGpio, TheSelfCheckMeasuresAnEdgeWithoutTouchingTheBus)
 {
     DriverEnable driver = opened();
 
-    const std::string found = driver.self_check();
+    ASSERT_EQ(driver.self_check(), std::nullopt);
+    const std::string found = driver.in_words();
 
     EXPECT_THAT(found, AllOf(HasSubstr("line 5"), HasSubstr(chip.path().string()),
                              HasSubstr("high while sending"), HasSubstr("an edge takes")));
@@ -250,11 +251,23 @@ TEST_F(ByGpio, TheSelfCheckMeasuresAnEdgeWithoutTouchingTheBus)
     EXPECT_EQ(chip.rises(kLine), 0);
 }
 
+TEST_F(ByGpio, TheSelfCheckOfALineThatCannotBeSwitchedFails)
+{
+    DriverEnable driver = opened();
+    chip.remove();
+
+    const auto trouble = driver.self_check();
+
+    ASSERT_TRUE(trouble);
+    EXPECT_THAT(*trouble, AllOf(HasSubstr("line 5"), HasSubstr(chip.path().string()),
+                                HasSubstr("cannot be switched"), HasSubstr("another line")));
+}
+
 TEST_F(ByGpio, AnEdgeOfMoreThanTwoBitTimesIsDoubted)
 {
     DriverEnable driver = opened();
     EXPECT_FALSE(driver.doubt(Baud::k1500)) << "not measured, nothing to say";
-    driver.self_check();
+    ASSERT_EQ(driver.self_check(), std::nullopt);
     const auto edge = driver.edge_time();
 
     for (const Baud baud : kBauds) {
@@ -326,7 +339,8 @@ TEST_F(OnAPty, NoneIsFineAndNobodyIsSwitched)
     EXPECT_FALSE(driver->set(true, kNow));
     EXPECT_FALSE(driver->active_since());
     EXPECT_TRUE(driver->ready(kNow));
-    EXPECT_THAT(driver->self_check(), HasSubstr("switches by itself"));
+    ASSERT_EQ(driver->self_check(), std::nullopt);
+    EXPECT_THAT(driver->in_words(), HasSubstr("switches by itself"));
     EXPECT_FALSE(driver->doubt(Baud::k1500));
 }
 

@@ -155,7 +155,8 @@ TEST_F(OnAUart, TheSelfCheckOfRtsTellsWhatItDisturbsAndWhatWouldBeBetter)
     DriverEnable driver = opened(Direction::rts);
     EXPECT_FALSE(driver.attach(*tty));
 
-    EXPECT_THAT(driver.self_check(),
+    ASSERT_EQ(driver.self_check(), std::nullopt);
+    EXPECT_THAT(driver.in_words(),
                 AllOf(HasSubstr("RTS, asserted while sending"), HasSubstr("an edge takes at least"),
                       HasSubstr("disturbs"), HasSubstr("direction = \"kernel\"")));
     EXPECT_THAT(uart.edges, Not(testing::Contains(true)));
@@ -174,7 +175,8 @@ TEST_F(OnAUart, TheDriverOfTheUartSwitchesWithRtsOnSendAndNoDelays)
     EXPECT_FALSE(driver.by_hand());
     EXPECT_FALSE(driver.set(true, kNow));
     EXPECT_THAT(uart.edges, ElementsAre()) << "nobody else touches RTS";
-    EXPECT_THAT(driver.self_check(),
+    ASSERT_EQ(driver.self_check(), std::nullopt);
+    EXPECT_THAT(driver.in_words(),
                 AllOf(HasSubstr("TIOCSRS485, read back"), HasSubstr("asserted while sending")));
 }
 
@@ -219,7 +221,8 @@ TEST_F(OnAUart, ToFindOutWhetherTheDriverCouldSwitchChangesNothing)
     DriverEnable driver = opened(Direction::none);
     EXPECT_FALSE(driver.attach(*tty));
 
-    EXPECT_THAT(driver.self_check(), HasSubstr("could also do: direction = \"kernel\", direction = \"rts\""));
+    ASSERT_EQ(driver.self_check(), std::nullopt);
+    EXPECT_THAT(driver.in_words(), HasSubstr("could also do: direction = \"kernel\", direction = \"rts\""));
 
     EXPECT_EQ(uart.rs485.flags, SER_RS485_RTS_AFTER_SEND);
     EXPECT_THAT(uart.edges, ElementsAre());

@@ -285,6 +285,36 @@ TEST_F(Reload, TellsSomebodyWhoWaitsForADriveThatItsStationHasGone)
     EXPECT_EQ(read.wait(), 1);
 }
 
+/// Three calls in one go: the first is answered in the middle of the reload, and the others right behind it.
+TEST_F(Reload, AnswersCallsBehindOneWhoseStationHasGoneOutOfTheNewConfiguration)
+{
+    gateway.drive().tell("unit 01");
+    gateway.drive().tell("slow 2000");
+    const std::string script =
+        "import socket, sys\n"
+        "s = socket.socket(socket.AF_UNIX)\n"
+        "s.connect(sys.argv[1])\n"
+        "i = 'org.dpslaved.Control.'\n"
+        "calls = ['ReadTag\",\"parameters\":{\"station\":\"rewinder\",\"tag\":55}', 'GetLeds\"', "
+        "'GetInfo\"']\n"
+        "s.sendall(b''.join(('{\"method\":\"' + i + c + '}').encode() + b'\\0' for c in calls))\n"
+        "print('sent', flush=True)\n"
+        "got = b''\n"
+        "while got.count(b'\\0') < 3:\n"
+        "    more = s.recv(65536)\n"
+        "    assert more, got\n"
+        "    got += more\n"
+        "print([reply.count(b'unwinder') > 0 for reply in got.split(b'\\0')[1:3]],\n"
+        "      [reply.count(b'rewinder') for reply in got.split(b'\\0')[1:3]], flush=True)\n";
+    Process caller{{"/usr/bin/python3", "-c", script, gateway.socket().string()}};
+    ASSERT_TRUE(caller.says("sent"));
+    ASSERT_TRUE(eventually([this] { return gateway.json({"status"}).contains("pid"); })); // and it was heard
+
+    EXPECT_EQ(reload(without_rewinder()).status, 0);
+    EXPECT_TRUE(caller.says("[True, True] [0, 0]"));
+    EXPECT_EQ(caller.wait(), 0);
+}
+
 TEST_F(Reload, TakesOverOtherLamps)
 {
     const std::string lamp = gateway.make_led("other");

@@ -34,6 +34,9 @@ public:
     /// it can do. More and other stations come through BusLink::roster.
     BusThread(const BusConfig& config, io::Port port, io::DriverEnable& driver,
               std::unique_ptr<Roster> roster, BusLink& link);
+    ~BusThread();
+    BusThread(const BusThread&) = delete;
+    BusThread& operator=(const BusThread&) = delete;
 
     /// Serves the bus until `stop`; then every slave leaves it, with all that leaving means.
     void run(std::stop_token stop, io::EventFd& wake);
@@ -85,6 +88,7 @@ private:
     void refuse_port(const std::string& why);
     void let_go_of_port();
     void tell_trouble();
+    void tell(std::string words);
     void try_reopen(Instant now);
     void mind_driver(Instant now);
 
@@ -109,6 +113,7 @@ private:
     Histogram turnaround_us_;
     Histogram turnaround_tbit_;
     std::uint64_t too_late_ = 0;
+    std::uint64_t unsent_ = 0;
 
     Instant next_snapshot_{};
     Instant next_bus_snapshot_{};

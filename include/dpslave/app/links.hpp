@@ -93,6 +93,7 @@ struct BusSnapshot {
     Instant last_telegram{}; ///< default = none was heard yet
     fdl::Counters counters{};
     std::uint64_t write_errors = 0;
+    std::uint64_t unsent = 0; ///< replies that did not go out: those, no port, or no driver enable
     /// Of each reply, from the read of the request's last octet to the end of the write: us, and T_bit of the
     /// rate of then.
     Histogram turnaround_us, turnaround_tbit;
@@ -116,8 +117,11 @@ struct BusLink {
     /// The stations from now on, main -> bus, and back what is no longer on the bus.
     Handover<Roster> roster;
     Ring<PortNews, 8> port_news; ///< bus -> main
-    /// Why the port is closed and stays so, bus -> main: a sentence with its path, each reason once.
+    /// Why the port is closed and stays so, or what it cannot do since it is open again, bus -> main: a
+    /// sentence with its path, each reason once.
     Handover<std::string> port_trouble;
+    std::atomic<Baud> baud{Baud::k9_6}; ///< the rate of replies, bus -> guard of the driver enable
+    std::atomic<bool> ended{false};     ///< the bus thread has said its last word
 };
 
 /// What a drive said no to, in words; the newest few of a line.

@@ -5,12 +5,12 @@
 
 #include "dpslave/app/config.hpp"
 #include "dpslave/app/device_state.hpp"
+#include "dpslave/app/driver_guard.hpp"
 #include "dpslave/app/lamps.hpp"
 #include "dpslave/app/links.hpp"
 #include "dpslave/app/plant.hpp"
 #include "dpslave/app/report.hpp"
 #include "dpslave/control/server.hpp"
-#include "dpslave/io/driver_enable.hpp"
 #include "dpslave/io/epoll.hpp"
 #include "dpslave/io/notify.hpp"
 #include "dpslave/io/signals.hpp"
@@ -27,10 +27,10 @@ namespace dpslave::app {
 
 class MainThread {
 public:
-    /// `config`: what `plant` was opened with; `profiles`: where its profiles were read from. `driver` is
-    /// watched as a last resort.
+    /// `config`: what `plant` was opened with; `profiles`: where its profiles were read from. What
+    /// `guard` had to do is said in the log.
     MainThread(Config config, std::filesystem::path profiles, Plant& plant, BusLink& bus,
-               io::DriverEnable& driver, io::Signals& signals);
+               const DriverGuard& guard, io::Signals& signals);
 
     /// Opens the control socket. The reason of a failure is a sentence.
     std::optional<std::string> open_socket();
@@ -110,7 +110,6 @@ private:
     std::chrono::milliseconds tick_length() const;
     void show_lamps(Instant now);
     void feed_watchdog(Instant now);
-    void guard_driver(Instant now);
     void tick(Instant now);
     bool on_signals();
 
@@ -132,7 +131,7 @@ private:
     Reloaded try_reload();
     std::optional<std::string> apply(Plan plan);
     void repost();
-    void answer_those_who_asked(const Station& gone);
+    void answer_those_who_asked();
     void answer_reload();
     bool bus_has_let_go();
 
@@ -140,8 +139,8 @@ private:
     std::filesystem::path profiles_;
     Plant& plant_;
     BusLink& bus_;
-    io::DriverEnable& driver_;
-    std::chrono::nanoseconds driver_limit_; ///< no telegram takes so long
+    const DriverGuard& guard_;
+    std::uint64_t dropped_seen_ = 0; ///< of the guard, as said in the log
     io::Signals& signals_;
     Lamps lamps_;
     io::Epoll epoll_;

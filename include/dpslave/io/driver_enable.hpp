@@ -88,10 +88,13 @@ public:
     /// `limit`. True: it had been, and is not any more. Never waits for the thread that calls set().
     bool drop_if_stuck(Instant now, std::chrono::nanoseconds limit) noexcept;
 
-    /// For the log at start, after attach() and before the first set(): which way works, how long an edge
-    /// takes (the middle of several, measured without making the line active: the bus may be alive), and
-    /// which other ways the port could do.
-    std::string self_check();
+    /// At start, after attach() and before the first set(): whether the line can be switched, and how long an
+    /// edge takes (the middle of several, measured without making the line active: the bus may be alive). The
+    /// error is a sentence.
+    std::optional<std::string> self_check();
+    /// For the log, after self_check(): which way works, how long an edge takes, and which other ways the
+    /// port could do.
+    std::string in_words() const;
     /// Duration of an edge as self_check() measured it; 0 = not by hand, or not measured.
     std::chrono::nanoseconds edge_time() const noexcept;
     /// A sentence if the edge is slow at this rate: longer than two bit times of the eleven within which the
