@@ -5,14 +5,14 @@
 
 namespace dpslave::app {
 
-std::optional<Instant> BusSender::send(Bytes telegram, io::Tty& tty, Baud baud)
+Result<Instant, BusSender::Unsent> BusSender::send(Bytes telegram, io::Tty& tty, Baud baud)
 {
     const bool by_hand = driver_.by_hand();
-    if (by_hand && !make_active(tty)) return std::nullopt;
-    if (tty.send(telegram)) {
+    if (by_hand && !make_active(tty)) return Failure{Unsent::no_driver};
+    if (const std::error_code error = tty.send(telegram)) {
         ++write_errors_;
         if (by_hand) make_inactive(io::monotonic_now());
-        return std::nullopt;
+        return Failure{error == std::errc::no_buffer_space ? Unsent::not_taken : Unsent::port_gone};
     }
     const Instant written = io::monotonic_now();
     if (by_hand) transmission_.begin(telegram.size(), written, baud);

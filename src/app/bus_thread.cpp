@@ -219,10 +219,15 @@ void BusThread::send()
 {
     const auto reply = station_.take_transmit();
     if (!reply) return;
+    if (!port_.is_open()) {
+        ++unsent_;
+        return;
+    }
     const Baud baud = station_.baud();
-    const auto written = port_.is_open() ? sender_.send(*reply, port_.tty(), baud) : std::nullopt;
+    const auto written = sender_.send(*reply, port_.tty(), baud);
     if (!written) {
         ++unsent_;
+        if (written.error() == BusSender::Unsent::port_gone) lose_port();
         return;
     }
     const Tbit length{static_cast<std::uint32_t>(reply->size()) * kCharacter.count};

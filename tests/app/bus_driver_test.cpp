@@ -123,6 +123,29 @@ TEST_F(DriverEnableOfTheBus, ThatDoesNotWorkKeepsTheReplyBackUntilItWorksAgain)
     ask_status();
 }
 
+TEST(BusSender, TellsAPortThatHasGoneFromOneThatIsFull)
+{
+    io::Pty pty;
+    auto port = io::Tty::open(pty.path(), {.baud = 1'500'000});
+    ASSERT_TRUE(port) << port.error();
+    auto driver = io::DriverEnable::open({.direction = io::Direction::none});
+    ASSERT_TRUE(driver) << driver.error();
+    app::BusSender sender{*driver};
+    const Octets telegram(255, 0x00);
+
+    auto sent = sender.send(telegram, *port, Baud::k1500);
+    EXPECT_TRUE(sent);
+    for (int i = 0; i < 1000 && sent; ++i) sent = sender.send(telegram, *port, Baud::k1500); // nobody reads
+    ASSERT_FALSE(sent);
+    EXPECT_EQ(sent.error(), app::BusSender::Unsent::not_taken);
+
+    pty.hang_up();
+    sent = sender.send(telegram, *port, Baud::k1500);
+    ASSERT_FALSE(sent);
+    EXPECT_EQ(sent.error(), app::BusSender::Unsent::port_gone);
+    EXPECT_EQ(sender.write_errors(), 2u);
+}
+
 /// Nobody comes to let it go: the bus thread hangs, or the program is at its end.
 TEST_F(DriverEnableOfTheBus, IsLetGoByAThreadOfItsOwnAfterTwiceTheLongestTelegramAtTheRateOfTheBus)
 {

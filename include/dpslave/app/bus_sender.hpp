@@ -5,6 +5,7 @@
 #pragma once
 
 #include "dpslave/base/bytes.hpp"
+#include "dpslave/base/result.hpp"
 #include "dpslave/base/units.hpp"
 #include "dpslave/fdl/transmission.hpp"
 #include "dpslave/io/driver_enable.hpp"
@@ -24,8 +25,14 @@ public:
     /// `driver` outlives the sender.
     explicit BusSender(io::DriverEnable& driver) : driver_(driver) {}
 
-    /// The reply leaves now and whole. Gives the moment after the write; nothing: it was not sent (counted).
-    std::optional<Instant> send(Bytes telegram, io::Tty& tty, Baud baud);
+    /// Why a reply was not sent.
+    enum class Unsent : std::uint8_t {
+        no_driver, ///< the driver enable does not work
+        not_taken, ///< the port did not take it whole
+        port_gone, ///< nor will it take anything any more
+    };
+    /// The reply leaves now and whole. Gives the moment after the write.
+    Result<Instant, Unsent> send(Bytes telegram, io::Tty& tty, Baud baud);
 
     /// Whether the driver is active because of a reply that goes out.
     bool is_sending() const { return transmission_.is_running(); }
