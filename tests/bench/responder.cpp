@@ -61,9 +61,17 @@ bool pin(int cpu)
     return ::sched_setaffinity(0, sizeof set, &set) == 0;
 }
 
+std::chrono::nanoseconds now()
+{
+    timespec time{};
+    ::clock_gettime(CLOCK_MONOTONIC, &time);
+    return std::chrono::seconds{time.tv_sec} + std::chrono::nanoseconds{time.tv_nsec};
+}
+
 /// The child's whole life: as little as an answer can cost to somebody who also has deadlines to keep, as
-/// every slave has: wait for octets or the time, read, look at the length, write.
-[[noreturn]] void respond(const char* path, const Octets& reply, const Scheduling& scheduling)
+/// every slave has: wait for octets or the time, read, look at the length, wait for `min_tsdr`, write.
+[[noreturn]] void respond(const char* path, const Octets& reply, const Scheduling& scheduling,
+                          std::chrono::nanoseconds min_tsdr)
 {
     const int tty = ::open(path, O_RDWR | O_NOCTTY); // raw already; read() waits
     sched_param param{};
@@ -79,11 +87,14 @@ bool pin(int cpu)
         if (::ppoll(&waiting, 1, &heartbeat, nullptr) == 0) continue;
         const ssize_t got = ::read(tty, room.data() + have, room.size() - have);
         if (got <= 0) ::_exit(2);
+        const auto opens = now() + min_tsdr;
         have += static_cast<std::size_t>(got);
         if (have < 6 || have < room[1] + std::size_t{6}) continue;
         const bool whole =
             room[0] == 0x68 && room[1] == room[2] && room[3] == 0x68 && have == room[1] + std::size_t{6};
         have = 0;
+        while (min_tsdr.count() != 0 && now() < opens) {
+        }
         if (whole && ::write(tty, reply.data(), reply.size()) != static_cast<ssize_t>(reply.size()))
             ::_exit(3);
     }
@@ -196,10 +207,11 @@ std::chrono::nanoseconds cpu_of_thread(pid_t daemon, pid_t thread)
     return std::chrono::nanoseconds{ran};
 }
 
-Child start_null_responder(const std::string& path, const Octets& reply, const Scheduling& scheduling)
+Child start_null_responder(const std::string& path, const Octets& reply, const Scheduling& scheduling,
+                           std::chrono::nanoseconds min_tsdr)
 {
     const pid_t child = fork_child();
-    if (child == 0) respond(path.c_str(), reply, scheduling);
+    if (child == 0) respond(path.c_str(), reply, scheduling, min_tsdr);
     return Child{child};
 }
 

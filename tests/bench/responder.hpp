@@ -66,8 +66,9 @@ pid_t bus_thread_of(pid_t daemon);
 Scheduling scheduling_of(pid_t thread); ///< policy and priority
 std::chrono::nanoseconds cpu_of_thread(pid_t daemon, pid_t thread);
 
-/// A process that reads `path`, checks the SD2 length and writes `reply`: two system calls a telegram,
-/// nothing else.
-Child start_null_responder(const std::string& path, const Octets& reply, const Scheduling& scheduling);
+/// A process that reads `path`, checks the SD2 length and writes `reply`, not before `min_tsdr` after the
+/// read: two system calls a telegram, nothing else.
+Child start_null_responder(const std::string& path, const Octets& reply, const Scheduling& scheduling,
+                           std::chrono::nanoseconds min_tsdr);
 
 } // namespace dpslave::bench

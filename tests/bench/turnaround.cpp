@@ -43,6 +43,8 @@ constexpr auto kSlot = 50ms;
 /// MaxTsdr, in bit times, for a daemon that need not be fast (a debug build with sanitizers); no master takes
 /// more.
 constexpr unsigned kPatientTsdr = 1023;
+/// No station may answer earlier: 11 bit times at 1.5 Mbit/s (wire reference 1.3).
+const std::chrono::nanoseconds kMinTsdr = duration_of(Tbit{11}, Baud::k1500);
 /// Between two telegrams; the shortest pause of a master at 1.5 Mbit/s (T_ID1) is 25 us.
 constexpr auto kPause = 50us;
 
@@ -206,7 +208,7 @@ int measure(const Options& options, const std::filesystem::path& folder)
     const stand_in::ChipFile chip{folder / "gpiochip0"};
     const int cpu = reserve_cpu();
     ::prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL); // the pauses are short
-    Port bus, null_bus, second_bus, drive;
+    Port bus, null_bus, second_bus, hasty_bus, drive;
     Child daemon = start_daemon({.program = options.daemon,
                                  .profiles = options.profiles,
                                  .bus = bus.path(),
@@ -222,13 +224,15 @@ int measure(const Options& options, const std::filesystem::path& folder)
     scheduling.cpu = cpu;
 
     const Octets reply = data_exchange_reply(0x00);
-    Child null = start_null_responder(null_bus.path(), reply, scheduling);
-    Child second = start_null_responder(second_bus.path(), reply, scheduling);
+    Child null = start_null_responder(null_bus.path(), reply, scheduling, kMinTsdr);
+    Child second = start_null_responder(second_bus.path(), reply, scheduling, kMinTsdr);
+    Child hasty_one = start_null_responder(hasty_bus.path(), reply, scheduling, 0ns);
     Target base{.port = null_bus, .sample = {.name = "null responder"}};
     Target again{.port = second_bus, .sample = {.name = "null responder, a second one"}};
+    Target hasty{.port = hasty_bus, .sample = {.name = "hasty one, without min T_SDR"}};
 
-    const std::array<Target*, 3> targets{&board, &base, &again};
-    const std::array<const Child*, 3> processes{&daemon, &null, &second};
+    const std::array<Target*, 4> targets{&board, &base, &again, &hasty};
+    const std::array<const Child*, 4> processes{&daemon, &null, &second, &hasty_one};
     std::mt19937 random{options.seed};
     run(targets, std::min<std::size_t>(options.telegrams / 10, 1000), random,
         drive); // caches and queues warm up
@@ -252,12 +256,14 @@ int measure(const Options& options, const std::filesystem::path& folder)
     bus_only.cpu = thread_used;
     board.sample.name = "dpslaved, CPU of the whole process";
     print_header();
-    for (const Sample* sample : {&bus_only, &board.sample, &base.sample, &again.sample}) print(*sample);
+    for (const Sample* sample : {&bus_only, &board.sample, &base.sample, &again.sample, &hasty.sample})
+        print(*sample);
     std::printf("ratios\n");
     const Ratios found = ratios(bus_only, base.sample);
     print("bus thread / null", found);
     print("whole process / null", ratios(board.sample, base.sample));
     print("null / null (A/A)", ratios(again.sample, base.sample));
+    print("bus thread / hasty", ratios(bus_only, hasty.sample));
     if (gpio) check_driver_enable(chip, options.telegrams);
     if (options.quick) {
         std::printf("not judged: too few telegrams\n");
