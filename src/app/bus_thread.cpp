@@ -286,7 +286,10 @@ void BusThread::set_baud(Baud baud)
 {
     sender_.abort();
     link_.baud.store(baud, std::memory_order_relaxed);
-    if (const auto trouble = port_.set_baud(static_cast<std::uint32_t>(baud))) refuse_port(*trouble);
+    if (const auto trouble = port_.set_baud(static_cast<std::uint32_t>(baud))) {
+        tell(PortNews::gone);
+        refuse_port(*trouble);
+    }
 }
 
 /// Snapshots for the main thread, one station a round at most: what a telegram costs does not grow with their
@@ -359,13 +362,14 @@ void BusThread::let_go_of_port()
 
 void BusThread::tell_trouble()
 {
-    if (const auto why = port_.take_trouble()) tell(*why + "; it is tried again");
+    if (const auto why = port_.take_trouble())
+        tell({.is_warning = false, .text = *why + "; it is tried again"});
 }
 
-void BusThread::tell(std::string words)
+void BusThread::tell(PortWords words)
 {
-    auto told = std::make_unique<std::string>(std::move(words));
-    static_cast<void>(link_.port_trouble.offer(told)); // not read yet: the older one is as true
+    auto told = std::make_unique<PortWords>(std::move(words));
+    static_cast<void>(link_.port_words.offer(told)); // not read yet: the older one is as true
 }
 
 /// Nothing is sent through a port whose driver enable does not work: then it is as good as not there.
@@ -384,7 +388,7 @@ void BusThread::try_reopen(Instant now)
     tell(PortNews::back);
     std::string warnings;
     for (const std::string& one : port_.tty().warnings()) warnings += (warnings.empty() ? "" : ". ") + one;
-    if (!warnings.empty()) tell(port_.path() + ": " + warnings);
+    if (!warnings.empty()) tell({.is_warning = true, .text = port_.path() + ": " + warnings});
 }
 
 /// An edge of the driver enable that failed is told once, and the way back is tried for. So is the first time

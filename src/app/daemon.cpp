@@ -138,7 +138,7 @@ ExitStatus run_daemon(const Config& config, const std::filesystem::path& profile
         spdlog::critical("the bus thread hangs in a call of the system for {}: the program ends without it",
                          config.bus.port);
         plant.end(); // meanwhile the guard has the driver enable
-        spdlog::shutdown();
+        main_thread.go_dark();
         std::_Exit(static_cast<int>(ExitStatus::device_not_opened)); // what it uses cannot be taken away
     }
     static_cast<void>(driver->set(false, io::monotonic_now())); // also after a bus thread that had to give up

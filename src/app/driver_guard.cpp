@@ -5,6 +5,8 @@
 #include "dpslave/io/clock.hpp"
 #include "dpslave/io/realtime.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 
 namespace dpslave::app {
@@ -20,7 +22,8 @@ void DriverGuard::start(int bus_priority)
 void DriverGuard::watch(const std::stop_token& stop, int priority)
 {
     io::name_thread("guard");
-    static_cast<void>(io::enter_realtime(priority, -1)); // what is refused the bus thread says as well
+    for (const std::string& refused : io::enter_realtime(priority, -1))
+        spdlog::warn("guard of the driver enable: {}", refused);
     while (!stop.stop_requested()) {
         std::this_thread::sleep_for(kLook);
         const Baud baud = baud_.load(std::memory_order_relaxed);

@@ -81,12 +81,18 @@ void MainThread::show_posts()
     }
 }
 
+void MainThread::go_dark()
+{
+    lamps_ = Lamps{};
+    server_.reset();
+}
+
 std::optional<std::string> MainThread::open_socket()
 {
     // systemd makes this folder for the service; whoever starts the program by hand need not.
     std::error_code refused;
     const std::filesystem::path folder = config_.control.socket.parent_path();
-    std::filesystem::create_directories(folder, refused);
+    if (!folder.empty()) std::filesystem::create_directories(folder, refused);
     if (refused) return fmt::format("{}: the folder cannot be made: {}", folder.string(), refused.message());
     control::ServerSettings settings;
     settings.socket = config_.control.socket;
@@ -253,7 +259,8 @@ void MainThread::log_port_news()
             case PortNews::driver_back: spdlog::info("the driver enable of {} works again", port); break;
         }
     }
-    if (std::unique_ptr<std::string> why; bus_.port_trouble.take(why)) spdlog::error("{}", *why);
+    if (std::unique_ptr<PortWords> words; bus_.port_words.take(words))
+        spdlog::log(words->is_warning ? spdlog::level::warn : spdlog::level::err, "{}", words->text);
     if (const std::uint64_t dropped = guard_.dropped(); std::exchange(dropped_seen_, dropped) != dropped)
         spdlog::error("the driver enable of {} was active for longer than any telegram takes, and was made "
                       "inactive: the bus thread did not come to it in time",

@@ -5,6 +5,11 @@
 #include <utility>
 
 namespace dpslave::io {
+namespace {
+
+constexpr unsigned kMostDoublings = 3;
+
+} // namespace
 
 Result<Port, std::string> Port::open(std::string path, const TtySettings& settings,
                                      std::chrono::nanoseconds first_wait)
@@ -32,6 +37,7 @@ bool Port::ready(Instant now)
         return false;
     }
     tty_.emplace(*std::move(again));
+    opened_ = now;
     next_try_ = kNever;
     return true;
 }
@@ -40,7 +46,7 @@ void Port::lose(Instant now)
 {
     if (!tty_) return;
     tty_.reset();
-    failures_ = 0;
+    if (now - opened_ >= first_wait_ * (1U << kMostDoublings)) failures_ = 0; // it was of use in between
     trouble_.clear();
     trouble_is_new_ = false;
     wait(now);
@@ -68,7 +74,6 @@ void Port::note(std::string why)
 
 void Port::wait(Instant now)
 {
-    constexpr unsigned kMostDoublings = 3;
     next_try_ = now + first_wait_ * (1U << std::min(failures_, kMostDoublings));
     ++failures_;
 }

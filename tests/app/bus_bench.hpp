@@ -198,8 +198,9 @@ protected:
     /// Why the port stays closed; empty = the bus thread did not say it.
     std::string hears_trouble()
     {
-        std::unique_ptr<std::string> why;
-        return eventually([&] { return link.port_trouble.take(why); }) ? *why : "";
+        std::unique_ptr<app::PortWords> words;
+        const bool is_said = eventually([&] { return link.port_words.take(words); });
+        return is_said && !words->is_warning ? words->text : "";
     }
     virtual std::string port_path() { return pty.path(); }
 

@@ -174,6 +174,18 @@ TEST_F(LostPort, ThatCameBackBeginsItsWaitsAnew)
     EXPECT_EQ(port->next_try(), kStart + 60s + 500ms);
 }
 
+TEST_F(LostPort, ThatIsLostAgainAsSoonAsItIsOpenIsTriedLessAndLessOften)
+{
+    socket.plug();
+    Instant now = kStart;
+    for (const auto wait : {500ms, 1000ms, 2000ms, 4000ms, 4000ms}) {
+        ASSERT_EQ(port->next_try(), now + wait);
+        now = port->next_try();
+        ASSERT_TRUE(port->ready(now));
+        port->lose(now);
+    }
+}
+
 TEST_F(LostPort, LostTwiceIsLostOnce)
 {
     port->lose(kStart + 10s);

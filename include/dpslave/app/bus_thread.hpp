@@ -88,7 +88,7 @@ private:
     void refuse_port(const std::string& why);
     void let_go_of_port();
     void tell_trouble();
-    void tell(std::string words);
+    void tell(PortWords words);
     void try_reopen(Instant now);
     void mind_driver(Instant now);
 

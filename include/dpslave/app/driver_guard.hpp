@@ -22,8 +22,8 @@ public:
     DriverGuard(io::DriverEnable& driver, const std::atomic<Baud>& baud) : driver_(driver), baud_(baud) {}
 
     /// At work until the end of the object, where the driver is switched by hand at all. `bus_priority`: of
-    /// the bus thread, 0..99; the guard has one more, so that one that spins does not keep it off the
-    /// processor.
+    /// the bus thread, 0..99; the guard has one more, or as much if that is 99, so that one that spins
+    /// does not keep it off the processor.
     void start(int bus_priority);
 
     /// How often it had to let the driver go. Any thread may ask.

@@ -85,6 +85,12 @@ enum class PortNews : std::uint8_t {
     driver_guarded, ///< only the guard made it inactive; told once until the port is opened again
 };
 
+/// A sentence about the port, with its path, each reason once.
+struct PortWords {
+    bool is_warning = false; ///< else the port is closed
+    std::string text;
+};
+
 /// The bus as a whole, bus -> main.
 struct BusSnapshot {
     Baud baud = Baud::k9_6;
@@ -117,9 +123,8 @@ struct BusLink {
     /// The stations from now on, main -> bus, and back what is no longer on the bus.
     Handover<Roster> roster;
     Ring<PortNews, 8> port_news; ///< bus -> main
-    /// Why the port is closed and stays so, or what it cannot do since it is open again, bus -> main: a
-    /// sentence with its path, each reason once.
-    Handover<std::string> port_trouble;
+    /// Why the port is closed and stays so, or what it cannot do since it is open again, bus -> main.
+    Handover<PortWords> port_words;
     std::atomic<Baud> baud{Baud::k9_6}; ///< the rate of replies, bus -> guard of the driver enable
     std::atomic<bool> ended{false};     ///< the bus thread has said its last word
 };

@@ -32,6 +32,9 @@ public:
     MainThread(Config config, std::filesystem::path profiles, Plant& plant, BusLink& bus,
                const DriverGuard& guard, io::Signals& signals);
 
+    /// For an end without the end of this object: no lamp is lit and no socket is there any more.
+    void go_dark();
+
     /// Opens the control socket. The reason of a failure is a sentence.
     std::optional<std::string> open_socket();
 

@@ -31,7 +31,8 @@ public:
     /// opened. The waits are the first one, twice, four and then always eight times it: 0.5, 1, 2, 4, 4 ...
     /// s. It may block as long as open(2) does, and allocates.
     bool ready(Instant now);
-    /// Closes it: its owner saw that it has gone. The waits begin anew.
+    /// Closes it: its owner saw that it has gone. The waits begin anew if it was open for as long as the
+    /// longest of them.
     void lose(Instant now);
     /// Closes it: it can be opened, and is of no use for the reason `why`, a sentence with the path. The
     /// waits go on to grow.
@@ -55,6 +56,7 @@ private:
     std::chrono::nanoseconds first_wait_;
     std::optional<Tty> tty_;
     Instant next_try_{}; ///< at once
+    Instant opened_{};
     unsigned failures_ = 0;
     std::string trouble_; ///< the newest; empty = none since the port was lost
     bool trouble_is_new_ = false;

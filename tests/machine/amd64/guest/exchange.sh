@@ -23,7 +23,7 @@ ask_monitor() { # COMMAND...
         printf '%s\n' "$@" >&8
         timeout 2 cat <&8 | tee "$bench/monitor.log" || true
         exec 8>&-
-        [ "$(grep -c '"return"' "$bench/monitor.log")" -lt $# ] || return 0
+        [ "$(grep -c '"return"' "$bench/monitor.log")" -le $# ] || return 0 # one is that of qmp_capabilities
     done
     fail "qemu did not do it in $attempt attempts: $*"
 }
