@@ -71,6 +71,16 @@ std::string cannot(int fd, Direction direction, const std::string& why)
            "); it can do: " + other_ways(fd, direction);
 }
 
+std::string cannot_switch(const DriverEnableSettings& settings, const std::error_code& error)
+{
+    const std::string how = error.message();
+    if (settings.direction != Direction::gpio)
+        return "driver enable: RTS cannot be switched (" + how + "): choose another way, [bus] direction";
+    return "driver enable: line " + std::to_string(settings.gpio_line) + " of GPIO chip " +
+           settings.gpio_chip + " cannot be switched (" + how +
+           "): look at the chip and its bus, or choose another line";
+}
+
 std::string microseconds(std::chrono::nanoseconds time)
 {
     std::array<char, 32> text{};
@@ -213,20 +223,6 @@ std::optional<std::string> DriverEnable::Held::attach_kernel(int fd)
         return cannot(fd, Direction::kernel, "read back after TIOCSRS485, " + wrong);
     return std::nullopt;
 }
-
-namespace {
-
-std::string cannot_switch(const DriverEnableSettings& settings, const std::error_code& error)
-{
-    const std::string how = error.message();
-    if (settings.direction != Direction::gpio)
-        return "driver enable: RTS cannot be switched (" + how + "): choose another way, [bus] direction";
-    return "driver enable: line " + std::to_string(settings.gpio_line) + " of GPIO chip " +
-           settings.gpio_chip + " cannot be switched (" + how +
-           "): look at the chip and its bus, or choose another line";
-}
-
-} // namespace
 
 DriverEnable::DriverEnable(std::unique_ptr<Held> held) : held_(std::move(held)) {}
 DriverEnable::DriverEnable(DriverEnable&&) noexcept = default;

@@ -69,6 +69,20 @@ protected:
         port->lose(kStart);
     }
 
+    /// It can be opened each time, and `give_up(now, is_first)` closes it at once.
+    template <class GiveUp>
+    void is_tried_less_and_less_often(GiveUp give_up)
+    {
+        socket.plug();
+        Instant now = kStart;
+        for (const auto wait : {500ms, 1000ms, 2000ms, 4000ms, 4000ms}) {
+            ASSERT_EQ(port->next_try(), now + wait);
+            now = port->next_try();
+            ASSERT_TRUE(port->ready(now));
+            give_up(now, wait == 500ms);
+        }
+    }
+
     Socket socket;
     std::optional<Port> port;
 };
@@ -135,16 +149,11 @@ TEST_F(LostPort, SaysEachReasonOnceWhyItCannotBeOpenedAgain)
 
 TEST_F(LostPort, ThatIsRefusedOnceItIsOpenIsTriedLessAndLessOften)
 {
-    socket.plug();
-    Instant now = kStart;
-    for (const auto wait : {500ms, 1000ms, 2000ms, 4000ms, 4000ms}) {
-        ASSERT_EQ(port->next_try(), now + wait);
-        now = port->next_try();
-        ASSERT_TRUE(port->ready(now));
+    is_tried_less_and_less_often([this](Instant now, bool is_first) {
         port->refuse(now, "its driver enable does not work");
         EXPECT_FALSE(port->is_open());
-        EXPECT_EQ(port->take_trouble().has_value(), wait == 500ms);
-    }
+        EXPECT_EQ(port->take_trouble().has_value(), is_first);
+    });
     ASSERT_TRUE(port->ready(port->next_try()));
     port->lose(kStart + 60s);
 
@@ -176,14 +185,7 @@ TEST_F(LostPort, ThatCameBackBeginsItsWaitsAnew)
 
 TEST_F(LostPort, ThatIsLostAgainAsSoonAsItIsOpenIsTriedLessAndLessOften)
 {
-    socket.plug();
-    Instant now = kStart;
-    for (const auto wait : {500ms, 1000ms, 2000ms, 4000ms, 4000ms}) {
-        ASSERT_EQ(port->next_try(), now + wait);
-        now = port->next_try();
-        ASSERT_TRUE(port->ready(now));
-        port->lose(now);
-    }
+    is_tried_less_and_less_often([this](Instant now, bool) { port->lose(now); });
 }
 
 TEST_F(LostPort, LostTwiceIsLostOnce)

@@ -50,6 +50,8 @@ private:
     /// While a driver is to be let go within this time nothing longer is begun.
     static constexpr std::chrono::microseconds kHurry{200};
     static constexpr std::size_t kPlaces = 128;
+    /// Who has something to say, in the epoll.
+    static constexpr std::uint64_t kTtyKey = 0, kWakeKey = 1, kTickKey = 2;
 
     /// Where a station is held, so that it keeps its place while others come and go.
     struct Place {
