@@ -354,6 +354,33 @@ void Table::refuse(std::string_view key, std::string what)
     document_->fault(place_of(key), std::move(what));
 }
 
+namespace {
+
+/// The line `number` (from 1) of `content`; empty where there is none.
+std::string_view line_of(std::string_view content, unsigned number)
+{
+    for (unsigned i = 1; i < number; ++i) {
+        const auto end = content.find('\n');
+        if (end == std::string_view::npos) return {};
+        content.remove_prefix(end + 1);
+    }
+    return content.substr(0, content.find('\n'));
+}
+
+/// The pages write an Ident_Number that no source states as 0x.... : whoever copies that is told what to put there.
+std::string what_is_wrong(std::string_view content, Place place, std::string_view description)
+{
+    const std::string_view line = line_of(content, place.line);
+    const auto key = line.find_first_not_of(" \t");
+    if (key != std::string_view::npos && line.substr(key).starts_with("ident") &&
+        line.find("0x.") != std::string_view::npos)
+        return "put your Ident_Number here, for example 0x1649. It stands in the GSD file of the PLC project "
+               "(Ident_Number).";
+    return "this is no TOML: " + std::string{description} + ".";
+}
+
+} // namespace
+
 Document::Document(const std::filesystem::path& file) : name_(file.string()), root_(std::make_unique<Node>())
 {
     root_->title = "[]";
@@ -368,8 +395,8 @@ Document::Document(const std::filesystem::path& file) : name_(file.string()), ro
         readable_ = true;
     } catch (const toml::parse_error& error) {
         const Place place = profile::place_of(error.source());
-        fault(place, "this is no TOML: " + std::string{error.description()} +
-                         ". Mend it first: what stands behind it was not judged.");
+        fault(place, what_is_wrong(*content, place, error.description()) +
+                         " Mend it first: what stands behind it was not judged.");
     }
 }
 

@@ -209,6 +209,14 @@ TEST_F(ConfigFile, two_stations_may_share_bus_line_profile_and_table)
     EXPECT_EQ(config.stations[1].unit, (drive::UnitAddress{0, 1}));
 }
 
+TEST_F(ConfigFile, no_rate_above_1500000_is_served)
+{
+    for (const char* const rate : {"3000000", "6000000", "12000000"})
+        EXPECT_THAT(short_forms(bad(with(kGood, "baud = 187500", std::string{"baud = "} + rate))),
+                    ElementsAre(HasSubstr("no rate that is served")))
+            << rate;
+}
+
 TEST_F(ConfigFile, baud_is_auto_or_one_of_the_seven_rates)
 {
     EXPECT_EQ(good(with(kGood, "baud = 187500", "baud = \"auto\"")).bus.baud, std::nullopt);
@@ -279,6 +287,12 @@ TEST_F(ConfigFile, without_direction_chip_and_line_of_the_gpio_are_asked_for_wit
                                   HasSubstr("`gpioinfo`"), HasSubstr("direction = \"none\"")),
                             AllOf(StartsWith("1:1: 'gpio_line' is missing in [bus]: add gpio_line = "),
                                   HasSubstr("`gpioinfo`"))));
+}
+
+TEST_F(ConfigFile, an_ident_copied_from_a_page_with_its_dots_is_refused_with_what_to_put_there)
+{
+    EXPECT_THAT(short_forms(bad(with(kGood, "profile = \"590\"", "profile = \"590\"\nident = 0x...."))),
+                ElementsAre(HasSubstr("put your Ident_Number here")));
 }
 
 class BadConfigFile : public ConfigFile, public testing::WithParamInterface<BadChange> {};
