@@ -126,6 +126,7 @@ std::string_view text(AccessError error) noexcept
     switch (error) {
         case AccessError::none: return "done";
         case AccessError::no_answer: return "the drive does not answer";
+        case AccessError::deferred: return "an earlier answer of the drive is still awaited";
         case AccessError::not_understood: return "the drive did not understand the request";
         case AccessError::invalid_tag: return "invalid tag";
         case AccessError::read_only: return "read only";

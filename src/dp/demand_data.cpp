@@ -39,6 +39,7 @@ std::optional<std::uint16_t> demand_code(AccessError error) noexcept
     switch (error) {
         case AccessError::none:
         case AccessError::no_answer:
+        case AccessError::deferred:
         case AccessError::not_understood: return std::nullopt;
         case AccessError::invalid_tag:
         case AccessError::unsupported_type: return kInvalidTag;

@@ -9,7 +9,8 @@ WordState state_of(AccessError error)
 {
     switch (error) {
         case AccessError::none: return WordState::good;
-        case AccessError::no_answer: return WordState::stale;
+        case AccessError::no_answer:
+        case AccessError::deferred: return WordState::stale;
         case AccessError::invalid_tag: return WordState::invalid_tag;
         case AccessError::read_only: return WordState::read_only;
         case AccessError::out_of_range:

@@ -69,6 +69,9 @@ struct InputImage {
 enum class AccessError : std::uint8_t {
     none,
     no_answer,      ///< the drive is silent; no code of Demand Data stands for it
+    /// Not asked, or not proven: what the line still owes stands between. It is asked again in a later round;
+    /// neither silence nor refusal. The poller keeps it to itself.
+    deferred,
     not_understood, ///< the drive answers but cannot take the request: noise, wrong format; no code either
     invalid_tag,
     read_only,

@@ -5,6 +5,7 @@
 
 #include "dpslave/drive/backend.hpp"
 #include "dpslave/drive/ei_ascii.hpp"
+#include "dpslave/drive/line_rules.hpp"
 #include "dpslave/drive/serial_line.hpp"
 
 #include <chrono>
@@ -27,6 +28,7 @@ struct EiTiming {
     std::uint32_t baud = 9600; ///< bit/s; ten bits a character
     std::chrono::milliseconds timeout{
         200}; ///< from the end of the request to the first character of the answer
+    LineRules rules{};
 };
 
 class EiAsciiClient final : public Backend {

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The Modbus RTU master on one line with one or several drives. One attempt per call: the poller repeats.
+/// Pure: frames and times come from a FrameLine.
+/// Tag = register, no offset (rows C-128), unless its row names another register; words travel as the drive
+/// has them, only those of the IEEE area are converted. Source: EI-ASCII and Modbus reference, sections 4 to
+/// 6; MODBUS Application Protocol V1.1b3.
+#pragma once
+
+#include "dpslave/drive/backend.hpp"
+#include "dpslave/drive/line_rules.hpp"
+#include "dpslave/modbus/frame_line.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace dpslave::modbus {
+
+/// One drive of the line and what it has beyond functions 3, 6 and 16 (profile: modbus_functions).
+struct ModbusUnit {
+    std::uint8_t unit = 1;     ///< 1..247
+    bool reads_by_4 = false;   ///< function 4 reads what function 3 reads
+    bool has_loopback = false; ///< function 8, sub code 0
+};
+
+struct ClientSettings {
+    std::uint32_t baud = 9600;
+    int bits_of_a_character = 10; ///< from the start bit to the last stop bit
+    /// From the end of a request until its answer has to be there, the time of its characters on the line not
+    /// counted.
+    std::chrono::milliseconds timeout{600};
+    drive::LineRules rules;
+    std::vector<ModbusUnit> units; ///< one that is not among them has functions 3, 6 and 16 only
+};
+
+class ModbusClient final : public drive::Backend {
+public:
+    /// `line` outlives the client.
+    ModbusClient(FrameLine& line, ClientSettings settings);
+    ~ModbusClient() override;
+    /// The drives from now on.
+    void set_units(std::vector<ModbusUnit> units);
+
+    /// As many registers as every frame of 256 octets holds, and gaps as long as reading over them is cheaper
+    /// than a request of its own at this rate.
+    static drive::BlockRule block_rule(std::uint32_t baud, int bits_of_a_character);
+    drive::BlockRule block_rule() const override;
+
+    /// Function 3, or 4. A number of the IEEE area is scaled by the row's decimals and rounded to nearest,
+    /// ties away from zero.
+    AccessError read(drive::UnitAddress unit, const drive::Tag& tag, std::span<std::uint16_t> words) override;
+
+    /// One word: function 6, whose answer is sure. Several words and the IEEE area, which refuses function 6:
+    /// function 16; there the drive may accept a register that it does not have, and drop the value in
+    /// silence.
+    AccessError write(drive::UnitAddress unit, const drive::Tag& tag,
+                      std::span<const std::uint16_t> words) override;
+
+    /// Any valid frame of this unit counts, an exception as well.
+    bool probe(drive::UnitAddress unit) override;
+
+    std::string last_trouble() const override; ///< "exception 2 (illegal data address)"
+
+private:
+    class Exchange;
+    std::unique_ptr<Exchange> exchange_;
+};
+
+} // namespace dpslave::modbus
