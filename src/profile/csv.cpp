@@ -166,4 +166,14 @@ std::vector<Row> read_csv(std::string_view content, const std::string& file, Fau
     return Reader{content, file, faults}.rows();
 }
 
+std::string csv_cell(std::string_view text)
+{
+    const bool is_plain = text.find_first_of(",\"\r\n") == std::string_view::npos && !text.starts_with(' ') &&
+                          !text.ends_with(' ');
+    if (is_plain) return std::string{text};
+    std::string out = "\"";
+    for (const char c : text) out += c == '"' ? std::string{"\"\""} : std::string{c};
+    return out + '"';
+}
+
 } // namespace dpslave::profile

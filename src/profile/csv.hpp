@@ -27,4 +27,7 @@ struct Row {
 /// `faults`.
 std::vector<Row> read_csv(std::string_view content, const std::string& file, Faults& faults);
 
+/// `text` as a cell: in quotes where it needs them.
+std::string csv_cell(std::string_view text);
+
 } // namespace dpslave::profile

@@ -141,7 +141,12 @@ Result<drive::TagTable, Faults> load_tags(const std::filesystem::path& file)
 {
     auto content = read_text_file(file);
     if (!content) return Failure{Faults{content.error()}};
-    return TableReader{file.string()}.read(*content);
+    return read_tags(*content, file.string());
+}
+
+Result<drive::TagTable, Faults> read_tags(std::string_view content, const std::string& file)
+{
+    return TableReader{file}.read(content);
 }
 
 } // namespace dpslave::profile

@@ -93,6 +93,8 @@ Result<Profile, Faults> load_profile(const std::filesystem::path& folder, const 
 
 /// Reads a tag table.
 Result<drive::TagTable, Faults> load_tags(const std::filesystem::path& file);
+/// The same of its text; `file` is for the faults.
+Result<drive::TagTable, Faults> read_tags(std::string_view content, const std::string& file);
 
 /// The names for which `folder` holds a profile, sorted: for messages.
 std::vector<std::string> profile_names(const std::filesystem::path& folder);

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+/// From the answers of a drive to a tag table: what a survey saw of each tag, its record as a file, which tag
+/// is asked next, how long that takes, and the rows of the table. Pure: texts and times in, texts out.
+#pragma once
+
+#include "dpslave/base/result.hpp"
+#include "dpslave/profile/fault.hpp"
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace dpslave::profile {
+
+/// Tags from `first` to `last`, both included.
+struct TagSpan {
+    std::uint16_t first = 0, last = 0;
+    friend bool operator==(const TagSpan&, const TagSpan&) = default;
+};
+/// "1-600,1000-1127,7" in ascending order, what touches or overlaps joined. The error is a sentence.
+Result<std::vector<TagSpan>, std::string> parse_tag_spans(std::string_view text);
+/// The same back: "1-600, 1000". `tags`: ascending.
+std::string spans_text(std::span<const std::uint16_t> tags);
+
+/// "90s", "10m", "2h"; a number alone is seconds. Nothing: it is no such time, 0, or more than 30 days.
+std::optional<std::chrono::seconds> parse_duration(std::string_view text);
+
+/// What came of one survey read.
+struct SurveyAnswer {
+    enum class Kind : std::uint8_t {
+        text,    ///< EI-ASCII: what lies between mnemonic and ETX
+        word,    ///< Modbus: the 16 bits, there is no text
+        denied,  ///< the drive said no; `text` says why
+        silence, ///< no answer to this read, which may be the line
+    };
+    Kind kind = Kind::silence;
+    std::string text;
+    std::uint16_t word = 0;
+};
+
+/// How a tag answered.
+enum class SurveyForm : std::uint8_t {
+    none,        ///< it never did
+    number,      ///< "-12.5", "30."
+    hexadecimal, ///< ">1B0B"
+    other,       ///< a text
+    mixed,       ///< more than one of these: no row can be made
+    word,        ///< Modbus: 16 bits of which nothing more is known
+};
+std::string_view text(SurveyForm form) noexcept;
+
+/// A decimal number as it stands in an answer: 12.50 is 1250 with 2 decimals.
+struct SeenNumber {
+    std::int64_t counts = 0;
+    unsigned decimals = 0;
+};
+std::string text(SeenNumber number);
+
+/// All that was seen of one tag.
+struct Sighting {
+    std::string mnemonic; ///< that it was asked by; empty with Modbus
+    std::uint32_t answers = 0;
+    std::uint32_t silences = 0;
+    std::uint32_t denials = 0;
+    SurveyForm form = SurveyForm::none;
+    unsigned digits = 0; ///< hexadecimal: most digits of an answer
+    unsigned decimals =
+        0; ///< number: most decimals of an answer. The drive leaves out zeros, so a lower bound
+    SeenNumber lowest, highest; ///< of number, hexadecimal and word
+    std::string last;           ///< the last answer
+    std::string denied;         ///< why, the last time; empty: never
+
+    std::uint32_t asked() const { return answers + silences + denials; }
+    void add(const SurveyAnswer& answer);
+};
+
+/// What a survey saw, by tag.
+using Survey = std::map<std::uint16_t, Sighting>;
+
+/// The record of a survey as a CSV file, from which it can go on.
+std::string record_text(const Survey& survey);
+Result<Survey, Faults> read_record(std::string_view content, const std::string& file);
+
+/// Which tag is asked next: of those that are still wanted the one that was asked least, ascending. A tag
+/// that was only ever denied is asked once; one that never answered three times, for a silence may be the
+/// line.
+class SurveyPlan {
+public:
+    /// `tags`: ascending. `passes`: how often each tag is to be asked; 0 = without end.
+    SurveyPlan(std::vector<TagSpan> tags, std::uint32_t passes) : spans_(std::move(tags)), passes_(passes) {}
+
+    /// The next tag after what `seen` has by now; nothing: the survey is over.
+    std::optional<std::uint16_t> next(const Survey& seen);
+    /// Reads that are left, where there is an end to the passes: of tags that were not asked yet as many as
+    /// the others took on the average.
+    std::size_t left(const Survey& seen) const;
+    std::size_t tags() const;                      ///< that there are to ask
+    std::size_t visited(const Survey& seen) const; ///< asked at least once
+
+private:
+    bool is_wanted(const Sighting& one) const;
+
+    std::vector<TagSpan> spans_;
+    std::uint32_t passes_;
+    std::vector<std::uint16_t> round_; ///< tags that were asked equally often, and less than any other
+    std::size_t at_ = 0;
+};
+
+/// How fast a survey goes, by its last reads.
+class SurveyPace {
+public:
+    void took(std::chrono::nanoseconds one);
+    /// How long `reads` more will take at the pace of the last 64 reads; nothing before the eighth.
+    std::optional<std::chrono::seconds> time_for(std::size_t reads) const;
+
+private:
+    static constexpr std::size_t kWindow = 64, kEnough = 8;
+    std::array<std::chrono::nanoseconds, kWindow> window_{};
+    std::size_t count_ = 0;
+};
+
+/// A tag table after a survey.
+struct SurveyedTable {
+    std::string text;                        ///< the CSV file as a whole
+    std::vector<std::uint16_t> added;        ///< tags with a new row
+    std::vector<std::uint16_t> waiting;      ///< rows with confirmed = no, the new ones among them
+    std::vector<std::string> contradictions; ///< what the drive answered against a row, a sentence each
+};
+
+/// Joins what was seen with `table`, the text of a tag table; empty = there is none yet. New rows have
+/// confirmed = no; rows with confirmed = no are widened (more decimals, further extremes) and keep what a
+/// person wrote into their other cells; every other row stays as it is, octet by octet, but for the cells of
+/// new columns. Faults: `table` is no tag table.
+Result<SurveyedTable, Faults> merge_survey(std::string_view table, const std::string& file,
+                                           const Survey& seen);
+
+} // namespace dpslave::profile

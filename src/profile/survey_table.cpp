@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+// From what a survey saw to the rows of a tag table.
+#include "csv.hpp"
+#include "survey_row.hpp"
+
+#include "dpslave/profile/profile.hpp"
+#include "dpslave/profile/survey.hpp"
+
+#include <algorithm>
+
+namespace dpslave::profile {
+namespace {
+
+constexpr std::string_view kNewTable =
+    "tag,name,type,decimals,min,max,access,mnemonic,values,section,notes,confirmed,seen_min,seen_max";
+
+/// A table as text that can be told row by row: what is not touched stays as it was written.
+class TableText {
+public:
+    TableText(std::string_view table, const std::string& file, Faults& faults)
+        : rows_(read_csv(table, file, faults)),
+          end_of_line_(table.find("\r\n") < table.find('\n') ? "\r\n" : "\n")
+    {
+        if (!faults.empty() || rows_.empty()) return;
+        for (const Cell& cell : rows_.front().cells) columns_.push_back(cell.text);
+        std::vector<std::size_t> lines{0};
+        for (std::size_t i = 0; i < table.size(); ++i)
+            if (table[i] == '\n') lines.push_back(i + 1);
+        for (std::size_t i = 0; i < rows_.size(); ++i) {
+            const std::size_t from = lines[rows_[i].line - 1];
+            const std::size_t to = i + 1 < rows_.size() ? lines[rows_[i + 1].line - 1] : table.size();
+            std::string_view slice = table.substr(from, to - from);
+            while (slice.ends_with('\n') || slice.ends_with('\r')) slice.remove_suffix(1);
+            written_.emplace_back(slice);
+        }
+    }
+
+    std::size_t rows() const { return rows_.size(); }
+    unsigned line(std::size_t row) const { return rows_[row].line; }
+    std::string_view cell(std::size_t row, std::string_view column) const
+    {
+        const auto found = std::find(columns_.begin(), columns_.end(), column);
+        const auto index = static_cast<std::size_t>(found - columns_.begin());
+        return index < rows_[row].cells.size() ? std::string_view{rows_[row].cells[index].text}
+                                               : std::string_view{};
+    }
+
+    /// Adds the column at the end, if there is none.
+    void need(std::string_view column)
+    {
+        if (std::find(columns_.begin(), columns_.end(), column) != columns_.end()) return;
+        columns_.emplace_back(column);
+        for (std::size_t i = 0; i < written_.size(); ++i)
+            written_[i] += ',' + (i == 0 ? std::string{column} : std::string{});
+        rows_.front().cells.push_back({std::string{column}, 0, 0});
+    }
+
+    void add(const Cells& cells) { written_.push_back(line_of(cells)); }
+    void replace(std::size_t row, const Cells& changed)
+    {
+        Cells cells;
+        for (std::size_t i = 0; i < rows_[row].cells.size(); ++i)
+            cells[columns_[i]] = rows_[row].cells[i].text;
+        for (const auto& [column, text] : changed) cells[column] = text;
+        written_[row] = line_of(cells);
+    }
+
+    std::string text() const
+    {
+        std::string all;
+        for (const std::string& row : written_) all += row + end_of_line_;
+        return all;
+    }
+
+private:
+    std::string line_of(const Cells& cells) const
+    {
+        std::string line;
+        for (std::size_t i = 0; i < columns_.size(); ++i) {
+            const auto found = cells.find(columns_[i]);
+            line += (i > 0 ? "," : "") + (found == cells.end() ? std::string{} : csv_cell(found->second));
+        }
+        return line;
+    }
+
+    std::vector<Row> rows_;
+    std::vector<std::string> columns_;
+    std::vector<std::string> written_; ///< by row, without its end
+    std::string end_of_line_;
+};
+
+/// The row of each tag: the first one that says more than a name.
+std::map<std::uint16_t, std::size_t> rows_by_tag(const TableText& table)
+{
+    std::map<std::uint16_t, std::size_t> rows;
+    for (std::size_t i = 1; i < table.rows(); ++i) {
+        const auto tag = static_cast<std::uint16_t>(std::stoul(std::string{table.cell(i, "tag")}));
+        const auto [known, is_new] = rows.try_emplace(tag, i);
+        if (!is_new && table.cell(known->second, "type").empty() && !table.cell(i, "type").empty())
+            known->second = i;
+    }
+    return rows;
+}
+
+bool waits(const TableText& table, std::size_t row)
+{
+    return table.cell(row, "confirmed") == "no";
+}
+
+class Merger {
+public:
+    Merger(TableText table, const drive::TagTable& tags) : table_(std::move(table)), tags_(tags) {}
+
+    SurveyedTable merge(const Survey& seen)
+    {
+        const auto rows = rows_by_tag(table_);
+        for (std::size_t i = 1; i < table_.rows(); ++i)
+            if (waits(table_, i))
+                waiting_.push_back(
+                    static_cast<std::uint16_t>(std::stoul(std::string{table_.cell(i, "tag")})));
+        for (const auto& [tag, one] : seen) {
+            const auto found = rows.find(tag);
+            if (found == rows.end())
+                add(tag, one);
+            else if (waits(table_, found->second))
+                widen(found->second, tag, one);
+            else
+                compare(found->second, tag, one);
+        }
+        std::sort(waiting_.begin(), waiting_.end());
+        waiting_.erase(std::unique(waiting_.begin(), waiting_.end()), waiting_.end());
+        return {table_.text(), std::move(added_), std::move(waiting_), std::move(contradictions_)};
+    }
+
+private:
+    void need_columns()
+    {
+        for (const std::string_view column :
+             {"type", "decimals", "min", "max", "mnemonic", "notes", "confirmed", "seen_min", "seen_max"})
+            table_.need(column);
+    }
+
+    void add(std::uint16_t tag, const Sighting& one)
+    {
+        if (const auto why = no_row_for(one))
+            contradictions_.push_back("tag " + std::to_string(tag) + ": " + *why);
+        if (one.answers == 0 || no_row_for(one)) return;
+        need_columns();
+        Cells cells = new_row(one);
+        cells["tag"] = std::to_string(tag);
+        table_.add(cells);
+        added_.push_back(tag);
+        waiting_.push_back(tag);
+    }
+
+    void widen(std::size_t row, std::uint16_t tag, const Sighting& one)
+    {
+        if (const auto why = no_row_for(one)) {
+            contradictions_.push_back(place(row, tag) + *why);
+            return;
+        }
+        if (one.answers == 0) return;
+        need_columns();
+        Cells cells;
+        for (const std::string_view column : kSurveyColumns)
+            cells[std::string{column}] = table_.cell(row, column);
+        const Cells before = cells;
+        widen_row(cells, one);
+        if (cells != before) table_.replace(row, cells);
+    }
+
+    void compare(std::size_t row, std::uint16_t tag, const Sighting& one)
+    {
+        const bool has_decimals = !table_.cell(row, "decimals").empty();
+        for (const std::string& what : against(*tags_.find(tag), has_decimals, one))
+            contradictions_.push_back(place(row, tag) + what);
+    }
+
+    std::string place(std::size_t row, std::uint16_t tag) const
+    {
+        const std::string name{table_.cell(row, "name")};
+        return "tag " + std::to_string(tag) + (name.empty() ? "" : " (" + name + ")") + ", line " +
+               std::to_string(table_.line(row)) + ": ";
+    }
+
+    TableText table_;
+    const drive::TagTable& tags_;
+    std::vector<std::uint16_t> added_, waiting_;
+    std::vector<std::string> contradictions_;
+};
+
+} // namespace
+
+Result<SurveyedTable, Faults> merge_survey(std::string_view table, const std::string& file,
+                                           const Survey& seen)
+{
+    if (table.empty()) table = kNewTable;
+    const auto tags = read_tags(table, file);
+    if (!tags) return Failure{tags.error()};
+    Faults faults;
+    TableText text{table, file, faults};
+    return Merger{std::move(text), *tags}.merge(seen);
+}
+
+} // namespace dpslave::profile
