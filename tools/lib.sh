@@ -40,6 +40,23 @@ install_missing() {
         die "apt-get could not install ${missing[*]}"
 }
 
+# The tests that needed their second try, by name: from what a ctest with --repeat until-pass printed (stdin). The
+# first try stands there as "3/9 Test #5: NAME", a further one as "Test #5: NAME".
+second_tries() {
+    sed -nE 's/^ +Test +#[0-9]+: ([^ ]+) \.+ +Passed +.*$/\1/p'
+}
+
+# Says which tests needed their second try (in the file $1, one a line); fails with more than two of them, for a race
+# that is tried away is still one.
+judge_second_tries() {
+    local most=2 count
+    count=$(wc -l <"$1")
+    [ "$count" -eq 0 ] && return 0
+    say "Needed a second try: $count"
+    sed 's/^/    /' "$1"
+    [ "$count" -le $most ] || die "more than $most tests needed a second try: look for the race in each"
+}
+
 # Configures and builds one preset; further words are targets.
 build() {
     local preset=$1
