@@ -45,6 +45,14 @@ RefusalDetail check_chk_cfg(const Personality& personality, std::span<const std:
 
     taken.demand = personality.demand_identifier != 0 && cfg[0] == personality.demand_identifier;
     const std::size_t first = taken.demand ? 1 : 0;
+    const std::size_t most = std::min(personality.max_parameters, kMaxParameters);
+    const std::size_t longest = most + (personality.demand_identifier != 0 ? 1 : 0);
+    if (cfg.size() > longest) // whatever they are (B-085)
+        return refuse(Refusal::cfg_too_long, first + most + 1, first + most, cfg.size());
+    for (std::size_t i = first; i < cfg.size(); ++i)
+        if (find(personality, cfg[i]) == nullptr)
+            return refuse(Refusal::cfg_identifier, i + 1, a_legal_one(personality), cfg[i]);
+
     if (taken.demand) taken.in_length = taken.out_length = kDemandOctets;
 
     // Demand Data is in both lengths: its 8 words count as well.
@@ -55,19 +63,16 @@ RefusalDetail check_chk_cfg(const Personality& personality, std::span<const std:
     };
     if (!fits({})) return refuse(Refusal::cfg_too_long, 1, 0, cfg.size());
 
-    const std::size_t most = std::min(personality.max_parameters, kMaxParameters);
     const std::size_t count = cfg.size() - first;
     const bool has_tags = personality.prm.list != TagList::none;
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t octet = first + i + 1;
-        const Identifier* identifier = find(personality, cfg[first + i]);
-        if (identifier == nullptr)
-            return refuse(Refusal::cfg_identifier, octet, a_legal_one(personality), cfg[first + i]);
-        if (i == most || !fits(*identifier))
+        const Identifier& identifier = *find(personality, cfg[first + i]);
+        if (i == most || !fits(identifier))
             return refuse(Refusal::cfg_too_long, octet, first + i, cfg.size());
         // Without tags the place is the number. With tags an identifier beyond the list is refused by the
         // counts below.
-        add(taken, has_tags && i < tags.size() ? tags[i] : static_cast<std::uint16_t>(i + 1), *identifier);
+        add(taken, has_tags && i < tags.size() ? tags[i] : static_cast<std::uint16_t>(i + 1), identifier);
     }
     if (count == 0 && !personality.may_have_no_parameters) return refuse(Refusal::cfg_too_few, 0, 1, 0);
     if (!has_tags) return {};

@@ -165,7 +165,9 @@ Trigger Slave::judge_chk_cfg(const fdl::Indication& request)
     if (request.sa != master_) return Trigger::cfg_not_owner;
     if (state_ == State::data_exch) {
         if (std::ranges::equal(request.data, cfg_accepted_.bytes())) return Trigger::cfg_ok;
-        offered_refusal_ = cfg_difference(cfg_accepted_, request.data);
+        offered_refusal_ = check_chk_cfg(personality_, prm_.tags(), request.data, offered_config_);
+        if (offered_refusal_.why == Refusal::none) // it would do, but it is another one
+            offered_refusal_ = cfg_difference(cfg_accepted_, request.data);
         return Trigger::cfg_bad;
     }
     offered_refusal_ = check_chk_cfg(personality_, prm_.tags(), request.data, offered_config_);

@@ -24,15 +24,6 @@ constexpr std::uint16_t kCfgIdentifier = 0x0023;
 constexpr std::uint16_t kCfgTooFew = 0x0024;
 constexpr std::uint16_t kCfgTooMany = 0x0025;
 
-/// Where the accepted octets and the new ones part: the one that is not there is given as 0, which is no
-/// identifier.
-constexpr std::uint16_t code_of_changed_cfg(const dp::RefusalDetail& detail)
-{
-    if (detail.expected == 0) return kCfgTooMany;
-    if (detail.got != 0) return kCfgIdentifier;
-    return detail.octet == 1 ? kCfgEmpty : kCfgTooFew;
-}
-
 /// The refusals that the manual has no code for (ident, watchdog, Sync and Freeze, DPV1_Status, a tag too
 /// large) are no error of its list: 0000. `dpctl diag` says them in words.
 constexpr std::uint16_t code_of(const dp::RefusalDetail& detail)
@@ -52,7 +43,8 @@ constexpr std::uint16_t code_of(const dp::RefusalDetail& detail)
         case Refusal::cfg_identifier: return kCfgIdentifier;
         case Refusal::cfg_too_few: return kCfgTooFew;
         case Refusal::cfg_too_many: return kCfgTooMany;
-        case Refusal::cfg_changed: return code_of_changed_cfg(detail);
+        // As many legal identifiers as are accepted, in other directions.
+        case Refusal::cfg_changed: return kCfgIdentifier;
     }
     return kNoError;
 }

@@ -71,18 +71,22 @@ std::string reading(std::size_t count)
     return show(Octets(count, 0x50));
 }
 
-INSTANTIATE_TEST_SUITE_P(B085, TecRefusedCfg,
-                         testing::Values(RefusedCfg{"Empty", "", 0x0021},
-                                         RefusedCfg{"TooLong", reading(32), 0x0022},
-                                         RefusedCfg{"TooLongWithDemandData", "73 " + reading(31), 0x0022},
-                                         RefusedCfg{"Identifier", "50 51", 0x0023},
-                                         RefusedCfg{"DemandDataElsewhereThanFirst", "50 73", 0x0023},
-                                         RefusedCfg{"TooFew", "50", 0x0024},
-                                         RefusedCfg{"TooFewWithDemandData", "73 50", 0x0024},
-                                         RefusedCfg{"TooMany", "50 50 50", 0x0025},
-                                         RefusedCfg{"TooManyWithDemandData", "73 50 50 50", 0x0025},
-                                         RefusedCfg{"ThirtyOneAreNotTooLongButTooMany", reading(31), 0x0025}),
-                         [](const auto& one) { return std::string{one.param.name}; });
+INSTANTIATE_TEST_SUITE_P(
+    B085, TecRefusedCfg,
+    testing::Values(RefusedCfg{"Empty", "", 0x0021}, RefusedCfg{"TooLong", reading(32), 0x0022},
+                    RefusedCfg{"TooLongBeforeAnythingElse", show(Octets(32, 0x51)), 0x0022},
+                    RefusedCfg{"ThirtyOneForeignIdentifiers", show(Octets(31, 0x51)), 0x0023},
+                    RefusedCfg{"IdentifierZero", "00", 0x0023},
+                    RefusedCfg{"OneForeignIdentifier", "51", 0x0023},
+                    RefusedCfg{"IdentifierBeforeTheCount", "50 50 50 51", 0x0023},
+                    RefusedCfg{"TooLongWithDemandData", "73 " + reading(31), 0x0022},
+                    RefusedCfg{"Identifier", "50 51", 0x0023},
+                    RefusedCfg{"DemandDataElsewhereThanFirst", "50 73", 0x0023},
+                    RefusedCfg{"TooFew", "50", 0x0024}, RefusedCfg{"TooFewWithDemandData", "73 50", 0x0024},
+                    RefusedCfg{"TooMany", "50 50 50", 0x0025},
+                    RefusedCfg{"TooManyWithDemandData", "73 50 50 50", 0x0025},
+                    RefusedCfg{"ThirtyOneAreNotTooLongButTooMany", reading(31), 0x0025}),
+    [](const auto& one) { return std::string{one.param.name}; });
 
 TEST_F(TecIntDiagnostic, AnotherIdentNumberHasNoCode)
 {
@@ -114,6 +118,9 @@ struct ChangedCfg {
     std::uint16_t code;
 };
 
+constexpr const char* kThirtyTwoForeign =
+    "51 51 51 51 51 51 51 51 51 51 51 51 51 51 51 51 51 51 51 51 51 51 51 51 51 51 51 51 51 51 51 51";
+
 class TecChangedCfg : public TecBench, public testing::WithParamInterface<ChangedCfg> {};
 
 TEST_P(TecChangedCfg, InDataExchangeSaysHowItDiffersFromTheAcceptedOne)
@@ -125,8 +132,16 @@ TEST_P(TecChangedCfg, InDataExchangeSaysHowItDiffersFromTheAcceptedOne)
 }
 
 INSTANTIATE_TEST_SUITE_P(B085, TecChangedCfg,
-                         testing::Values(ChangedCfg{"Empty", "", 0x0021},
-                                         ChangedCfg{"Other", "73 60 60 70 50", 0x0023},
+                         testing::Values(ChangedCfg{"Empty", "", 0x0021}, ChangedCfg{"Zero", "00", 0x0023},
+                                         ChangedCfg{"OneForeignIdentifier", "51", 0x0023},
+                                         ChangedCfg{"ForeignIdentifierBehindTheOthers", "73 60 50 70 50 51",
+                                                    0x0023},
+                                         ChangedCfg{"ZeroBehindTheOthers", "73 60 50 70 50 00", 0x0023},
+                                         ChangedCfg{"TooLong", kThirtyTwoForeign, 0x0022},
+                                         ChangedCfg{"OtherDirections", "73 60 60 70 50", 0x0023},
+                                         ChangedCfg{"FewerOfOtherDirections", "73 50 50 70", 0x0024},
+                                         ChangedCfg{"MoreOfOtherDirections", "73 50 50 70 60 60", 0x0025},
+                                         ChangedCfg{"WithoutDemandData", "60 50 70 50", 0x0023},
                                          ChangedCfg{"Fewer", "73 60 50 70", 0x0024},
                                          ChangedCfg{"More", "73 60 50 70 50 50", 0x0025}),
                          [](const auto& one) { return std::string{one.param.name}; });
