@@ -66,6 +66,37 @@ std::string tags_from_1(std::size_t count)
     return show(prm);
 }
 
+/// Words 0101, 0102 ... as they are on the wire.
+std::string words_from(unsigned first, std::size_t count)
+{
+    Octets all;
+    for (unsigned word = first; word < first + count; ++word) {
+        all.push_back(static_cast<std::uint8_t>(word / 256));
+        all.push_back(static_cast<std::uint8_t>(word % 256));
+    }
+    return show(all);
+}
+
+TEST_F(Controller, ExchangesEachOf117WordsInItsPlaceInEitherDirection)
+{
+    start_up(tags_from_1(117), show(Octets(117, 0x60)));
+    EXPECT_EQ(master.data_exchange(words_from(0x0101, 117)), "SC");
+    EXPECT_EQ(master.rd_outp(), "DL " + words_from(0x0101, 117));
+    const auto outputs = slave.take_outputs();
+    ASSERT_TRUE(outputs);
+    for (std::size_t i = 0; i < 117; ++i) EXPECT_EQ(outputs->words[i], 0x0101 + i);
+    EXPECT_EQ(outputs->layout.count, 117);
+    master.set_prm(kUnlock);
+
+    start_up(tags_from_1(117), show(Octets(117, 0x50)));
+    std::vector<std::uint16_t> words(117);
+    for (std::size_t i = 0; i < 117; ++i) words[i] = static_cast<std::uint16_t>(0x0201 + i);
+    inputs_are(words);
+    diagnosis_is_read();
+    EXPECT_EQ(master.data_exchange(""), "DL " + words_from(0x0201, 117));
+    EXPECT_EQ(master.rd_inp(), "DL " + words_from(0x0201, 117));
+}
+
 TEST_F(Controller, TakesNoTagsWithDemandDataAlone)
 {
     start_up(tags_from_1(0), "73");

@@ -23,6 +23,15 @@ TEST_F(DemandData, NoCommandIsAnsweredNothing)
     EXPECT_FALSE(slave.take_demand_order());
 }
 
+TEST_F(DemandData, IsReadBackInFrontOfTheOutputs)
+{
+    master.set_prm("40 00 00 00 05 33 00");
+    start_up(board_prm({7, 8, 9}), "73 60 50 60");
+    master.data_exchange("10 37 00 01 00 02 00 03 A5 01 5A 02");
+
+    EXPECT_EQ(master.rd_outp(), "DL 10 37 00 01 00 02 00 03 A5 01 5A 02");
+}
+
 TEST_F(DemandData, NoCommandWithATagIsAnsweredNothingToo)
 {
     EXPECT_EQ(demand(0x0037, 5), kNothing);

@@ -89,6 +89,22 @@ TEST_F(Matrix, C17_InWaitCfgNothingHappens)
     EXPECT_EQ(diag_of(master), "02 04 00 02");
 }
 
+TEST_F(GlobalControl, C17_AnSdnToAnotherSapOrFromAnotherIsNone)
+{
+    exchanges();
+    master.data_exchange("A5 01");
+    const Octets clear = octets("02 00");
+    for (const Saps saps : {Saps{57, 62}, Saps{59, 62}, Saps{58, 61}, Saps{58, 58}, Saps{62, 58}})
+        bus.master_sends(sd2(127, 2, 0x46, saps, clear));
+    bus.master_sends(sd2(127, 2, 0x46, clear)); // without SAPs
+    EXPECT_EQ(seen().counters.global_control, 0u);
+    EXPECT_EQ(master.rd_outp(), "DL A5 01");
+
+    bus.master_sends(sd2(127, 2, 0x46, Saps{58, 62}, clear));
+    EXPECT_EQ(seen().counters.global_control, 1u);
+    EXPECT_EQ(master.rd_outp(), "DL 00 00");
+}
+
 TEST_F(GlobalControl, C17_ASlaveWithoutAGroupHeedsOnlyCommandsForAll)
 {
     exchanges("B0 00 00 0B 47 11 00");

@@ -32,6 +32,19 @@ TEST_F(SetPrm, C09_TheReservedBitsAreIgnored)
     EXPECT_EQ(diag_of(master), "02 0C 00 02");
 }
 
+TEST_F(SetPrm, C09_EachReservedBitAloneIsIgnored)
+{
+    for (const std::string_view status : {"81", "82", "84", "87"}) {
+        EXPECT_EQ(master.set_prm(std::string{status} + " 00 00 0B 47 11 01"), "SC");
+        EXPECT_EQ(diag_of(master), "02 04 00 02") << status << ": neither watchdog nor Sync nor Freeze";
+        master.chk_cfg(kCfg);
+        EXPECT_EQ(state(), State::data_exch) << status;
+        master.control("28 00");
+        EXPECT_FALSE(seen().sync || seen().freeze) << status;
+        master.set_prm("40 00 00 00 47 11 00");
+    }
+}
+
 TEST_F(SetPrm, C09_AsLongAsATelegramCanBe)
 {
     Octets longest = octets(kPrm);

@@ -73,6 +73,26 @@ TEST_F(Rows, B1_AfterStopEverythingBeginsAnew)
     EXPECT_EQ(slave.min_tsdr(), dpslave::Tbit{11});
 }
 
+TEST_F(RowsWithoutSync, B1_AfterStopNoFaultOfBeforeIsLeft)
+{
+    const auto restarted = [this] {
+        slave.stop(bus.now());
+        slave.start(bus.now());
+        return diag_of(master);
+    };
+    master.set_prm("88 14 01 0B 12 34 01"); // another ident
+    ASSERT_EQ(diag_of(master), "42 05 00 FF");
+    EXPECT_EQ(restarted(), "02 05 00 FF");
+    master.set_prm("A8 14 01 0B 47 11 01"); // Sync, which it does not have
+    ASSERT_EQ(diag_of(master), "12 05 00 FF");
+    EXPECT_EQ(restarted(), "02 05 00 FF");
+    master.set_prm(kPrm);
+    master.chk_cfg("FF");
+    ASSERT_EQ(diag_of(master), "06 05 00 FF");
+    EXPECT_EQ(restarted(), "02 05 00 FF");
+    EXPECT_EQ(seen().refusal, dpslave::dp::RefusalDetail{});
+}
+
 TEST_F(Rows, S3_SetSlaveAddIsNotActivatedInAnyState)
 {
     const Octets change = octets("07 47 11 00");

@@ -176,6 +176,22 @@ TEST_F(LateWakeUp, TellsWhenItWantsToBeWoken)
     EXPECT_EQ(lonely.next_deadline(), dpslave::kNever);
 }
 
+TEST_F(WatchdogBench, C13_ARetryBehindAnExpiryIsAnsweredFromMemoryAndTheSlaveStaysReleased)
+{
+    exchanges();
+    ASSERT_EQ(master.data_exchange("A5 01"), "DL 12 34");
+    bus.advance(201ms);
+    ASSERT_EQ(state(), State::wait_prm);
+    const auto before = seen().counters;
+
+    EXPECT_EQ(master.repeats(), "DL 12 34");
+    EXPECT_EQ(state(), State::wait_prm);
+    EXPECT_EQ(seen().counters.data_exchange, before.data_exchange);
+    EXPECT_EQ(seen().counters.not_activated, before.not_activated);
+    EXPECT_EQ(station.counters().retries, 1u);
+    EXPECT_EQ(master.data_exchange("A5 01"), "RS") << "the next one is new";
+}
+
 TEST_F(WatchdogBench, C13_AnExpiryIsCounted)
 {
     exchanges();
