@@ -160,6 +160,7 @@ void Station::reply_with(const Frame& frame, const Pending& window)
 
 void Station::on_time(Instant now)
 {
+    if (now >= hunt_at_) hunt_behind_stump();
     if (pending_ && now > pending_->not_after) { // the master has given up: a late reply would meet its retry
         pending_.reset();
         ++counters_.late;
@@ -185,7 +186,7 @@ std::optional<Bytes> Station::take_transmit()
 
 Instant Station::next_deadline() const
 {
-    Instant next = std::min(users_due_, gap_ends_);
+    Instant next = std::min({users_due_, gap_ends_, hunt_at_});
     if (pending_) next = std::min(next, pending_->not_before);
     if (search_) next = std::min(next, search_->next_deadline());
     return next;
@@ -261,9 +262,7 @@ void Station::follow_search()
     if (search_->state() ==
         BaudState::baud_search) { // silent from now on, and what was heard is no telegram any more
         pending_.reset();
-        used_ = 0;
-        spoilt_ = false;
-        gap_ends_ = kNever;
+        forget_all();
         for (std::size_t i = 0; i < attached_count_; ++i) places_[attached_[i]].stored = false;
     }
     baud_state_ = search_->state();

@@ -170,6 +170,38 @@ TEST_F(Resynchronisation, BadCharacterAfterASilenceBelongsToTheNextTelegram)
     EXPECT_EQ(user.srds.size(), 1u);
 }
 
+TEST_F(Resynchronisation, BadCharacterIsForgottenWithItsTelegramAfterASilence)
+{
+    station.on_bytes(octets("68 05 05 68 05"), kRead);
+    station.on_character_error(kRead);
+    const Instant later = kRead + bus.bits(33 + 64 * 11) + milliseconds{5};
+    station.on_time(later);
+    station.on_bytes(kAsk, later + milliseconds{1});
+
+    EXPECT_EQ(user.srds.size(), 1u);
+    EXPECT_EQ(station.counters().flaws[static_cast<std::size_t>(fdl::Flaw::unfinished)], 1u);
+}
+
+TEST_F(Resynchronisation, BadCharacterInAnSd2HeaderEndsItsTelegramThere)
+{
+    for (std::size_t place = 1; place < 4; ++place) {
+        SCOPED_TRACE(place);
+        fdl::Station fresh{{.baud = Baud::k187_5, .search = {}, .start_up_latency = {}}};
+        RecordingUser own;
+        fresh.attach(kUs, own, kClassMaxTsdr);
+        fresh.on_bytes(Bytes{kAsk}.first(place), kRead, true);
+        fresh.on_character_error(kRead);
+        EXPECT_EQ(fresh.next_deadline(), Instant{}) << "nothing is unfinished, so nothing is waited for";
+        fresh.on_time(kRead);
+        EXPECT_EQ(fresh.next_deadline(), kNever);
+        fresh.on_bytes(Bytes{kAsk}.subspan(place + 1), kRead, true);
+        EXPECT_TRUE(own.srds.empty());
+        fresh.on_bytes(kAsk, kRead);
+        EXPECT_EQ(own.srds.size(), 1u);
+        EXPECT_EQ(fresh.counters().flaws[static_cast<std::size_t>(fdl::Flaw::unfinished)], 0u);
+    }
+}
+
 TEST_F(Resynchronisation, AnUnfinishedTelegramIsForgottenAfterAnIdleLine)
 {
     bus.master_sends({0x68, 0x05, 0x05});

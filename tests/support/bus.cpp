@@ -37,11 +37,18 @@ void Bus::master_sends(const Octets& telegram)
 
 void Bus::arrives_octet_by_octet(const Octets& telegram)
 {
+    arrives_in_bunches(telegram, 1);
+}
+
+void Bus::arrives_in_bunches(const Octets& telegram, std::size_t size)
+{
     settle();
     wait_for_syn();
-    for (const std::uint8_t octet : telegram) {
-        speak({octet});
-        deliver({octet});
+    for (std::size_t at = 0; at < telegram.size(); at += size) {
+        const auto begin = telegram.begin() + static_cast<std::ptrdiff_t>(at);
+        const Octets bunch(begin, begin + static_cast<std::ptrdiff_t>(std::min(size, telegram.size() - at)));
+        speak(bunch);
+        deliver(bunch);
     }
     ended(telegram);
 }

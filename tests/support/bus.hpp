@@ -49,6 +49,9 @@ public:
     void master_sends(const Octets& telegram);
     /// The same, but read octet by octet.
     void arrives_octet_by_octet(const Octets& telegram);
+    /// The same, but read as a FIFO hands it over: `size` octets at a time, the last ones as soon as they
+    /// end.
+    void arrives_in_bunches(const Octets& telegram, std::size_t size);
     /// Several telegrams, T_SYN apart, that a late reader gets in one go.
     void arrives_in_one_read(const std::vector<Octets>& telegrams);
     /// One telegram whose octet number `bad` (from 0) arrives with a parity or framing error.

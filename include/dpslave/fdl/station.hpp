@@ -117,10 +117,17 @@ private:
     };
 
     // From octets to telegrams.
+    void begin_read(std::size_t octets, Instant read_at);
     void end_silence(std::size_t octets, Instant read_at);
+    void await_rest();
     bool rate_is_kept(std::size_t good, std::size_t bad, Instant at);
     void consume(Instant read_at, bool all_read);
-    void on_frame(Bytes frame, Instant read_at, bool newest);
+    Result<Telegram, Flaw> telegram_at(std::size_t at, std::size_t length, bool is_cut) const;
+    std::size_t boundary_within(std::size_t begin, std::size_t end) const;
+    void hunt_behind_stump();
+    void forget(std::size_t count);
+    void forget_all();
+    void on_telegram(const Telegram& telegram, Instant read_at, bool newest);
     void on_sdn(const Telegram& telegram, Instant at);
     void drop_unfinished();
     void cancel_reply();
@@ -158,8 +165,12 @@ private:
 
     std::array<std::uint8_t, 2 * kMaxTelegram> rx_{}; // an unfinished telegram, and room for what comes next
     std::size_t used_ = 0;
-    bool spoilt_ = false; // the unfinished telegram holds a bad character
-    Instant gap_ends_ = kNever;
+    std::size_t spoilt_ = 0; // octets of rx_ up to its last bad character
+    /// Where in rx_ a read began at least T_SYN after the one before: a new telegram may have begun there.
+    std::bitset<2 * kMaxTelegram> boundaries_;
+    Instant heard_at_{};        // when octets were read last
+    Instant gap_ends_ = kNever; // the unfinished telegram is given up
+    Instant hunt_at_ = kNever;  // whole telegrams are looked for in it
 
     std::optional<Pending> pending_;
     Instant window_ended_{}; // of the reply handed out last

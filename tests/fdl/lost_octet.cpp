@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A request of which an octet was lost costs only itself: its first retry is answered (wire reference 1.5).
+#include "bench.hpp"
+
+#include <array>
+
+using namespace dpslave;
+using namespace test;
+using fdl::Flaw;
+
+namespace {
+
+constexpr std::size_t kWhole = 300; // more than any telegram has octets
+constexpr std::array<std::size_t, 6> kBunches{kWhole, 1, 4, 8, 14, 16};
+constexpr std::array<std::size_t, 3> kSizes{2, 8, 32}; // of the data
+
+/// `size` octets of data, all but the last `fill`, that give an SRD to us this checksum.
+Octets data_with_checksum(std::size_t size, std::uint8_t fill, std::uint8_t checksum)
+{
+    Octets data(size, fill);
+    const unsigned before = kUs + kMaster + kSrdFcb1 + static_cast<unsigned>(size - 1) * fill;
+    data.back() = static_cast<std::uint8_t>(checksum - before);
+    return data;
+}
+
+Octets without(const Octets& telegram, std::size_t lost)
+{
+    Octets rest = telegram;
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(lost));
+    return rest;
+}
+
+/// A slave 5 of its own for each telegram, so that none hides what the one before left behind.
+struct Line {
+    explicit Line(Baud baud)
+        : station{{.baud = baud, .search = {}, .start_up_latency = {}}},
+          bus{station, {.baud = baud, .min_tsdr = 11_tbit, .max_tsdr = {}}}
+    {
+        station.attach(kUs, user, kClassMaxTsdr);
+        bus.advance({});
+    }
+
+    std::uint64_t flaws(Flaw flaw) const { return station.counters().flaws[static_cast<std::size_t>(flaw)]; }
+
+    RecordingUser user;
+    fdl::Station station;
+    Bus bus;
+};
+
+class LostOctet : public testing::TestWithParam<Baud> {
+protected:
+    /// Wherever an octet of `request` is lost, and however it is read: the retry is answered, and at once.
+    static void costs_only_the_request(const Octets& request)
+    {
+        for (const std::size_t bunch : kBunches) {
+            for (std::size_t lost = 0; lost < request.size(); ++lost) {
+                Line line{GetParam()};
+                line.bus.arrives_in_bunches(without(request, lost), bunch);
+                EXPECT_FALSE(line.bus.reply());
+                line.bus.arrives_in_bunches(request, bunch);
+                EXPECT_TRUE(line.bus.reply())
+                    << show(request) << "\nwithout octet " << lost << ", in bunches of " << bunch;
+                EXPECT_EQ(line.user.srds.size() + line.user.heards.size(), 1u);
+            }
+        }
+    }
+};
+
+TEST_P(LostOctet, OfARequestWithDataCostsNoRetry)
+{
+    for (const std::size_t size : kSizes)
+        for (const std::uint8_t checksum : octets("DC 10 68 A2 E5 16 00 7F"))
+            for (const std::uint8_t fill : octets("00 11"))
+                costs_only_the_request(sd2(kUs, kMaster, kSrdFcb1, data_with_checksum(size, fill, checksum)));
+}
+
+TEST_P(LostOctet, OfARequestWhoseDataLookLikeDelimitersCostsNoRetry)
+{
+    for (const std::size_t size : kSizes)
+        for (const std::uint8_t checksum : octets("DC 10 68 A2"))
+            for (const std::uint8_t fill : octets("68 10 A2 DC E5 16 05"))
+                costs_only_the_request(sd2(kUs, kMaster, kSrdFcb1, data_with_checksum(size, fill, checksum)));
+}
+
+/// Without its first octet the data are all that looks like a beginning, and it announces what never comes.
+TEST_P(LostOctet, OfARequestWhoseDataLookLikeALongHeaderCostsNoRetry)
+{
+    costs_only_the_request(sd2(kUs, kMaster, kSrdFcb1, octets("01 68 F9 F9 68 05 02 7D")));
+    costs_only_the_request(sd2(kUs, kMaster, kSrdFcb1, octets("68 F9 F9 68 68 05 05 68 05 02")));
+}
+
+/// A2 10 16 and the retry are an SD3 with a good checksum: only what stands at a boundary may begin one
+/// there.
+TEST_P(LostOctet, OfARequestWhoseRestAndItsRetryAreATelegramByChanceCostsNoRetry)
+{
+    costs_only_the_request(sd2(kUs, kMaster, kSrdFcb1, octets("A2 EA")));
+}
+
+TEST_P(LostOctet, OfATelegramOfFixedLengthCostsNoRetry)
+{
+    costs_only_the_request(sd1(kUs, kMaster, kFdlStatus));
+    costs_only_the_request(sd1(kUs, kMaster, kSrdFcb1));
+    costs_only_the_request(sd3(kUs, kMaster, kSrdFcb1, octets("01 02 03 04 05 06 07 08")));
+    costs_only_the_request(sd3(kUs, kMaster, kSrdFcb1, octets("10 68 A2 DC E5 16 05 02")));
+}
+
+INSTANTIATE_TEST_SUITE_P(AtEachRate, LostOctet, testing::ValuesIn(kBauds));
+
+class Stump : public testing::TestWithParam<const char*> {
+protected:
+    Line line{Baud::k187_5};
+    const Octets ask = sd2(kUs, kMaster, kSrdFcb1, {0xAA, 0xBB});
+};
+
+/// What is left of a telegram when its beginning was lost, or its end.
+TEST_P(Stump, IsNoPartOfTheRequestBehindThePause)
+{
+    for (const std::size_t bunch : kBunches) {
+        line.bus.master_sends(octets(GetParam()));
+        line.bus.arrives_in_bunches(ask, bunch);
+        EXPECT_TRUE(line.bus.reply()) << "in bunches of " << bunch;
+    }
+}
+
+/// The bus is shared: what came before was not ours, and a cycle of others lies between.
+TEST_P(Stump, IsNoPartOfTheTelegramsOfOthersBehindThePause)
+{
+    line.bus.master_sends(octets(GetParam()));
+    line.bus.arrives_in_one_read({sd2(kOther, kMaster, kSrdFcb1, {1, 2}), sd2(kMaster, kOther, 0x08, {3})});
+    line.bus.master_sends(ask);
+
+    EXPECT_TRUE(line.bus.reply());
+}
+
+TEST_P(Stump, DoesNotCostABroadcast)
+{
+    line.bus.master_sends(octets(GetParam()));
+    line.bus.master_sends(sd2(127, kMaster, kSdnHigh, Saps{58, 62}, {0x20, 0x00}));
+    line.bus.master_sends(ask);
+
+    EXPECT_TRUE(line.bus.reply());
+    EXPECT_EQ(line.user.sdns.size(), 1u);
+}
+
+TEST_P(Stump, InTheMiddleOfABunchOfTelegramsCostsOnlyItself)
+{
+    line.bus.arrives_in_one_read({sd2(kOther, kMaster, kSrdFcb1, {1}), octets(GetParam())});
+    line.bus.master_sends(ask);
+
+    EXPECT_TRUE(line.bus.reply());
+}
+
+INSTANTIATE_TEST_SUITE_P(WireReference, Stump,
+                         testing::Values("DC", "DC 16", "10", "10 16", "10 05 02 49 50", "A2", "A2 16",
+                                         "A2 05 02 7D 01 02 03 04 05 06 07 08 A8", "68", "68 16", "68 05",
+                                         "68 05 05", "68 05 05 68", "68 F9 F9 68", "68 05 05 68 05 02 7D 01",
+                                         "68 23 23 68 05 02 7D 01 02 03 04 05 06 07 08 09 10 68"));
+
+TEST(CutTelegram, IsOneFlawHoweverManyOctetsItHad)
+{
+    Line line{Baud::k187_5};
+    line.bus.arrives_in_bunches(
+        without(sd2(kUs, kMaster, kSrdFcb1, octets("01 02 03 04 05 06 07 08 09 0A")), 6), 4);
+    line.bus.master_sends(sd2(kUs, kMaster, kSrdFcb1, {1}));
+    ASSERT_TRUE(line.bus.reply());
+
+    EXPECT_EQ(line.flaws(Flaw::checksum) + line.flaws(Flaw::end_delimiter) + line.flaws(Flaw::unfinished),
+              1u);
+    EXPECT_EQ(line.flaws(Flaw::start_delimiter), 0u);
+}
+
+} // namespace
