@@ -50,7 +50,7 @@ BaudSearch::BaudSearch(const BaudSearchSettings& settings, Baud begin_with)
 void BaudSearch::on_characters(std::size_t good, std::size_t bad, Instant at)
 {
     begin_if_new(at);
-    if (state_ != BaudState::baud_search) return;
+    if (state_ != BaudState::baud_search && !in_doubt_) return;
     characters_ += static_cast<std::uint32_t>(good + bad);
     bad_ += static_cast<std::uint32_t>(bad);
     const auto many_bad = std::uint64_t{bad_} * 100 > std::uint64_t{characters_} * kBadPercent;
@@ -64,8 +64,8 @@ void BaudSearch::on_telegram(bool to_us, Instant at)
         case BaudState::baud_search: control(at); break;
         case BaudState::baud_control:
             // Before a master has parameterised anybody, we are polled only now and then: everybody's traffic
-            // counts.
-            if (to_us || !any_owned_) control(at);
+            // counts. So it does to a search.
+            if (to_us || !any_owned_ || in_doubt_) control(at);
             break;
         case BaudState::dp_control:
         case BaudState::fixed: break;
@@ -85,14 +85,10 @@ void BaudSearch::on_time(Instant now)
 {
     begin_if_new(now);
     if (now < deadline_) return;
-    // Baud_Control that expires looks at its own rate first: a master that was switched off comes back with
-    // it.
-    search(state_ == BaudState::baud_search ? next_rate() : baud_, now);
-}
-
-std::chrono::nanoseconds BaudSearch::dwell() const
-{
-    return baud_ >= Baud::k93_75 ? settings_.dwell_fast : settings_.dwell_slow;
+    if (state_ == BaudState::baud_control && !in_doubt_)
+        doubt(now);
+    else
+        search(next_rate(), now);
 }
 
 void BaudSearch::begin_if_new(Instant at)
@@ -105,16 +101,32 @@ void BaudSearch::begin_if_new(Instant at)
 void BaudSearch::search(Baud baud, Instant at)
 {
     state_ = BaudState::baud_search;
+    in_doubt_ = false;
     baud_ = baud;
+    listen(at);
+}
+
+/// A master that was switched off comes back with its rate, and one that polls seldom has never gone: listen
+/// at the rate that was found before it is left (wire reference 7.2).
+void BaudSearch::doubt(Instant at)
+{
+    in_doubt_ = true;
+    listen(at);
+}
+
+/// Begins a dwell.
+void BaudSearch::listen(Instant at)
+{
     characters_ = 0;
     bad_ = 0;
-    deadline_ = at + dwell();
+    deadline_ = at + dwell_at(baud_, settings_);
 }
 
 /// The rate is right: watch it, or leave that to the watchdogs of the slaves.
 void BaudSearch::control(Instant at)
 {
     state_ = any_supervised_ ? BaudState::dp_control : BaudState::baud_control;
+    in_doubt_ = false;
     deadline_ = any_supervised_ ? kNever : at + settings_.baud_control;
 }
 

@@ -151,7 +151,7 @@ bool Station::rate_is_kept(std::size_t good, std::size_t bad, Instant at)
 
 void Station::count(Flaw flaw)
 {
-    if (baud_state_ == BaudState::baud_search)
+    if (baud_state_ == BaudState::baud_search || (search_ && search_->in_doubt()))
         ++counters_.search_flaws;
     else
         ++counters_.flaws[static_cast<std::size_t>(flaw)];

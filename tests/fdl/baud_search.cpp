@@ -138,6 +138,16 @@ TEST(BaudSearch, CharactersAreCountedAnewAtEachRate)
     EXPECT_EQ(search.baud(), Baud::k500);
 }
 
+TEST(BaudSearch, BadCharactersAreCountedAnewAtEachRate)
+{
+    BaudSearch search{BaudSearchSettings{}, Baud::k1500};
+    search.on_characters(0, 20, kStart);
+    ASSERT_EQ(search.baud(), Baud::k500);
+    search.on_characters(14, 6, kStart);
+
+    EXPECT_EQ(search.baud(), Baud::k500);
+}
+
 TEST(BaudSearch, OneErrorFreeTelegramOfAnybodyIsEvidence)
 {
     BaudSearch search{BaudSearchSettings{}, Baud::k187_5};
@@ -158,18 +168,56 @@ TEST(BaudSearch, CharacterErrorsDoNotEndBaudControl)
     EXPECT_EQ(search.baud(), Baud::k187_5);
 }
 
-TEST(BaudSearch, BaudControlEndsAfter320MsWithoutEvidenceAndListensAtItsRateFirst)
+TEST(BaudSearch, BaudControlWithoutEvidenceFor320MsListensAtItsRateBeforeItIsLeft)
 {
     BaudSearch search{BaudSearchSettings{}, Baud::k187_5};
     search.on_telegram(true, kStart);
     search.on_time(kStart + milliseconds{320} - nanoseconds{1});
-    EXPECT_EQ(search.state(), BaudState::baud_control);
+    EXPECT_FALSE(search.in_doubt());
     search.on_time(kStart + milliseconds{320});
+    EXPECT_TRUE(search.in_doubt());
+
+    search.on_time(kStart + milliseconds{2320} - nanoseconds{1});
+    EXPECT_EQ(search.state(), BaudState::baud_control);
+    EXPECT_EQ(search.baud(), Baud::k187_5);
+    search.on_time(kStart + milliseconds{2320});
+    EXPECT_EQ(search.state(), BaudState::baud_search);
+    EXPECT_EQ(search.baud(), Baud::k93_75);
+    EXPECT_FALSE(search.in_doubt());
+}
+
+TEST(BaudSearch, InDoubtATelegramOfAnybodyIsEvidence)
+{
+    BaudSearch search{BaudSearchSettings{}, Baud::k187_5};
+    search.on_supervision(true, false, kStart);
+    search.on_telegram(true, kStart);
+    search.on_time(kStart + milliseconds{320});
+    search.on_telegram(false, kStart + milliseconds{400});
+
+    EXPECT_FALSE(search.in_doubt());
+    EXPECT_EQ(search.next_deadline(), kStart + milliseconds{720});
+}
+
+TEST(BaudSearch, InDoubtBadCharactersEndTheDwell)
+{
+    BaudSearch search{BaudSearchSettings{}, Baud::k187_5};
+    search.on_telegram(true, kStart);
+    search.on_time(kStart + milliseconds{320});
+    search.on_characters(0, 20, kStart + milliseconds{330});
 
     EXPECT_EQ(search.state(), BaudState::baud_search);
-    EXPECT_EQ(search.baud(), Baud::k187_5);
-    search.on_time(search.next_deadline());
     EXPECT_EQ(search.baud(), Baud::k93_75);
+}
+
+TEST(BaudSearch, TelegramsToOthersRetriggerBaudControlAgainOnceTheOwnerHasGone)
+{
+    BaudSearch search{BaudSearchSettings{}, Baud::k187_5};
+    search.on_telegram(true, kStart);
+    search.on_supervision(true, false, kStart);
+    search.on_supervision(false, false, kStart);
+    search.on_telegram(false, kStart + milliseconds{300});
+
+    EXPECT_EQ(search.next_deadline(), kStart + milliseconds{620});
 }
 
 TEST(BaudSearch, TelegramsToUsRetriggerBaudControl)

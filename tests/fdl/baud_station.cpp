@@ -124,7 +124,8 @@ TEST_P(EverySearchedRate, IsFoundAgainAfterTheMasterChangedToIt)
     poll_until_found(seconds{1});
     ASSERT_EQ(station.baud(), Baud::k1500);
     bus.set_baud(GetParam());
-    bus.line_is_idle_for(milliseconds{400});
+    bus.line_is_idle_for(milliseconds{2400}); // T_BC, and a dwell at the rate that was right
+    ASSERT_EQ(station.baud_state(), BaudState::baud_search);
     poll_until_found(seconds{30});
 
     EXPECT_EQ(station.baud(), GetParam());
@@ -213,11 +214,11 @@ TEST_F(Searching, LossOfTheMasterLeadsBackToTheSearchAndTheFrameCountIsForgotten
     poll_until_found(seconds{1});
     bus.master_sends(sd2(kUs, kMaster, kSrdFcb1, {1}));
     ASSERT_TRUE(bus.reply());
-    bus.line_is_idle_for(milliseconds{400});
+    bus.line_is_idle_for(milliseconds{2400});
     EXPECT_EQ(station.baud_state(), BaudState::baud_search);
     EXPECT_TRUE(user.times.empty()); // DP is not told
 
-    poll_until_found(seconds{1});
+    poll_until_found(seconds{30});
     bus.master_sends(sd2(kUs, kMaster, kSrdFcb1, {1}));
     ASSERT_TRUE(bus.reply());
     EXPECT_EQ(user.srds.size(), 2u); // executed anew
@@ -237,9 +238,64 @@ TEST_F(Searching, WatchdogOfASlaveKeepsTheRate)
     bus.line_is_idle_for(milliseconds{1100});
     EXPECT_EQ(user.times.size(), 1u);
     EXPECT_EQ(station.baud_state(), BaudState::baud_control);
-    bus.line_is_idle_for(milliseconds{320});
+    bus.line_is_idle_for(milliseconds{2320});
 
     EXPECT_EQ(station.baud_state(), BaudState::baud_search);
+}
+
+TEST_F(Searching, QuietBusWithoutWatchdogLosesNoRequestAndShowsNoChange)
+{
+    poll_until_found(seconds{1});
+    user.level = Supervision::owned; // Set_Prm without WD_On
+    bus.take_baud_changes();
+    for (int i = 0; i < 50; ++i) {
+        bus.master_sends(sd2(kUs, kMaster, i % 2 == 0 ? kSrdFcb1 : kSrdFcb0, {1}));
+        EXPECT_TRUE(bus.reply()) << i;
+        for (int pause = 0; pause < 40; ++pause) {
+            bus.line_is_idle_for(milliseconds{10});
+            ASSERT_EQ(station.baud_state(), BaudState::baud_control);
+        }
+    }
+    EXPECT_EQ(user.srds.size(), 50u);
+    EXPECT_TRUE(bus.take_baud_changes().empty());
+}
+
+TEST_F(Searching, RetryBehindASilenceThatRaisedDoubtIsStillARetry)
+{
+    poll_until_found(seconds{1});
+    bus.master_sends(sd2(kUs, kMaster, kSrdFcb1, {1}));
+    ASSERT_TRUE(bus.reply());
+    bus.line_is_idle_for(milliseconds{2000});
+    bus.master_sends(sd2(kUs, kMaster, kSrdFcb1, {1}));
+
+    EXPECT_TRUE(bus.reply());
+    EXPECT_EQ(user.srds.size(), 1u);
+    EXPECT_EQ(station.counters().retries, 1u);
+}
+
+TEST_F(Searching, WhatIsNoTelegramIsNoFlawOfTheLineWhileTheRateIsInDoubt)
+{
+    poll_until_found(seconds{1});
+    const auto before = station.counters().search_flaws;
+    bus.line_is_idle_for(milliseconds{400});
+    bus.master_sends(octets("11 12"));
+
+    EXPECT_EQ(station.counters().flaws[static_cast<std::size_t>(fdl::Flaw::start_delimiter)], 0u);
+    EXPECT_EQ(station.counters().search_flaws, before + 2);
+}
+
+TEST_F(Searching, ForeignTrafficKeepsTheRateAgainOnceTheOwnerHasGone)
+{
+    poll_until_found(seconds{1});
+    user.level = Supervision::owned;
+    bus.master_sends(sd2(kUs, kMaster, kSrdFirst, Saps{61, 62}, {1}));
+    user.level = Supervision::unowned;
+    bus.master_sends(sd2(kUs, kMaster, kSrdFcb0, Saps{61, 62}, {1}));
+    for (int i = 0; i < 20; ++i) {
+        bus.master_sends(sd1(kOther, kMaster, kFdlStatus));
+        EXPECT_EQ(station.next_deadline(), bus.now() + milliseconds{320}) << "T_BC runs since this telegram";
+        bus.line_is_idle_for(milliseconds{300});
+    }
 }
 
 TEST_F(Searching, PollsToOthersKeepTheRateUntilASlaveIsOwned)
@@ -253,11 +309,11 @@ TEST_F(Searching, PollsToOthersKeepTheRateUntilASlaveIsOwned)
 
     user.level = Supervision::owned;
     bus.master_sends(sd2(kUs, kMaster, kSrdFirst, Saps{61, 62}, {1}));
-    for (int i = 0; i < 4; ++i) {
-        bus.master_sends(sd1(kOther, kMaster, kFdlStatus));
-        bus.line_is_idle_for(milliseconds{100});
-    }
-    EXPECT_EQ(station.baud_state(), BaudState::baud_search);
+    const Instant evidence = bus.now();
+    bus.line_is_idle_for(milliseconds{200});
+    bus.master_sends(sd1(kOther, kMaster, kFdlStatus));
+
+    EXPECT_EQ(station.next_deadline(), evidence + milliseconds{320});
 }
 
 TEST_F(Searching, OctetsAtARateThatWasGivenUpAreNotLookedAt)

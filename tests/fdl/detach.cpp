@@ -199,7 +199,7 @@ TEST(DetachWhileSearching, TheWatchdogOfADetachedSlaveKeepsTheRateNoMore)
     bus.advance({});
     EXPECT_EQ(station.baud_state(), fdl::BaudState::baud_control);
 
-    bus.advance(std::chrono::milliseconds{320});
+    bus.advance(std::chrono::milliseconds{2320}); // T_BC, and a dwell
     EXPECT_EQ(station.baud_state(), fdl::BaudState::baud_search);
 }
 

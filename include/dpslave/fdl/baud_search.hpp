@@ -15,7 +15,7 @@ namespace dpslave::fdl {
 enum class BaudState : std::uint8_t {
     fixed,        ///< the configuration says the rate
     baud_search,  ///< listening; the station is silent
-    baud_control, ///< a rate is found; T_BC without evidence leads back to the search
+    baud_control, ///< a rate is found; T_BC and then a dwell without evidence lead back to the search
     dp_control,   ///< the watchdog of at least one slave guards the line
 };
 std::string_view text(BaudState state) noexcept;
@@ -27,6 +27,12 @@ struct BaudSearchSettings {
     std::chrono::nanoseconds dwell_slow = std::chrono::seconds{4}; ///< per rate below
     std::chrono::nanoseconds baud_control = std::chrono::milliseconds{320}; ///< T_BC = 2 * 16 * 10 ms
 };
+
+/// How long nobody's telegram may be missed at this rate before it counts as the wrong one.
+constexpr std::chrono::nanoseconds dwell_at(Baud baud, const BaudSearchSettings& settings = {})
+{
+    return baud >= Baud::k93_75 ? settings.dwell_fast : settings.dwell_slow;
+}
 
 /// Baud_Search, Baud_Control and DP_Control (wire reference 7.1). Begins in Baud_Search.
 /// Precondition of the settings: at least one searched rate among `rates` (45.45 kbit/s is none).
@@ -48,18 +54,23 @@ public:
     Instant next_deadline() const { return deadline_; } ///< kNever in DP_Control
     Baud baud() const { return baud_; }
     BaudState state() const { return state_; }
+    /// T_BC has expired in Baud_Control: the search listens again, for one dwell at the rate it had found.
+    /// What is heard there is served as before; the state changes only when the rate is left.
+    bool in_doubt() const { return in_doubt_; }
 
 private:
-    std::chrono::nanoseconds dwell() const;
     void begin_if_new(Instant at);
     void search(Baud baud, Instant at);
     void control(Instant at);
+    void doubt(Instant at);
+    void listen(Instant at);
     Baud next_rate() const;
 
     BaudSearchSettings settings_;
     Baud baud_;
     BaudState state_ = BaudState::baud_search;
     bool begun_ = false;
+    bool in_doubt_ = false;
     bool any_owned_ = false;
     bool any_supervised_ = false;
     Instant deadline_{}; // at once: the first call of on_time() begins the first dwell
