@@ -288,12 +288,11 @@ void BusThread::show(Instant now)
 void BusThread::show_bus(Instant now)
 {
     next_bus_snapshot_ = now + kSnapshotInterval;
-    if (station_.counters().telegrams != telegrams_seen_) last_telegram_ = now;
-    telegrams_seen_ = station_.counters().telegrams;
     link_.snapshot.publish({.baud = station_.baud(),
                             .baud_state = station_.baud_state(),
                             .port_open = port_.is_open(),
-                            .last_telegram = last_telegram_,
+                            .taken_at = now,
+                            .last_telegram = station_.last_telegram(),
                             .counters = station_.counters(),
                             .write_errors = sender_.write_errors(),
                             .unsent = unsent_,

@@ -39,6 +39,15 @@ std::string inputs_of(const std::array<tec::Row, 10>& rows)
     return listed(names);
 }
 
+/// False: "the slave has not detected valid communications". Where the rate is fixed nobody searches, and
+/// noise or a wrong rate brings tokens and SC, but no telegram with a checksum.
+bool hears_the_bus(const BusSnapshot& bus)
+{
+    if (bus.baud_state != fdl::BaudState::fixed) return bus.baud_state != fdl::BaudState::baud_search;
+    const bool heard = bus.last_telegram != Instant{};
+    return heard && bus.taken_at - bus.last_telegram < fdl::dwell_at(bus.baud);
+}
+
 /// What to do about FAULT; empty when there is none.
 std::string remedy(OptionFault fault, const tec::Settings& settings)
 {
@@ -89,8 +98,7 @@ void DeviceState::look(const StationView& station, const BusSnapshot& bus)
     if (settings_.address >= 0 && settings_.address <= kHighestAddress)
         address_ = static_cast<std::uint8_t>(settings_.address);
     hardware_.ports_open = station.line_open && (!bus.valid || (bus.port_open && bus.driver_works));
-    // "The slave has not detected valid communications": also where the rate is not searched for.
-    hardware_.baud_search = bus.baud_state == fdl::BaudState::baud_search || bus.last_telegram == Instant{};
+    hardware_.baud_search = !hears_the_bus(bus);
     fault_ = tec::fault(settings_, hardware_);
     network_ = tec::network_state(fault_, hardware_, station.bus, station.drive);
     int_diagnostic_ = tec::int_diagnostic(settings_.int_diag_select, station.bus, station.drive);

@@ -245,6 +245,7 @@ void Station::on_telegram(const Telegram& telegram, Instant read_at, bool newest
 {
     ++counters_.telegrams;
     if (!telegram.has_fc()) return; // SC and token: no checksum, no evidence, nobody asked
+    last_telegram_ = read_at;
 
     const bool ours = telegram.da < kAddresses && places_[telegram.da].user != nullptr;
     if (search_) {

@@ -312,6 +312,45 @@ TEST_F(Box, FollowsTheBusWithItsNetworkState)
     EXPECT_THAT(device->take_news(), IsEmpty()) << "only what has changed";
 }
 
+struct NoSignOfLife {
+    Baud baud;
+    std::chrono::seconds after;
+};
+
+class FixedRate : public Box, public testing::WithParamInterface<NoSignOfLife> {};
+
+TEST_P(FixedRate, IsBaudSearchOnceNoTelegramCameForTheDwellAndTheExchangeStays)
+{
+    bench.bus.baud = GetParam().baud;
+    bench.bus.baud_state = fdl::BaudState::fixed;
+    bench.bus.last_telegram = Instant{std::chrono::seconds{100}};
+    bench.view.bus.state = dp::State::data_exch; // watchdog off
+    bench.drive_reads({0, 0});
+    bench.bus.taken_at = bench.bus.last_telegram + GetParam().after - std::chrono::nanoseconds{1};
+    EXPECT_EQ(value("NETWORK STATE"), static_cast<int>(NetworkState::data_exchange));
+    bench.bus.taken_at = bench.bus.last_telegram + GetParam().after;
+    EXPECT_EQ(value("NETWORK STATE"), static_cast<int>(NetworkState::baud_search));
+    EXPECT_TRUE(looked().condition().data_exchange) << "state and outputs stay";
+    EXPECT_TRUE(looked().bus_orders().enabled);
+    bench.bus.last_telegram = bench.bus.taken_at;
+    EXPECT_EQ(value("NETWORK STATE"), static_cast<int>(NetworkState::data_exchange));
+}
+
+INSTANTIATE_TEST_SUITE_P(W2, FixedRate,
+                         testing::Values(NoSignOfLife{Baud::k1500, std::chrono::seconds{2}},
+                                         NoSignOfLife{Baud::k93_75, std::chrono::seconds{2}},
+                                         NoSignOfLife{Baud::k45_45, std::chrono::seconds{4}},
+                                         NoSignOfLife{Baud::k9_6, std::chrono::seconds{4}}));
+
+TEST_F(Box, DoesNotTakeASearchedRateThatIsQuietForALostOne)
+{
+    bench.bus.baud_state = fdl::BaudState::baud_control;
+    bench.bus.taken_at = bench.bus.last_telegram + std::chrono::hours{1};
+    EXPECT_EQ(value("NETWORK STATE"), static_cast<int>(NetworkState::wait_param));
+    bench.bus.baud_state = fdl::BaudState::baud_search;
+    EXPECT_EQ(value("NETWORK STATE"), static_cast<int>(NetworkState::baud_search));
+}
+
 TEST_F(Box, IsFaultyInItsHardwareWhileAPortIsGone)
 {
     bench.view.line_open = false;

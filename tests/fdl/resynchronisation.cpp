@@ -202,6 +202,18 @@ TEST_F(Resynchronisation, BadCharacterInAnSd2HeaderEndsItsTelegramThere)
     }
 }
 
+TEST_F(Resynchronisation, OnlyTelegramsWithAChecksumAreASignOfLife)
+{
+    bus.master_sends(token(3, kMaster));
+    bus.master_sends(sc());
+    bus.master_sends(octets("10 05 02 49 51 16")); // and that has a wrong one
+    EXPECT_EQ(station.last_telegram(), Instant{});
+    EXPECT_EQ(station.counters().telegrams, 2u);
+
+    bus.master_sends(sd1(kOther, kMaster, kFdlStatus));
+    EXPECT_EQ(station.last_telegram(), bus.now());
+}
+
 TEST_F(Resynchronisation, AnUnfinishedTelegramIsForgottenAfterAnIdleLine)
 {
     bus.master_sends({0x68, 0x05, 0x05});

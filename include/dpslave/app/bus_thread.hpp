@@ -120,8 +120,6 @@ private:
     Instant next_snapshot_{};
     Instant next_bus_snapshot_{};
     unsigned turn_ = 0; ///< place whose snapshot went last
-    Instant last_telegram_{};
-    std::uint64_t telegrams_seen_ = 0;
     std::uint64_t faults_at_start_ = 0;
     bool driver_worked_ = true;
     bool guard_told_ = false;

@@ -96,7 +96,8 @@ struct BusSnapshot {
     Baud baud = Baud::k9_6;
     fdl::BaudState baud_state = fdl::BaudState::fixed;
     bool port_open = false;
-    Instant last_telegram{}; ///< default = none was heard yet
+    Instant taken_at{};
+    Instant last_telegram{}; ///< with a checksum, of anybody; default = none was heard yet
     fdl::Counters counters{};
     std::uint64_t write_errors = 0;
     std::uint64_t unsent = 0; ///< replies that did not go out: those, no port, or no driver enable

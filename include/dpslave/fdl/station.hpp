@@ -80,6 +80,10 @@ public:
     /// passed means: at once.
     Instant next_deadline() const;
 
+    /// When a telegram with a checksum (SD1, SD2, SD3) of anybody was read last; default = none yet. Tokens
+    /// and SC are no sign of life: noise and wrong rates are full of them.
+    Instant last_telegram() const { return last_telegram_; }
+
     /// Which users were called since the last take: what the edge has to publish. Bit n = address n.
     std::bitset<128> take_touched();
 
@@ -168,6 +172,7 @@ private:
     std::size_t spoilt_ = 0; // octets of rx_ up to its last bad character
     /// Where in rx_ a read began at least T_SYN after the one before: a new telegram may have begun there.
     std::bitset<2 * kMaxTelegram> boundaries_;
+    Instant last_telegram_{};
     Instant heard_at_{};        // when octets were read last
     Instant gap_ends_ = kNever; // the unfinished telegram is given up
     Instant hunt_at_ = kNever;  // whole telegrams are looked for in it
