@@ -36,7 +36,7 @@ bool BusThread::part_with_leavers(const Roster& next)
         place.station->publish_snapshot();
         place = {};
         waiting_.reset(i);
-        unseen_.reset(i);
+        turns_.forget(i);
     }
     return all_gone;
 }
@@ -53,7 +53,7 @@ void BusThread::seat_newcomers()
         const auto place = has(nullptr);
         if (place == places_.end()) return; // no bus has more than 127 addresses
         place->station = one.get();
-        unseen_.set(static_cast<std::size_t>(place - places_.begin()));
+        turns_.changed(static_cast<std::size_t>(place - places_.begin()));
     }
 }
 
@@ -66,7 +66,7 @@ void BusThread::obey_orders()
         const Place& place = places_[i];
         if (place.station == nullptr) continue;
         if (place.station->take_orders())
-            unseen_.set(i); // a new diagnosis is shown although nobody asks for it
+            turns_.changed(i); // a new diagnosis is shown although nobody asks for it
         const BusOrders& wanted = place.station->orders();
         if (place.address && (!wanted.enabled || *place.address != wanted.address)) take_off(i);
     }
@@ -83,7 +83,7 @@ void BusThread::take_off(std::size_t place)
     const std::uint8_t address = *places_[place].address;
     one.slave().stop(io::monotonic_now());
     waiting_.set(place, !one.hand_on());
-    unseen_.set(place);
+    turns_.changed(place);
     station_.detach(address);
     at_[address].reset();
     places_[place].address.reset();
@@ -100,7 +100,7 @@ void BusThread::put_on(std::size_t place)
     at_[address] = static_cast<std::uint8_t>(place);
     places_[place].address = address;
     waiting_.set(place, !one.hand_on());
-    unseen_.set(place);
+    turns_.changed(place);
 }
 
 } // namespace dpslave::app

@@ -99,7 +99,7 @@ void BusThread::run(std::stop_token stop, io::EventFd& wake)
     faults_at_start_ = io::page_faults_of_thread();
 
     while (!stop.stop_requested()) {
-        if (orders_due_ && !sender_.is_sending()) {
+        if (orders_due_ && !sender_.is_sending() && !station_.reply_waits()) {
             follow_roster();
             obey_orders();
         }
@@ -111,7 +111,7 @@ void BusThread::run(std::stop_token stop, io::EventFd& wake)
         finish_sending();
         follow_rate();
         const Instant now = io::monotonic_now();
-        if (!in_a_hurry(now)) show(now);
+        if (may_show(now)) show(now);
         if (!port_.is_open()) try_reopen(now);
         mind_driver(now);
         link_.heartbeat.fetch_add(1, std::memory_order_relaxed);
@@ -138,7 +138,7 @@ void BusThread::leave_bus()
 Instant BusThread::next_wake() const
 {
     Instant next = station_.next_deadline();
-    if (unseen_.any()) next = std::min(next, next_snapshot_);
+    if (!station_.reply_waits()) next = std::min(next, turns_.next());
     // Somewhat before: the driver is let go on the dot, and to wake up takes its time.
     if (sender_.is_sending()) next = std::min(next, sender_.next_deadline() - 2 * kSpin);
     return next;
@@ -267,27 +267,27 @@ void BusThread::hand_on()
         if (!at_[address])
             return; // it was taken off right after it was spoken to, and has said its last word
         waiting_.set(*at_[address]);
-        unseen_.set(*at_[address]);
+        turns_.changed(*at_[address]);
     });
     for_each(waiting_, [this](unsigned place) { waiting_.set(place, !places_[place].station->hand_on()); });
 }
 
-/// Snapshots for the main thread, one station a round at most: what a telegram costs does not grow with their
-/// number.
+/// Nothing is shown while a reply waits: its window is short.
+bool BusThread::may_show(Instant now) const
+{
+    return !station_.reply_waits() && !in_a_hurry(now);
+}
+
+/// Snapshots for the main thread.
 void BusThread::show(Instant now)
 {
     if (now >= next_bus_snapshot_) show_bus(now);
-    if (now < next_snapshot_ || unseen_.none()) return;
-    next_snapshot_ = now + kSnapshotInterval / std::max<std::size_t>(roster_->size(), 1);
-    do turn_ = (turn_ + 1) % kPlaces;
-    while (!unseen_.test(turn_));
-    unseen_.reset(turn_);
-    places_[turn_].station->publish_snapshot();
+    if (const auto place = turns_.take(now, roster_->size())) places_[*place].station->publish_snapshot();
 }
 
 void BusThread::show_bus(Instant now)
 {
-    next_bus_snapshot_ = now + kSnapshotInterval;
+    next_bus_snapshot_ = now + SnapshotTurns::kInterval;
     link_.snapshot.publish({.baud = station_.baud(),
                             .baud_state = station_.baud_state(),
                             .port_open = port_.is_open(),

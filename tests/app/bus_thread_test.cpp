@@ -97,6 +97,26 @@ TEST_F(BusThread, CountsTheTurnaroundOfEachReply)
     EXPECT_EQ(seen.write_errors + seen.driver_errors + seen.driver_guarded, 0u);
 }
 
+TEST_F(BusThread, ShowsNothingWhileAReplyWaits)
+{
+    start({.baud = Baud::k9_6}, {station(kStation)});
+    ASSERT_EQ(
+        master.ask(::test::sd2(kStation, 2, master.next_fc(), ::test::Saps{61, 62},
+                               {0, 0, 0, 255, 0x05, 0x33, 0})), // min T_SDR: 27 ms, for longest a reply waits
+        Octets{0xE5});
+    std::uint64_t seen = 0;
+    for (std::uint64_t i = 0; i < 40; ++i) {
+        pty.send(fdl_status(kStation));
+        ASSERT_TRUE(eventually([&] { // each that was shown was shown between two telegrams
+            const fdl::Counters& shown = snapshot().counters;
+            EXPECT_EQ(shown.requests, shown.replies + shown.late + shown.overtaken);
+            seen = std::max(seen, shown.requests);
+            return !pty.received().empty() || ::testing::Test::HasFailure();
+        }));
+    }
+    EXPECT_GT(seen, 1u);
+}
+
 TEST_F(BusThread, SaysWhatItCountsOfItsPageFaults)
 {
     start({}, {station(kStation)});

@@ -284,6 +284,29 @@ TEST_F(Searching, WhatIsNoTelegramIsNoFlawOfTheLineWhileTheRateIsInDoubt)
     EXPECT_EQ(station.counters().search_flaws, before + 2);
 }
 
+TEST_F(Searching, ReplyThatWaitsIsDroppedWhenTheSearchBegins)
+{
+    fdl::BaudSearchSettings hasty;
+    hasty.baud_control = hasty.dwell_slow = milliseconds{1};
+    fdl::Station slow{{.baud = Baud::k9_6, .search = hasty, .start_up_latency = {}}};
+    slow.attach(kUs, user, kClassMaxTsdr);
+    user.min_tsdr_bits = 50_tbit; // 5.2 ms
+    const Octets ask = sd1(kUs, kMaster, kFdlStatus);
+    slow.on_time(bus.now());
+    ASSERT_EQ(slow.take_baud_change(), Baud::k9_6);
+    slow.on_bytes(ask, bus.now());
+    slow.on_bytes(ask, bus.now());
+    ASSERT_TRUE(slow.reply_waits());
+    slow.on_time(bus.now() + milliseconds{1});
+    EXPECT_TRUE(slow.reply_waits());
+    slow.on_time(bus.now() + milliseconds{2});
+
+    EXPECT_EQ(slow.baud_state(), BaudState::baud_search);
+    EXPECT_FALSE(slow.reply_waits());
+    slow.on_time(bus.now() + milliseconds{6});
+    EXPECT_EQ(slow.take_transmit(), std::nullopt);
+}
+
 TEST_F(Searching, ForeignTrafficKeepsTheRateAgainOnceTheOwnerHasGone)
 {
     poll_until_found(seconds{1});

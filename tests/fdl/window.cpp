@@ -201,4 +201,14 @@ TEST_P(EveryRate, HasItsOwnMaxTsdr)
 
 INSTANTIATE_TEST_SUITE_P(Rates, EveryRate, testing::ValuesIn(kBauds));
 
+TEST_F(ReplyWindow, IsWaitedForUntilTheReplyIsTaken)
+{
+    fdl::Station& asked = station_with(60_tbit);
+    EXPECT_TRUE(asked.reply_waits());
+    asked.on_time(kRead + bits(11));
+    EXPECT_TRUE(asked.reply_waits());
+    ASSERT_TRUE(asked.take_transmit());
+    EXPECT_FALSE(asked.reply_waits());
+}
+
 } // namespace

@@ -8,6 +8,7 @@
 #include "dpslave/app/bus_station.hpp"
 #include "dpslave/app/config.hpp"
 #include "dpslave/app/links.hpp"
+#include "dpslave/app/snapshot_turns.hpp"
 #include "dpslave/fdl/echo.hpp"
 #include "dpslave/fdl/station.hpp"
 #include "dpslave/io/driver_enable.hpp"
@@ -44,12 +45,11 @@ public:
 private:
     /// The longest sleep: also the heartbeat, and the resolution of every deadline that is further away.
     static constexpr std::chrono::milliseconds kTick{10};
-    static constexpr std::chrono::milliseconds kSnapshotInterval{50};
     static constexpr std::chrono::microseconds kSpin = BusSender::kSpin;
     static constexpr std::chrono::microseconds kLastLook{1};
     /// While a driver is to be let go within this time nothing longer is begun.
     static constexpr std::chrono::microseconds kHurry{200};
-    static constexpr std::size_t kPlaces = 128;
+    static constexpr std::size_t kPlaces = SnapshotTurns::kPlaces;
     /// Who has something to say, in the epoll.
     static constexpr std::uint64_t kTtyKey = 0, kWakeKey = 1, kTickKey = 2;
 
@@ -70,6 +70,7 @@ private:
     void count_turnaround(Instant written, Baud baud);
     void finish_sending();
     bool in_a_hurry(Instant now) const;
+    bool may_show(Instant now) const;
     void hand_on();
 
     void follow_roster();
@@ -105,8 +106,8 @@ private:
     std::array<Place, kPlaces> places_{};
     std::array<std::optional<std::uint8_t>, kPlaces> at_{}; ///< which place has this address
     std::bitset<kPlaces> waiting_; ///< places with an order that could not be handed on yet
-    std::bitset<kPlaces> unseen_;  ///< places whose snapshot is older than their state
-    bool orders_due_ = true;       ///< roster and orders of the main thread are looked at with each tick
+    SnapshotTurns turns_;
+    bool orders_due_ = true; ///< roster and orders of the main thread are looked at with each tick
 
     io::Epoll epoll_;
     io::Ticker ticker_{kTick};
@@ -117,9 +118,7 @@ private:
     std::uint64_t too_late_ = 0;
     std::uint64_t unsent_ = 0;
 
-    Instant next_snapshot_{};
     Instant next_bus_snapshot_{};
-    unsigned turn_ = 0; ///< place whose snapshot went last
     std::uint64_t faults_at_start_ = 0;
     bool driver_worked_ = true;
     bool guard_told_ = false;

@@ -80,6 +80,9 @@ public:
     /// passed means: at once.
     Instant next_deadline() const;
 
+    /// A reply waits for its window: what can be put off is put off until it is out.
+    bool reply_waits() const { return pending_.has_value(); }
+
     /// When a telegram with a checksum (SD1, SD2, SD3) of anybody was read last; default = none yet. Tokens
     /// and SC are no sign of life: noise and wrong rates are full of them.
     Instant last_telegram() const { return last_telegram_; }

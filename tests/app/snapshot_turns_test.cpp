@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+/// When each station's state is shown to the main thread.
+#include "dpslave/app/snapshot_turns.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+namespace dpslave::test {
+namespace {
+
+using app::SnapshotTurns;
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+
+constexpr Instant kStart{std::chrono::seconds{9}};
+constexpr nanoseconds kInterval = milliseconds{50};
+
+TEST(SnapshotTurns, HaveNothingToShowUntilSomethingChanges)
+{
+    SnapshotTurns turns;
+    EXPECT_EQ(turns.next(), kNever);
+    EXPECT_EQ(turns.take(kStart, 1), std::nullopt);
+    turns.changed(7);
+    EXPECT_LE(turns.next(), kStart);
+    EXPECT_EQ(turns.take(kStart, 1), 7u);
+    EXPECT_EQ(turns.take(kStart + std::chrono::hours{1}, 1), std::nullopt);
+    EXPECT_EQ(turns.next(), kNever);
+}
+
+TEST(SnapshotTurns, ShowAStationThatAlwaysChangesOnceIn50MsHoweverManyOthersAreQuiet)
+{
+    for (const std::size_t stations : {1u, 10u, 51u, 127u}) {
+        SnapshotTurns turns;
+        turns.changed(3);
+        ASSERT_EQ(turns.take(kStart, stations), 3u);
+        turns.changed(3);
+        EXPECT_EQ(turns.next(), kStart + kInterval) << stations;
+        EXPECT_EQ(turns.take(kStart + kInterval - nanoseconds{1}, stations), std::nullopt) << stations;
+        EXPECT_EQ(turns.take(kStart + kInterval, stations), 3u) << stations;
+    }
+}
+
+/// Each round of the thread shows one station, and leaves the time between two to telegrams.
+TEST(SnapshotTurns, ShowOneAtATimeAnNthOf50MsApartInNanoseconds)
+{
+    constexpr std::size_t kStations = 127;
+    SnapshotTurns turns;
+    for (std::size_t place = 0; place < kStations; ++place) turns.changed(place);
+    ASSERT_TRUE(turns.take(kStart, kStations));
+    EXPECT_EQ(turns.take(kStart, kStations), std::nullopt);
+    EXPECT_EQ(turns.next(), kStart + nanoseconds{50'000'000 / 127});
+    EXPECT_EQ(turns.take(kStart + nanoseconds{393'699}, kStations), std::nullopt);
+    EXPECT_TRUE(turns.take(kStart + nanoseconds{393'700}, kStations));
+}
+
+TEST(SnapshotTurns, ShowEveryStationInItsTurnWhereAllChangeAllTheTime)
+{
+    constexpr std::size_t kStations = 100;
+    SnapshotTurns turns;
+    std::map<std::size_t, std::vector<Instant>> shown;
+    for (std::size_t place = 0; place < kStations; ++place) turns.changed(place);
+    while (turns.next() < kStart + 10 * kInterval) {
+        const Instant now = std::max(turns.next(), kStart);
+        const auto place = turns.take(now, kStations);
+        ASSERT_TRUE(place);
+        shown[*place].push_back(now);
+        turns.changed(*place);
+    }
+    EXPECT_EQ(shown.size(), kStations);
+    for (const auto& [place, times] : shown) {
+        EXPECT_GE(times.size(), 9u) << place;
+        for (std::size_t i = 1; i < times.size(); ++i) EXPECT_GE(times[i] - times[i - 1], kInterval) << place;
+    }
+}
+
+TEST(SnapshotTurns, DoNotLetOneThatRestsKeepAnotherWaiting)
+{
+    SnapshotTurns turns;
+    turns.changed(1);
+    ASSERT_EQ(turns.take(kStart, 2), 1u);
+    turns.changed(1);
+    turns.changed(2);
+    EXPECT_EQ(turns.next(), kStart + kInterval / 2);
+    EXPECT_EQ(turns.take(kStart + kInterval / 2, 2), 2u);
+    EXPECT_EQ(turns.next(), kStart + kInterval);
+}
+
+TEST(SnapshotTurns, ForgetAStationThatHasGone)
+{
+    SnapshotTurns turns;
+    turns.changed(1);
+    turns.forget(1);
+    EXPECT_EQ(turns.next(), kNever);
+    turns.changed(1); // another one has its place
+    EXPECT_EQ(turns.take(kStart, 1), 1u);
+    turns.changed(1);
+    turns.forget(1);
+    turns.changed(1);
+    EXPECT_EQ(turns.next(), kStart + kInterval) << "one at a time, also of those who come";
+}
+
+} // namespace
+} // namespace dpslave::test
