@@ -58,6 +58,19 @@ void DemandQueue::not_understood(std::uint32_t number, int retries)
     ++dropped_;
 }
 
+void DemandQueue::written(std::uint32_t number)
+{
+    if (!entries_.empty() && entries_.front().order.number == number) entries_.front().written = true;
+}
+
+void DemandQueue::not_held(std::uint32_t number, int retries)
+{
+    if (entries_.empty() || entries_.front().order.number != number) return;
+    Entry& entry = entries_.front();
+    entry.written = false;
+    if (++entry.not_understood > retries) done(number, AccessError::out_of_range, 0);
+}
+
 void DemandQueue::done(std::uint32_t number, AccessError error, std::uint16_t value)
 {
     const auto at = std::find_if(entries_.begin(), entries_.end(),

@@ -18,6 +18,7 @@ public:
         const Tag* row = nullptr;
         bool answered = false;  ///< a standing read that gave its first answer
         int not_understood = 0; ///< so often
+        bool written = false;   ///< the drive has said so: now it is read back
     };
 
     /// The order that stands now; `verdict` other than none answers it without the drive.
@@ -30,6 +31,11 @@ public:
     /// The drive did not understand it: the order waits on as long as it stands; else it is dropped after
     /// `retries`, for others wait behind it.
     void not_understood(std::uint32_t number, int retries);
+    /// The drive has acknowledged the write: it is proven by what it holds then.
+    void written(std::uint32_t number);
+    /// It does not hold what was written: written again, `retries` times at most. Then the order is answered
+    /// with out_of_range.
+    void not_held(std::uint32_t number, int retries);
     /// The drive is lost: what no longer stands is not to be done when it returns, maybe minutes later.
     void drop_superseded();
     /// Writes that were dropped though their layout stands.

@@ -2,37 +2,16 @@
 #include "dpslave/drive/ei_ascii_client.hpp"
 
 #include "digits.hpp"
+#include "ei_access.hpp"
 
 #include <algorithm>
-#include <array>
 
 namespace dpslave::drive {
 namespace {
 
-using ei::Answer;
-using ei::AnswerParser;
-
-constexpr std::chrono::milliseconds kMinGap{
-    20};                                   ///< between characters at 9600 (EI-ASCII reference, section 1)
-constexpr std::size_t kGapCharacters = 20; ///< the same at lower rates
-constexpr std::size_t kLongestAnswer = ei::kMaxAnswerText + 5; ///< STX C1 C2 text ETX BCC
-
-std::string quoted(ei::Mnemonic mnemonic)
-{
-    return {'\'', mnemonic[0], mnemonic[1], '\''};
-}
-
 AccessError error_of(ei::ValueFlaw flaw)
 {
     return flaw == ei::ValueFlaw::out_of_span ? AccessError::out_of_range : AccessError::unsupported_type;
-}
-
-std::optional<std::uint16_t> word_of(const Answer& answer)
-{
-    if (answer.kind != Answer::Kind::value) return std::nullopt;
-    const auto word = ei::decode_word(answer.text);
-    if (!word) return std::nullopt;
-    return *word;
 }
 
 std::pair<std::uint16_t, std::uint16_t> key(UnitAddress unit, std::uint16_t tag)
@@ -40,18 +19,23 @@ std::pair<std::uint16_t, std::uint16_t> key(UnitAddress unit, std::uint16_t tag)
     return {static_cast<std::uint16_t>(unit.group << 8 | unit.unit), tag};
 }
 
+bool holds(const Tag& tag, const std::string& text, std::uint16_t word)
+{
+    const auto held = tag.listed ? ei::decode_value(tag, text) : ei::decode_word(text);
+    return held && *held == word;
+}
+
 } // namespace
 
 EiAsciiClient::EiAsciiClient(SerialLine& line, EiTiming timing, std::vector<EiUnit> units)
-    : line_(line), timing_(timing), units_(std::move(units))
-{
-    timing_.baud = std::max<std::uint32_t>(timing_.baud, 1);
-}
+    : access_(std::make_unique<ei::Access>(line, timing)), units_(std::move(units))
+{}
 
-std::chrono::nanoseconds EiAsciiClient::duration_of(std::size_t characters) const
+EiAsciiClient::~EiAsciiClient() = default;
+
+AnswerCounts EiAsciiClient::counts(UnitAddress unit) const
 {
-    return std::chrono::nanoseconds{
-        static_cast<std::int64_t>(characters * 10 * std::uint64_t{1'000'000'000} / timing_.baud)};
+    return access_->counts(unit);
 }
 
 MnemonicRule EiAsciiClient::rule_of(UnitAddress unit) const
@@ -59,104 +43,6 @@ MnemonicRule EiAsciiClient::rule_of(UnitAddress unit) const
     const auto at =
         std::find_if(units_.begin(), units_.end(), [unit](const EiUnit& u) { return u.address == unit; });
     return at == units_.end() ? MnemonicRule::none : at->mnemonics;
-}
-
-/// After this silence a drive has no more to say.
-std::chrono::nanoseconds EiAsciiClient::gap() const
-{
-    return std::max<std::chrono::nanoseconds>(kMinGap, duration_of(kGapCharacters));
-}
-
-/// Lets pass what still comes, for the time of two answers at most: a line that babbles on is left to the
-/// next request.
-void EiAsciiClient::drain()
-{
-    const Instant end = line_.now() + duration_of(2 * kLongestAnswer) + gap();
-    std::array<std::uint8_t, 64> waste{};
-    for (Instant now = line_.now(); now < end; now = line_.now())
-        if (line_.read(waste, std::min(gap(), end - now)) == 0) return;
-}
-
-/// One request and its answer; nothing when none came that can be believed (trouble_ says why). The answer
-/// has to begin within the time-out and to end within the time of the longest one, whatever comes on the
-/// line.
-std::optional<Answer> EiAsciiClient::exchange(const ei::Frame& request, AnswerParser::To kind)
-{
-    line_.discard();
-    if (!line_.write(request)) {
-        trouble_ = "the line does not take the request";
-        return std::nullopt;
-    }
-    // write() need not have waited for the wire
-    const Instant begins = line_.now() + duration_of(request.size()) + timing_.timeout;
-    const Instant ends = begins + duration_of(kLongestAnswer) + gap();
-    AnswerParser parser{kind};
-    auto status = AnswerParser::Status::more;
-    std::array<std::uint8_t, 64> buffer{};
-    for (bool noise = false; status == AnswerParser::Status::more; noise = !parser.started()) {
-        const Instant now = line_.now();
-        const Instant until = parser.started() ? std::min(now + gap(), ends) : begins;
-        const std::size_t got = now < until ? line_.read(buffer, until - now) : 0;
-        if (got == 0) {
-            trouble_ = noise               ? "noise and no answer"
-                       : !parser.started() ? "no answer"
-                       : until < ends      ? "the answer broke off"
-                                           : std::string{ei::text(ei::Flaw::too_long)};
-            return std::nullopt;
-        }
-        for (std::size_t i = 0; i < got && status != AnswerParser::Status::broken; ++i)
-            status = parser.feed(buffer[i]);
-    }
-    if (status == AnswerParser::Status::complete) return parser.answer();
-    trouble_ = ei::text(parser.flaw());
-    drain();
-    return std::nullopt;
-}
-
-/// A poll whose answer, where it is a value, names the mnemonic that was asked for.
-std::optional<Answer> EiAsciiClient::poll(UnitAddress unit, ei::Mnemonic mnemonic)
-{
-    auto answer = exchange(ei::poll(unit, mnemonic), AnswerParser::To::poll);
-    if (answer && answer->kind == Answer::Kind::value && answer->mnemonic != mnemonic) {
-        trouble_ = "asked for " + quoted(mnemonic) + ", answered for " + quoted(answer->mnemonic);
-        drain();
-        return std::nullopt;
-    }
-    return answer;
-}
-
-/// After a NAK. EE is read before anything else changes it.
-AccessError EiAsciiClient::refused(UnitAddress unit, bool is_write)
-{
-    const auto answer = poll(unit, ei::kLastError);
-    if (!answer) {
-        trouble_ = "NAK, and EE could not be read";
-        return AccessError::no_answer;
-    }
-    const auto ee = word_of(*answer);
-    if (!ee) {
-        trouble_ = "NAK, and the drive has no EE that says why";
-        return AccessError::not_understood;
-    }
-    trouble_ = "NAK, EE " + hex_text(*ee, 4) + " (" + std::string{ei::meaning_of_ee(*ee)} + ")";
-    return ei::error_of_ee(*ee, is_write);
-}
-
-/// After an EOT on a poll: the drive has no such parameter, unless EE says that it can only be written. An
-/// EOT without a drive that answers for EE was noise: one bad octet must not turn an input into 0.
-AccessError EiAsciiClient::unknown_parameter(UnitAddress unit, const Tag& tag)
-{
-    const auto answer = poll(unit, ei::kLastError);
-    const auto ee = answer ? word_of(*answer) : std::nullopt;
-    if (!answer) {
-        trouble_ = "an EOT, but no answer for EE behind it: noise";
-        return AccessError::no_answer;
-    }
-    const bool write_only = ee && high(*ee) == 0x04;
-    trouble_ = "the drive knows no tag " + std::to_string(tag.number) + " (EOT)";
-    if (write_only)
-        trouble_ = "EOT, EE " + hex_text(*ee, 4) + " (" + std::string{ei::meaning_of_ee(*ee)} + ")";
-    return write_only ? AccessError::unsupported_type : AccessError::invalid_tag;
 }
 
 /// The mnemonic of the tag; nothing and a word for the log if there is none.
@@ -178,15 +64,12 @@ AccessError EiAsciiClient::read(UnitAddress unit, const Tag& tag, std::span<std:
     }
     const auto mnemonic = mnemonic_for(unit, tag);
     if (!mnemonic) return AccessError::invalid_tag;
-    const auto answer = poll(unit, *mnemonic);
-    if (!answer) return AccessError::no_answer;
-    switch (answer->kind) {
-        case Answer::Kind::eot: return unknown_parameter(unit, tag);
-        case Answer::Kind::value: return take_value(unit, tag, answer->text, words[0]);
-        case Answer::Kind::nak:
-        case Answer::Kind::ack: break;
-    }
-    return refused(unit, false);
+    const AccessError error = access_->read(unit, *mnemonic);
+    if (error == AccessError::none) return take_value(unit, tag, access_->text(), words[0]);
+    trouble_ = access_->trouble();
+    if (error == AccessError::invalid_tag)
+        trouble_ = "the drive knows no tag " + std::to_string(tag.number) + ": " + trouble_;
+    return error;
 }
 
 AccessError EiAsciiClient::take_value(UnitAddress unit, const Tag& tag, const std::string& text,
@@ -243,15 +126,18 @@ AccessError EiAsciiClient::write(UnitAddress unit, const Tag& tag, std::span<con
                    std::string{ei::text(text.error())};
         return error_of(text.error());
     }
-    const auto answer = exchange(ei::select(unit, *mnemonic, *text), AnswerParser::To::select);
-    if (!answer) return AccessError::no_answer;
-    return answer->kind == Answer::Kind::ack ? AccessError::none : refused(unit, true);
+    const AccessError error = access_->write(unit, *mnemonic, *text);
+    if (error == AccessError::deferred && access_->read_back() && holds(tag, *access_->read_back(), word))
+        return AccessError::none;
+    trouble_ = access_->trouble();
+    return error;
 }
 
 bool EiAsciiClient::probe(UnitAddress unit)
 {
-    trouble_.clear();
-    return poll(unit, ei::kIdentity).has_value();
+    const bool answers = access_->probe(unit);
+    trouble_ = answers ? std::string{} : access_->trouble();
+    return answers;
 }
 
 } // namespace dpslave::drive

@@ -158,6 +158,11 @@ void OutputPlan::not_answered(bool drive_lost)
     if (writes_block()) block_failed();
 }
 
+void OutputPlan::defer()
+{
+    for (const std::size_t index : batch_) items_[index].round = round_;
+}
+
 /// Nothing of it is known to be written: `answered` is empty, so each is due at once.
 void OutputPlan::block_failed()
 {

@@ -88,6 +88,7 @@ public:
     /// its words: they are written one by one.
     void done(AccessError error, Instant now);
     void not_answered(bool drive_lost);
+    void defer(); ///< not asked or not proven: once more in the next round
     bool writes_block() const { return batch_.size() > 1; } ///< the write started last
 
     /// A cyclic read that began at `began` showed `word`.

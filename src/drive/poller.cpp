@@ -51,25 +51,64 @@ bool Poller::operate(const OperateOrder& order)
     return order.unit < units_.size() && units_[order.unit]->operate(order);
 }
 
-/// One transaction a turn, the drives in a circle: what one of them costs, the others do not pay.
+/// One transaction a turn, the drives in a circle: what one of them costs, the others do not pay. Between two
+/// rounds of the living drives at most one transaction that can time out, whatever its reason.
 std::optional<Transaction> Poller::next(Instant now)
 {
     for (const auto& unit : units_) unit->tell_time(now);
     if (doing_) return std::nullopt;
+    doing_ = next_of(now);
+    if (!doing_)
+        doing_ = next_of(now); // the living drives have nothing to do: that is the end of their round
+    return doing_;
+}
+
+/// A drive that may not answer is passed over while a living one still has its round.
+std::optional<Transaction> Poller::next_of(Instant now)
+{
     for (std::size_t i = 0; i < units_.size(); ++i) {
-        const std::size_t unit = (turn_ + i) % units_.size();
-        doing_ = units_[unit]->next(now);
-        if (!doing_) continue;
-        turn_ = (unit + 1) % units_.size();
-        return doing_;
+        const std::size_t index = (turn_ + i) % units_.size();
+        Unit& unit = *units_[index];
+        const bool risks = unit.is_in_doubt();
+        if (risks && !may_time_out()) continue;
+        const auto transaction = unit.is_lost() ? probe(index, now) : unit.next(now);
+        if (!transaction) continue;
+        turn_ = (index + 1) % units_.size();
+        if (risks)
+            for (const auto& other : units_) other->owe_round();
+        return transaction;
     }
     return std::nullopt;
+}
+
+bool Poller::may_time_out() const
+{
+    return std::none_of(units_.begin(), units_.end(), [](const auto& unit) { return unit->owes_round(); });
+}
+
+/// When the next lost drive is probed: the one that has waited longest, one of the line each probe interval.
+Instant Poller::probe_due(std::size_t unit) const
+{
+    const auto longest = std::min_element(units_.begin(), units_.end(), [](const auto& a, const auto& b) {
+        return a->is_lost() != b->is_lost() ? a->is_lost() : a->asked_at() < b->asked_at();
+    });
+    if (longest->get() != units_[unit].get()) return kNever;
+    if (!probed_at_) return (*longest)->probe_due();
+    return std::max((*longest)->probe_due(), *probed_at_ + (*longest)->probe_interval());
+}
+
+std::optional<Transaction> Poller::probe(std::size_t unit, Instant now)
+{
+    if (now < probe_due(unit)) return std::nullopt;
+    probes_ = true;
+    return units_[unit]->probe();
 }
 
 void Poller::done(const Outcome& outcome, Instant now)
 {
     if (!doing_) return;
     const Transaction transaction = *std::exchange(doing_, std::nullopt);
+    if (std::exchange(probes_, false)) probed_at_ = now;
     units_[transaction.unit]->done(transaction, outcome, now);
 }
 
@@ -77,7 +116,10 @@ Instant Poller::next_deadline() const
 {
     Instant at = kNever;
     if (doing_) return at; // done() comes first
-    for (const auto& unit : units_) at = std::min(at, unit->next_deadline());
+    for (std::size_t i = 0; i < units_.size(); ++i) {
+        at = std::min(at, units_[i]->next_deadline());
+        if (units_[i]->is_lost()) at = std::min(at, probe_due(i));
+    }
     return at;
 }
 

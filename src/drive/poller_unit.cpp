@@ -22,8 +22,7 @@ Poller::Unit::Unit(const UnitSettings& settings, BlockRule rule, std::size_t ind
       tags_(settings),
       reads_(rule),
       outputs_({settings.output_refresh, settings.compare_outputs, rule.max_written}),
-      safe_state_(settings.zero_after),
-      probe_wait_(settings.probe_interval)
+      safe_state_(settings.zero_after)
 {
     reads_.reset(tags_.reads_of({}));
     show();
@@ -127,13 +126,22 @@ bool Poller::Unit::operate(const OperateOrder& order)
 
 std::optional<Transaction> Poller::Unit::next(Instant now)
 {
-    if (lost_) return probe(now);
-    if (auto transaction = asked(now)) return transaction;
-    begin_round(now);
-    if (auto transaction = asked(now)) return transaction;
-    order_was_last_ = zero_waits_ = false; // nothing cyclic is there to go first
-    if (auto transaction = asked(now)) return transaction;
-    return probe(now);
+    if (now < rests_until_) return std::nullopt;
+    auto transaction = asked(now);
+    if (!transaction) {
+        begin_round(now);
+        transaction = asked(now);
+    }
+    if (!transaction) {
+        order_was_last_ = zero_waits_ = false; // nothing cyclic is there to go first
+        transaction = asked(now);
+    }
+    if (!transaction) transaction = idle_probe(now);
+    if (transaction)
+        wrote_last_ = transaction->kind == Transaction::Kind::write;
+    else
+        owes_round_ = false;
+    return transaction;
 }
 
 /// What this round still has.
@@ -141,6 +149,8 @@ std::optional<Transaction> Poller::Unit::asked(Instant now)
 {
     if (const Tag* row = zero_waits_ ? nullptr : safe_state_.next(now))
         return make_write(Purpose::safe_state, row, 0);
+    if (wrote_last_)
+        if (auto read = cyclic_read(now)) return read; // fast outputs do not starve inputs
     if (auto transaction = ordered()) return transaction;
     return cyclic(now);
 }
@@ -156,7 +166,7 @@ std::optional<Transaction> Poller::Unit::ordered()
         order_was_last_ = true;
         ++orders_in_round_;
         job_.order = entry->order.number;
-        return entry->order.kind == DemandOrder::Kind::write
+        return entry->order.kind == DemandOrder::Kind::write && !entry->written
                    ? make_write(Purpose::demand, entry->row, entry->order.value)
                    : make_read(Purpose::demand, entry->row);
     }
@@ -174,36 +184,47 @@ std::optional<Transaction> Poller::Unit::ordered()
 /// no more than its own share of the cycle.
 std::optional<Transaction> Poller::Unit::cyclic(Instant now)
 {
+    if (!round_began_) round_began_ = now;
     job_.layout = serial_;
     job_.began = now;
-    if (!round_began_) round_began_ = now;
     if (const auto write = outputs_.start(now)) {
         order_was_last_ = zero_waits_ = false;
         return make_write(Purpose::output, write->row, write->words);
     }
-    if (const auto block = reads_.next(now)) {
-        order_was_last_ = zero_waits_ = false;
-        job_.block = *block;
-        const Purpose purpose = reads_.serves_input(*block)    ? Purpose::input
-                                : reads_.serves_output(*block) ? Purpose::output
-                                                               : Purpose::watch;
-        in_round_ = in_round_ || purpose != Purpose::watch;
-        Transaction transaction = make_read(purpose, reads_.items()[block->first].row);
-        transaction.count = reads_.count_of(*block);
-        return transaction;
-    }
-    return std::nullopt;
+    return cyclic_read(now);
 }
 
-/// While lost, and when nothing else has been asked for a while. A silence that may be the first of a loss is
-/// followed up at once.
-std::optional<Transaction> Poller::Unit::probe(Instant now)
+std::optional<Transaction> Poller::Unit::cyclic_read(Instant now)
 {
-    const bool due = !ever_asked_ || (silences_ > 0 && !lost_) || now >= asked_at_ + probe_wait_;
-    if (!due) return std::nullopt;
+    const auto block = reads_.next(now);
+    if (!block) return std::nullopt;
+    if (!round_began_) round_began_ = now;
+    job_.layout = serial_;
+    job_.began = now;
+    job_.block = *block;
+    order_was_last_ = zero_waits_ = false;
+    const Purpose purpose = reads_.serves_input(*block)    ? Purpose::input
+                            : reads_.serves_output(*block) ? Purpose::output
+                                                           : Purpose::watch;
+    in_round_ = in_round_ || purpose != Purpose::watch;
+    Transaction transaction = make_read(purpose, reads_.items()[block->first].row);
+    transaction.count = reads_.count_of(*block);
+    return transaction;
+}
+
+Transaction Poller::Unit::probe() const
+{
     Transaction transaction;
     transaction.unit = index_;
     return transaction;
+}
+
+/// When nothing else has been asked for a while. A silence that may be the first of a loss is followed up at
+/// once.
+std::optional<Transaction> Poller::Unit::idle_probe(Instant now) const
+{
+    if (ever_asked_ && silences_ == 0 && now < probe_due()) return std::nullopt;
+    return probe();
 }
 
 Transaction Poller::Unit::make_read(Purpose purpose, const Tag* row) const
@@ -237,17 +258,21 @@ void Poller::Unit::begin_round(Instant now)
     if (in_round_ && round_began_) snapshot_.cycle = now - *round_began_;
     round_began_ = now;
     in_round_ = false;
+    owes_round_ = false;
     orders_in_round_ = 0;
     reads_.begin_round(now);
     outputs_.begin_round();
 }
 
+/// Of a lost drive only what is not asked of it: its probe is the line's business.
 Instant Poller::Unit::next_deadline() const
 {
-    const Instant next_probe = asked_at_ + probe_wait_;
-    if (lost_) return safe_state_.untold() ? kAtOnce : next_probe;
-    if (!ever_asked_ || silences_ > 0 || demand_.front() != nullptr || !operates_.empty()) return kAtOnce;
-    return std::min({next_probe, outputs_.next_due(), safe_state_.next_due(), reads_.next_due()});
+    if (lost_) return safe_state_.untold() ? kAtOnce : kNever;
+    const bool at_once = !ever_asked_ || silences_ > 0 || demand_.front() != nullptr || !operates_.empty();
+    const Instant next =
+        at_once ? kAtOnce
+                : std::min({probe_due(), outputs_.next_due(), safe_state_.next_due(), reads_.next_due()});
+    return std::max(next, rests_until_);
 }
 
 } // namespace dpslave::drive

@@ -33,9 +33,21 @@ public:
     }
 
     void tell_time(Instant now) { safe_state_.tell_time(now); } ///< before next(), of this drive or another
-    std::optional<Transaction> next(Instant now);
+    std::optional<Transaction> next(Instant now);               ///< precondition: not lost
+    Transaction probe() const;
     void done(const Transaction& transaction, const Outcome& outcome, Instant now);
     Instant next_deadline() const;
+
+    bool is_lost() const { return lost_; }
+    /// Is its next transaction likely to time out?
+    bool is_in_doubt() const { return lost_ || silences_ > 0; }
+    /// When it may be probed next, as far as it alone is concerned. Of a lost drive.
+    Instant probe_due() const { return asked_at_ + settings_.probe_interval; }
+    std::chrono::nanoseconds probe_interval() const { return settings_.probe_interval; }
+    Instant asked_at() const { return asked_at_; }
+    /// A transaction that could time out was given: this drive has its round before the next such one.
+    void owe_round() { owes_round_ = true; }
+    bool owes_round() const { return owes_round_ && !is_in_doubt(); }
 
     std::optional<InputImage> take_inputs();
     std::optional<DemandAnswer> take_demand_answer() { return demand_.take_answer(); }
@@ -66,13 +78,16 @@ private:
     std::optional<Transaction> asked(Instant now);
     std::optional<Transaction> ordered();
     std::optional<Transaction> cyclic(Instant now);
-    std::optional<Transaction> probe(Instant now);
+    std::optional<Transaction> cyclic_read(Instant now);
+    std::optional<Transaction> idle_probe(Instant now) const;
     Transaction make_read(Purpose purpose, const Tag* row) const;
     Transaction make_write(Purpose purpose, const Tag* row, std::span<const std::uint16_t> words) const;
     Transaction make_write(Purpose purpose, const Tag* row, std::uint16_t word);
     void begin_round(Instant now);
 
     bool is_repeated(AccessError error, int& not_understood) const;
+    void defer(const Transaction& transaction, Instant now);
+    bool proven_by_reading(const Transaction& transaction) const;
     void link(bool answered, Instant now);
     void lose();
     void done_read(const Outcome& outcome, Instant now);
@@ -117,8 +132,11 @@ private:
     int silences_ = 0; ///< in a row
     bool lost_ = false;
     bool ever_asked_ = false;
-    Instant asked_at_{};                  ///< end of the last transaction
-    std::chrono::nanoseconds probe_wait_; ///< from there to the next probe
+    Instant asked_at_{};      ///< end of the last transaction
+    bool wrote_last_ = false; ///< the last transaction was a write: now a read first
+    bool owes_round_ = false;
+    int deferred_ = 0;      ///< transactions in a row
+    Instant rests_until_{}; ///< nothing can be asked before, as far as is known
     bool inputs_changed_ = false;
     UnitSnapshot snapshot_;
 };

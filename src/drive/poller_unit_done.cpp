@@ -7,8 +7,9 @@
 namespace dpslave::drive {
 namespace {
 
-/// Several dead drives on one line must not eat it: their probes come more and more seldom.
-constexpr int kMaxProbeFactor = 8;
+/// So many transactions in a row that could not be asked, and the drive rests: what is owed to it needs time.
+constexpr int kDeferredAtOnce = 4;
+constexpr std::chrono::milliseconds kDeferredRest{5};
 
 bool is_refusal(AccessError error)
 {
@@ -48,6 +49,11 @@ void Poller::Unit::done(const Transaction& transaction, const Outcome& outcome, 
         what.words.size() < transaction.count)
         what.error = AccessError::no_answer; // half an answer is none
     what.error = with_reason(transaction, what.error);
+    if (what.error == AccessError::deferred) {
+        defer(transaction, now);
+        return show();
+    }
+    deferred_ = 0;
     ever_asked_ = true;
     asked_at_ = now;
     count(transaction, what.error);
@@ -67,6 +73,28 @@ void Poller::Unit::done(const Transaction& transaction, const Outcome& outcome, 
     }
     link(what.error != AccessError::no_answer, now);
     show();
+}
+
+/// Neither silence nor answer: it is asked again in a later round, and until then what is known is held.
+void Poller::Unit::defer(const Transaction& transaction, Instant now)
+{
+    if (++deferred_ >= kDeferredAtOnce) rests_until_ = now + kDeferredRest;
+    const bool is_write = transaction.kind == Transaction::Kind::write;
+    switch (transaction.purpose) {
+        case Purpose::input:
+        case Purpose::output:
+        case Purpose::watch:
+            if (job_.layout != serial_) break;
+            if (is_write)
+                outputs_.defer();
+            else
+                reads_.defer(job_.block, now);
+            break;
+        case Purpose::safe_state: zero_waits_ = true; break;
+        case Purpose::demand:
+        case Purpose::operate:
+        case Purpose::probe: break;
+    }
 }
 
 void Poller::Unit::count(const Transaction& transaction, AccessError error)
@@ -145,7 +173,22 @@ void Poller::Unit::done_demand(const Transaction& transaction, const Outcome& ou
         demand_.not_understood(job_.order, settings_.retries);
         return;
     }
-    demand_.done(job_.order, outcome.error, word_of(transaction, outcome));
+    const bool is_write = transaction.kind == Transaction::Kind::write;
+    const auto* entry = demand_.front();
+    if (is_write && outcome.error == AccessError::none && proven_by_reading(transaction))
+        return demand_.written(job_.order);
+    const bool proves = !is_write && entry != nullptr && entry->order.number == job_.order && entry->written;
+    if (!proves) return demand_.done(job_.order, outcome.error, word_of(transaction, outcome));
+    const std::uint16_t written = entry->order.value;
+    if (outcome.error != AccessError::none || outcome.words.front() == written)
+        return demand_.done(job_.order, AccessError::none, written);
+    demand_.not_held(job_.order, settings_.retries);
+}
+
+/// Where outputs are not compared the answer to a write names nothing (EI-ASCII): it is no proof.
+bool Poller::Unit::proven_by_reading(const Transaction& transaction) const
+{
+    return !settings_.compare_outputs && tags_.verdict(*transaction.tag, false) == AccessError::none;
 }
 
 void Poller::Unit::done_operate(const Transaction& transaction, const Outcome& outcome)
@@ -161,22 +204,18 @@ void Poller::Unit::done_operate(const Transaction& transaction, const Outcome& o
 void Poller::Unit::link(bool answered, Instant now)
 {
     if (!answered) {
-        if (lost_)
-            probe_wait_ = std::min(2 * probe_wait_, kMaxProbeFactor * settings_.probe_interval);
-        else if (++silences_ > settings_.retries)
-            lose();
+        if (!lost_ && ++silences_ > settings_.retries) lose();
         return;
     }
     silences_ = 0;
     if (lost_) {
         lost_ = false;
-        probe_wait_ = settings_.probe_interval;
         reads_.drive_returned(now);
         outputs_.drive_returned();
         safe_state_.drive_returned();
         outputs_.begin_round(); // they go before the rest of the reads
         round_began_.reset();
-        order_was_last_ = zero_waits_ = false;
+        order_was_last_ = zero_waits_ = wrote_last_ = false;
     }
     if (!snapshot_.answers) inputs_changed_ = true;
     snapshot_.known = true;

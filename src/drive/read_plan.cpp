@@ -254,6 +254,18 @@ void ReadPlan::skip(Block block)
     for (std::size_t i = block.first; i <= block.last; ++i) items_[i].retry_at += kInvalidRetry;
 }
 
+void ReadPlan::defer(Block block, Instant now)
+{
+    position_ = std::max(position_, block.last + 1);
+    for (std::size_t i = block.first; i <= block.last; ++i) {
+        Item& item = items_[i];
+        item.retry_at = now + kDeferredRetry;
+        if (item.state != WordState::good) continue;
+        item.state = WordState::stale;
+        item.error = AccessError::deferred;
+    }
+}
+
 void ReadPlan::drive_lost()
 {
     for (Item& item : items_) {

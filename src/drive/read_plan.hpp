@@ -19,6 +19,9 @@ namespace dpslave::drive {
 /// a corrected drive is noticed.
 inline constexpr std::chrono::nanoseconds kInvalidRetry = std::chrono::seconds{10};
 
+/// How long an excluded tag that could not be asked for the sake of an owed answer waits.
+inline constexpr std::chrono::nanoseconds kDeferredRetry = std::chrono::milliseconds{100};
+
 /// Rounds in which nothing is read for the master begin this far apart: an idle line stays calm.
 inline constexpr std::chrono::nanoseconds kCalmRound = std::chrono::milliseconds{250};
 
@@ -43,7 +46,7 @@ public:
         bool asked = true;
         std::uint16_t word = 0;
         WordState state = WordState::untried;
-        AccessError error = AccessError::none; ///< why; with `state` stale: no_answer
+        AccessError error = AccessError::none; ///< why; with `state` stale: no_answer or deferred
         bool tried = false;
         Instant updated_at{};      ///< last success
         Instant retry_at{};        ///< of an excluded item: when the drive is asked again
@@ -78,6 +81,9 @@ public:
     /// What became of `block`; not for no_answer. True: a value or a state of an input changed.
     bool done(Block block, AccessError error, std::span<const std::uint16_t> words, Instant now);
     void skip(Block block); ///< leaves it out in this round
+    /// It was not asked for the sake of an answer that is still owed: its words are held until the next
+    /// round.
+    void defer(Block block, Instant now);
     void drive_lost();
     /// Excluded items are asked again now: it may be another drive. The round goes on where it was.
     void drive_returned(Instant now);

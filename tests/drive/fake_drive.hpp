@@ -129,6 +129,10 @@ private:
     bool written(char check)
     {
         if (check != parity_of(collected_)) return refuse(">02C2");
+        if (collected_.starts_with("EE")) {
+            ee = ">00C0";
+            return true;
+        }
         if (!refuse_next.empty()) {
             const std::string why = refuse_next.front();
             refuse_next.pop_front();

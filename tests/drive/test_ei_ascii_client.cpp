@@ -175,10 +175,10 @@ TEST_F(EiClient, MapsEveryEeOfARefusedWrite)
         {">03C2", AccessError::not_understood},    {">04C8", AccessError::unsupported_type},
         {">05C8", AccessError::read_only},         {">07C7", AccessError::not_understood},
         {">07C8", AccessError::value_not_encoded}, {">08C8", AccessError::out_of_range},
-        {">00C0", AccessError::read_only},
+        {">00C0", AccessError::not_understood},
     };
     for (const auto& [ee, error] : list) {
-        dc.refuse_next.push_back(ee);
+        dc.refuse_next = {ee, ee, ee}; // asked again, the drive says the same
         EXPECT_EQ(write(kDc, sequence, 1), error) << ee;
         EXPECT_THAT(client.last_trouble(), HasSubstr(ee));
     }
@@ -417,13 +417,13 @@ TEST_F(EiClient, TakesNoBlocks)
     EXPECT_EQ(line.sent, "");
 }
 
-TEST_F(EiClient, ProbesTheIdentityAndTakesAnyWellFormedAnswer)
+TEST_F(EiClient, ProbesTheIdentityAndTakesAValueForProof)
 {
     EXPECT_TRUE(client.probe(kDc));
     EXPECT_EQ(line.sent, "\x04"
                          "0000II\x05");
     dc.parameters.erase("II");
-    EXPECT_TRUE(client.probe(kDc)) << "EOT is an answer";
+    EXPECT_TRUE(client.probe(kDc)) << "EOT, but EE has a value";
     dc.faults = {Fault::bad_bcc};
     dc.parameters["II"].text = ">0650";
     EXPECT_FALSE(client.probe(kDc));

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The one narrow door to a drive, whatever protocol it speaks. A call is one exchange; after a refusal it
-/// asks for the reason as well (EI-ASCII: EE), and before the first write of an unlisted tag it reads it.
-/// Each exchange may block for one response time-out (with Modbus one more, to let a late answer pass) and
-/// the time that its characters take, whatever comes on the line; the first one without a good answer ends
-/// the call. Repetitions are the poller's business, so that one dead drive does not stop the others.
+/// The one narrow door to a drive, whatever protocol it speaks. A call is one exchange, or as many as it
+/// takes to be sure of its answer (docs/drive-answers.md): after a refusal the drive is asked for the reason,
+/// and where an older answer is owed it is cleared first. Each exchange may block for one response time-out
+/// and the time that its characters take, whatever comes on the line; the first one without a good answer
+/// ends the call. deferred: nothing was asked, or nothing is proven. Repetitions are the poller's business,
+/// so that one dead drive does not stop the others.
 #pragma once
 
 #include "dpslave/base/process_image.hpp"
+#include "dpslave/drive/owed_answers.hpp"
 #include "dpslave/drive/tag.hpp"
 
 #include <cstdint>
@@ -46,11 +48,19 @@ public:
     /// in silence.
     virtual AccessError write(UnitAddress unit, const Tag& tag, std::span<const std::uint16_t> words) = 0;
 
-    /// Is somebody there? Any well-formed answer counts.
+    /// Is the drive there? Only what proves it counts: over EI-ASCII a value, over Modbus a valid frame of
+    /// its own.
     virtual bool probe(UnitAddress unit) = 0;
 
     /// What went wrong in the last call, in words for the log ("EE >05C8"); empty when nothing did.
     virtual std::string last_trouble() const = 0;
+
+    /// What came of this drive beside answers in time.
+    virtual AnswerCounts counts(UnitAddress unit) const
+    {
+        (void)unit;
+        return {};
+    }
 };
 
 } // namespace dpslave::drive

@@ -10,6 +10,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -17,6 +18,10 @@
 #include <vector>
 
 namespace dpslave::drive {
+
+namespace ei {
+class Access;
+}
 
 /// One drive of the line: where it is and how its family names tags. The form of an ENUM goes with the rule.
 struct EiUnit {
@@ -35,6 +40,7 @@ class EiAsciiClient final : public Backend {
 public:
     /// `line` outlives the client. A unit that is not among `units` has only the mnemonics of the tag table.
     EiAsciiClient(SerialLine& line, EiTiming timing, std::vector<EiUnit> units);
+    ~EiAsciiClient() override;
     /// The drives from now on.
     void set_units(std::vector<EiUnit> units) { units_ = std::move(units); }
 
@@ -43,22 +49,15 @@ public:
     AccessError write(UnitAddress unit, const Tag& tag, std::span<const std::uint16_t> words) override;
     bool probe(UnitAddress unit) override;
     std::string last_trouble() const override { return trouble_; }
+    AnswerCounts counts(UnitAddress unit) const override;
 
 private:
-    std::optional<ei::Answer> exchange(const ei::Frame& request, ei::AnswerParser::To kind);
-    std::optional<ei::Answer> poll(UnitAddress unit, ei::Mnemonic mnemonic);
     std::optional<ei::Mnemonic> mnemonic_for(UnitAddress unit, const Tag& tag);
-    AccessError unknown_parameter(UnitAddress unit, const Tag& tag);
-    AccessError refused(UnitAddress unit, bool is_write);
     AccessError take_value(UnitAddress unit, const Tag& tag, const std::string& text, std::uint16_t& word);
     AccessError take_unlisted(UnitAddress unit, const Tag& tag, const std::string& text, std::uint16_t& word);
     MnemonicRule rule_of(UnitAddress unit) const;
-    std::chrono::nanoseconds duration_of(std::size_t characters) const;
-    std::chrono::nanoseconds gap() const;
-    void drain();
 
-    SerialLine& line_;
-    EiTiming timing_;
+    std::unique_ptr<ei::Access> access_;
     std::vector<EiUnit> units_;
     std::set<std::pair<std::uint16_t, std::uint16_t>>
         words_; ///< unit and number of unlisted tags that answered with '>'

@@ -39,8 +39,8 @@ struct UnitSettings {
     /// Read once a round; 250 ms apart where nothing is read for the master. kMaxWatched at most.
     std::vector<std::uint16_t> watched;
     int retries = 2;
-    /// While nothing else is asked, and for the first probe of a lost drive; each further one takes twice as
-    /// long, up to eight times.
+    /// While nothing else is asked; and between two probes of lost drives of the line, of which the one that
+    /// has waited longest is the next: the time after which no answer to the last probe can come.
     std::chrono::nanoseconds probe_interval = std::chrono::seconds{1};
 };
 
@@ -157,9 +157,16 @@ public:
 private:
     class Unit; ///< one drive: what is wanted of it and what is known of it
 
+    std::optional<Transaction> next_of(Instant now);
+    bool may_time_out() const;
+    Instant probe_due(std::size_t unit) const;
+    std::optional<Transaction> probe(std::size_t unit, Instant now);
+
     std::vector<std::unique_ptr<Unit>> units_;
     std::size_t turn_ = 0;             ///< whose turn is next
     std::optional<Transaction> doing_; ///< given by next(), not yet done()
+    bool probes_ = false;              ///< it is the probe of a lost drive
+    std::optional<Instant> probed_at_; ///< end of the last one
 };
 
 } // namespace dpslave::drive

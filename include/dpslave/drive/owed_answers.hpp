@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Which answer belongs to which question: the one judgement of both protocols. A question whose answer has
+/// not come is owed by its drive, and an answer is taken only where it can belong to no other one.
+/// Pure: it is told questions and answers with their times. docs/drive-answers.md argues the rules.
+#pragma once
+
+#include "dpslave/base/bytes.hpp"
+#include "dpslave/base/units.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace dpslave::drive {
+
+/// All that an answer with a check sum shows of its question: of EI-ASCII the mnemonic, of Modbus unit,
+/// function and octets. Equal forms cannot be told apart.
+using Form = std::uint32_t;
+inline constexpr Form kNoForm = 0; ///< an answer without a check sum, or none of this kind
+
+/// A drive of the line, as its protocol numbers them.
+using DriveNumber = std::uint16_t;
+
+struct Question {
+    DriveNumber drive = 0;
+    Form answer = kNoForm;  ///< EI-ASCII: none of a write, which is answered by a lone ACK or NAK
+    Form refusal = kNoForm; ///< of Modbus: the exception
+    bool is_write = false;
+    Form written = kNoForm;               ///< of a write: the form in which a read shows the same tag
+    std::chrono::nanoseconds wire_time{}; ///< of its longest answer
+};
+
+/// What came of a drive beside answers in time, for a person who looks for the fault.
+struct AnswerCounts {
+    std::uint64_t damaged = 0;        ///< frames with a wrong check sum, a parity fault or no form
+    std::uint64_t late = 0;           ///< answers after their time-out
+    std::uint64_t foreign = 0;        ///< frames that answer nothing that was asked
+    std::uint32_t late_in_a_row = 0;  ///< late ones since the last answer in time
+    std::chrono::nanoseconds delay{}; ///< the longest of them, from the last octet of its question
+    friend bool operator==(const AnswerCounts&, const AnswerCounts&) = default;
+};
+
+/// So many late answers in a row, none in time: the drive is always late, and timeout_ms is too short for it.
+inline constexpr std::uint32_t kAlwaysLate = 3;
+
+class OwedAnswers {
+public:
+    /// What an answer names, beside its form. tag (EI-ASCII): the same drive may be asked again for what it
+    /// owes, no other one. drive (Modbus): nothing of an owed form may be asked.
+    enum class Names : std::uint8_t { tag, drive };
+
+    enum class Verdict : std::uint8_t {
+        answer,          ///< to the question asked last and to no other
+        answer_or_older, ///< of this drive and tag, maybe to an older question: right, but no proof of a
+                         ///< write
+        before_write,    ///< the same, and it may be older than the last write of this tag
+        owed,            ///< to an older question
+        duplicate,       ///< of a frame since the last question
+        foreign,         ///< to none
+    };
+
+    /// `settle`: how late an answer may come after the last octet of its question, what the port holds back
+    /// included; the wire time of all owed answers comes on top.
+    OwedAnswers(Names names, std::chrono::nanoseconds settle) : names_(names), settle_(settle) {}
+
+    /// Could its answer be taken? What could not is not asked. Forgets what has settled.
+    bool may_ask(const Question& question, Instant now);
+    /// The last octet of `question` leaves at `at`.
+    void asked(const Question& question, Instant at);
+
+    /// A frame with a check sum. Ends the debts that it ends.
+    Verdict heard(Form form, Bytes frame, Instant at);
+    /// An ACK has come. True: it belongs to the write asked last, whose debt ends. False: it is doubtful and
+    /// ends nothing.
+    bool take_ack();
+    /// The question asked last is waited for no longer. It stays owed.
+    void wait_is_over() { waits_ = false; }
+
+    /// Before the question that is asked next: does this drive owe anything, or this form?
+    bool owes(DriveNumber drive) const;
+    bool owes(DriveNumber drive, Form form) const;
+    bool owes_write(DriveNumber drive) const;
+    bool is_owed(Form form) const; ///< by whichever drive, as answer or refusal
+    bool empty() const { return owed_.empty(); }
+    /// Nobody can owe anything: the port was opened just now.
+    void clear();
+
+    void damaged(DriveNumber drive) { ++counts_[drive].damaged; }
+    void foreign(DriveNumber drive) { ++counts_[drive].foreign; }
+    AnswerCounts counts(DriveNumber drive) const;
+
+private:
+    struct Debt {
+        Question question;
+        Instant asked_at{};
+        bool before_write = false; ///< its tag was written after it was asked
+    };
+    static bool fits(const Debt& debt, Form form);
+    bool is_duplicate(Bytes frame);
+    void end_debts_of(DriveNumber drive);
+    void note_late(const Debt& debt, Instant at);
+    void settle(Instant now);
+
+    Names names_;
+    std::chrono::nanoseconds settle_;
+    std::vector<Debt> owed_; ///< in the order in which they were asked; the last one may be under way
+    bool waits_ = false;     ///< the last one is under way
+    std::vector<std::vector<std::uint8_t>> heard_; ///< since the last question
+    std::map<DriveNumber, AnswerCounts> counts_;
+};
+
+} // namespace dpslave::drive

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ei_exchange.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace dpslave::drive::ei {
+namespace {
+
+using Verdict = OwedAnswers::Verdict;
+
+constexpr std::chrono::milliseconds kMinGap{
+    20};                                   ///< between characters at 9600 (EI-ASCII reference, section 1)
+constexpr std::size_t kGapCharacters = 20; ///< the same at lower rates
+constexpr std::size_t kLongestAnswer = kMaxAnswerText + 5; ///< STX C1 C2 text ETX BCC
+constexpr std::size_t kUsualAnswer = 13; ///< fixed width: what an owed answer may still take
+
+std::string quoted(Mnemonic mnemonic)
+{
+    return {'\'', mnemonic[0], mnemonic[1], '\''};
+}
+
+Form form_of(Mnemonic mnemonic)
+{
+    return static_cast<Form>(static_cast<std::uint8_t>(mnemonic[0]) << 8 |
+                             static_cast<std::uint8_t>(mnemonic[1]));
+}
+
+/// The noise of a transceiver that turns round.
+bool is_noise(char octet)
+{
+    return octet == '\0' || octet == '\x7F' || octet == '\xFF';
+}
+
+Bytes bytes_of(const std::string& text)
+{
+    return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+std::chrono::nanoseconds settle_of(const EiTiming& timing)
+{
+    const auto settle = timing.rules.settle;
+    return (settle.count() != 0 ? settle : 10 * std::chrono::nanoseconds{timing.timeout}) +
+           timing.rules.hold_back;
+}
+
+} // namespace
+
+DriveNumber number_of(UnitAddress unit)
+{
+    return static_cast<DriveNumber>(unit.group << 8 | unit.unit);
+}
+
+void EchoFilter::sent(Bytes request)
+{
+    expected_.clear();
+    if (mode_ != EchoMode::off) expected_.assign(request.begin(), request.end());
+    matched_ = 0;
+}
+
+void EchoFilter::feed(std::uint8_t octet, std::string& out)
+{
+    const char c = static_cast<char>(octet);
+    if (expected_.empty()) {
+        out += c;
+    } else if (c != expected_[matched_]) {
+        silence(out);
+        out += c;
+    } else if (++matched_ == expected_.size()) {
+        expected_.clear();
+        matched_ = 0;
+    }
+}
+
+void EchoFilter::silence(std::string& out)
+{
+    out.append(expected_, 0, matched_);
+    expected_.clear();
+    matched_ = 0;
+}
+
+Exchange::Exchange(SerialLine& line, EiTiming timing)
+    : line_(line),
+      timing_(timing),
+      owed_(OwedAnswers::Names::tag, settle_of(timing)),
+      echo_(timing.rules.echo)
+{
+    timing_.baud = std::max<std::uint32_t>(timing_.baud, 1);
+}
+
+std::chrono::nanoseconds Exchange::duration_of(std::size_t characters) const
+{
+    return std::chrono::nanoseconds{
+        static_cast<std::int64_t>(characters * 10 * std::uint64_t{1'000'000'000} / timing_.baud)};
+}
+
+/// After this silence a drive has no more to say.
+std::chrono::nanoseconds Exchange::gap() const
+{
+    return std::max<std::chrono::nanoseconds>(kMinGap, duration_of(kGapCharacters)) + timing_.rules.hold_back;
+}
+
+bool Exchange::may_poll(UnitAddress unit, Mnemonic mnemonic)
+{
+    return owed_.may_ask({.drive = number_of(unit), .answer = form_of(mnemonic)}, line_.now());
+}
+
+bool Exchange::owes(UnitAddress unit, Mnemonic mnemonic) const
+{
+    return owed_.owes(number_of(unit), form_of(mnemonic));
+}
+
+bool Exchange::is_owed(Mnemonic mnemonic) const
+{
+    return owed_.is_owed(form_of(mnemonic));
+}
+
+AnswerCounts Exchange::counts(UnitAddress unit) const
+{
+    return owed_.counts(number_of(unit));
+}
+
+Exchange::End Exchange::poll(UnitAddress unit, Mnemonic mnemonic)
+{
+    Question question;
+    question.drive = number_of(unit);
+    question.answer = form_of(mnemonic);
+    question.wire_time = duration_of(kUsualAnswer);
+    asked_for_ = mnemonic;
+    if (owed_.may_ask(question, line_.now())) return ask(question, ei::poll(unit, mnemonic), WaitsFor::value);
+    trouble_ = "another drive of the line still owes an answer with " + quoted(mnemonic);
+    return End::not_asked;
+}
+
+Exchange::End Exchange::select(UnitAddress unit, Mnemonic mnemonic, std::string_view text)
+{
+    Question question;
+    question.drive = number_of(unit);
+    question.is_write = true;
+    question.written = form_of(mnemonic);
+    question.wire_time = duration_of(1);
+    owed_.may_ask(question, line_.now()); // always; but what has settled is forgotten
+    return ask(question, ei::select(unit, mnemonic, text), WaitsFor::ack);
+}
+
+Exchange::End Exchange::ask(const Question& question, Bytes request, WaitsFor what)
+{
+    trouble_.clear();
+    asked_ = question.drive;
+    if (!fall_silent()) {
+        trouble_ = "noise and no answer: the line is never silent";
+        return End::damaged;
+    }
+    if (!line_.write(request)) {
+        trouble_ = "the line does not take the request";
+        return End::silence;
+    }
+    const Instant sent_at = line_.now() + duration_of(request.size()); // write() need not wait for the wire
+    owed_.asked(question, sent_at);
+    echo_.sent(request);
+    const End end = wait(sent_at + timing_.timeout, what);
+    owed_.wait_is_over();
+    return end;
+}
+
+/// The answer has to begin within the time-out and to end within the time of the longest one, whatever comes
+/// on the line.
+Exchange::End Exchange::wait(Instant begins_by, WaitsFor what)
+{
+    const Instant ends_by = begins_by + duration_of(kLongestAnswer) + gap();
+    std::array<std::uint8_t, 64> buffer{};
+    std::string octets;
+    for (bool noise = false;; noise = true) {
+        const Instant now = line_.now();
+        const Instant until = in_frame() ? std::min(now + gap(), ends_by) : begins_by;
+        const std::size_t got = now < until ? line_.read(buffer, until - now) : 0;
+        octets.clear();
+        for (std::size_t i = 0; i < got; ++i) echo_.feed(buffer[i], octets);
+        if (got == 0 && echo_.withholds()) echo_.silence(octets);
+        if (got != 0) heard_at_ = line_.now();
+        if (const auto end = take(octets, what)) return *end;
+        if (got != 0 || !octets.empty()) continue;
+        if (parser_) return *broken(until < ends_by ? Flaw::none : Flaw::too_long, WaitsFor::value);
+        skips_ = false;
+        if (trouble_.empty()) trouble_ = noise ? "noise and no answer" : "no answer";
+        return End::silence;
+    }
+}
+
+/// Lets pass what still comes, for the time of two answers at most, and until the port cannot hold back
+/// anything. False: the line babbles on.
+bool Exchange::fall_silent()
+{
+    const Instant end = line_.now() + duration_of(2 * kLongestAnswer) + gap();
+    std::array<std::uint8_t, 64> buffer{};
+    std::string octets;
+    for (Instant now = line_.now(); now <= end; now = line_.now()) {
+        const auto pause = in_frame() ? gap() : timing_.rules.hold_back;
+        const auto rest = std::max<std::chrono::nanoseconds>(heard_at_ + pause - now, {});
+        const std::size_t got = line_.read(buffer, rest);
+        if (got == 0) {
+            parser_.reset();
+            skips_ = false;
+            echo_.sent({});
+            return true;
+        }
+        heard_at_ = line_.now();
+        octets.clear();
+        for (std::size_t i = 0; i < got; ++i) echo_.feed(buffer[i], octets);
+        take(octets, WaitsFor::nothing);
+    }
+    return false;
+}
+
+std::optional<Exchange::End> Exchange::take(std::string_view octets, WaitsFor what)
+{
+    for (std::size_t i = 0; i < octets.size() && !skips_; ++i) {
+        if (!parser_ && is_noise(octets[i])) continue;
+        if (!parser_) parser_.emplace(octets[i] == kAck ? AnswerParser::To::select : AnswerParser::To::poll);
+        const auto status = parser_->feed(static_cast<std::uint8_t>(octets[i]));
+        if (status == AnswerParser::Status::more) continue;
+        const std::string_view rest = octets.substr(i + 1);
+        const AnswerParser done = *parser_;
+        parser_.reset();
+        const auto end =
+            status == AnswerParser::Status::broken
+                ? broken(done.flaw(), what)
+                : take_frame(done.answer(), std::all_of(rest.begin(), rest.end(), is_noise), what);
+        if (!end) continue;
+        skips_ = skips_ || !std::all_of(rest.begin(), rest.end(), is_noise);
+        return end;
+    }
+    return std::nullopt;
+}
+
+std::optional<Exchange::End> Exchange::take_frame(const Answer& frame, bool is_alone, WaitsFor what)
+{
+    if (frame.kind == Answer::Kind::value) return take_value(frame, what);
+    if (what == WaitsFor::nothing) return std::nullopt;
+    const bool fits =
+        frame.kind == Answer::Kind::nak || (frame.kind == Answer::Kind::ack) == (what == WaitsFor::ack);
+    if (!fits) { // of an older question, or of none
+        owed_.foreign(asked_);
+        return std::nullopt;
+    }
+    if (!is_alone) return broken(Flaw::octets_after, what); // it may be a part of something else
+    if (frame.kind == Answer::Kind::ack) return owed_.take_ack() ? End::ack : End::doubtful;
+    return End::refused;
+}
+
+std::optional<Exchange::End> Exchange::take_value(const Answer& frame, WaitsFor what)
+{
+    const Verdict verdict = owed_.heard(form_of(frame.mnemonic), bytes_of(frame.text), line_.now());
+    switch (verdict) {
+        case Verdict::answer:
+        case Verdict::answer_or_older:
+        case Verdict::before_write:
+            answer_ = frame.text;
+            trouble_.clear();
+            return verdict == Verdict::answer            ? End::value
+                   : verdict == Verdict::answer_or_older ? End::older
+                                                         : End::before;
+        case Verdict::foreign: owed_.foreign(asked_); [[fallthrough]];
+        case Verdict::owed:
+            if (what == WaitsFor::value)
+                trouble_ = "asked for " + quoted(asked_for_) + ", answered for " + quoted(frame.mnemonic);
+            break;
+        case Verdict::duplicate: break;
+    }
+    return std::nullopt;
+}
+
+std::optional<Exchange::End> Exchange::broken(Flaw flaw, WaitsFor what)
+{
+    skips_ = flaw != Flaw::none;
+    parser_.reset();
+    owed_.damaged(asked_);
+    if (what == WaitsFor::nothing) return std::nullopt;
+    trouble_ = flaw == Flaw::none ? "the answer broke off" : std::string{text(flaw)};
+    return End::damaged;
+}
+
+} // namespace dpslave::drive::ei
