@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A request of which an octet was lost costs only itself: its first retry is answered (wire reference 1.5).
+/// A request of which an octet was lost, spoilt or one too many costs only itself: its first retry is
+/// answered (wire reference 1.5).
 #include "bench.hpp"
 
+#include <algorithm>
 #include <array>
 
 using namespace dpslave;
@@ -105,6 +107,74 @@ TEST_P(LostOctet, OfATelegramOfFixedLengthCostsNoRetry)
 }
 
 INSTANTIATE_TEST_SUITE_P(AtEachRate, LostOctet, testing::ValuesIn(kBauds));
+
+/// Retries of these come behind requests that were heard with a flaw somewhere.
+class FlawInARequest : public testing::TestWithParam<const char*> {
+protected:
+    template <class Hear>
+    void costs_no_retry(Hear hear_wrong)
+    {
+        const Octets request = sd2(kUs, kMaster, kSrdFcb1, octets(GetParam()));
+        for (const std::size_t bunch : kBunches) {
+            for (std::size_t place = 0; place < request.size(); ++place) {
+                Line line{Baud::k187_5};
+                hear_wrong(line.bus, request, place, bunch);
+                line.bus.reply(); // what was one octet too many may stand in front of it
+                line.bus.arrives_in_bunches(request, bunch);
+                EXPECT_TRUE(line.bus.reply())
+                    << show(request) << "\nwith a flaw at " << place << ", in bunches of " << bunch;
+                EXPECT_EQ(line.user.srds.size(), 1u);
+            }
+        }
+    }
+};
+
+TEST_P(FlawInARequest, ThatIsABadCharacterCostsNoRetry)
+{
+    costs_no_retry([](Bus& bus, const Octets& request, std::size_t place, std::size_t) {
+        bus.arrives_with_bad_character(request, place);
+    });
+}
+
+TEST_P(FlawInARequest, ThatIsABadCharacterWhereAnOctetIsLostTooCostsNoRetry)
+{
+    for (std::size_t lost = 0; lost < sd2(kUs, kMaster, kSrdFcb1, octets(GetParam())).size(); ++lost)
+        costs_no_retry([lost](Bus& bus, const Octets& request, std::size_t place, std::size_t) {
+            bus.arrives_with_bad_character(without(request, lost), std::min(place, request.size() - 2));
+        });
+}
+
+TEST_P(FlawInARequest, ThatIsAnOctetTooManyCostsNoRetry)
+{
+    for (const std::uint8_t noise : octets("68 10 A2 DC E5 16 00 FF"))
+        costs_no_retry([noise](Bus& bus, const Octets& request, std::size_t place, std::size_t bunch) {
+            Octets wrong = request;
+            wrong.insert(wrong.begin() + static_cast<std::ptrdiff_t>(place) + 1, noise);
+            bus.arrives_in_bunches(wrong, bunch);
+        });
+}
+
+TEST_P(FlawInARequest, ThatIsItsEndMissingCostsNoRetry)
+{
+    costs_no_retry([](Bus& bus, const Octets& request, std::size_t place, std::size_t bunch) {
+        bus.arrives_in_bunches({request.begin(), request.begin() + static_cast<std::ptrdiff_t>(place) + 1},
+                               bunch);
+    });
+}
+
+TEST_P(FlawInARequest, ThatIsItsBeginningMissingCostsNoRetry)
+{
+    costs_no_retry([](Bus& bus, const Octets& request, std::size_t place, std::size_t bunch) {
+        bus.arrives_in_bunches({request.begin() + static_cast<std::ptrdiff_t>(place), request.end()}, bunch);
+    });
+}
+
+// Three octets of data and not two: A2 10 16 in front of the latter is an SD3 with a good checksum (above).
+INSTANTIATE_TEST_SUITE_P(
+    WireReference, FlawInARequest,
+    testing::Values("00 00 8C", "00 00 1E", "00 A2 EA", "00 00 58", "00 00 E4", "68 68 68",
+                    "10 10 10 10 10 10 10 10",
+                    "01 02 03 04 05 06 07 08 09 0A 0B 0C 0D 0E 0F 10 11 12 13 14 15 16"));
 
 class Stump : public testing::TestWithParam<const char*> {
 protected:
