@@ -47,6 +47,7 @@ const std::vector<Console::Command>& Console::commands()
         {"start", "start [TIME]", "start-up until Data_Exch (10s), or the reason why not",
          &Console::do_start},
         {"in", "in [N]", "the process input words", &Console::do_in},
+        {"follow", "follow on|off", "tells each process input word that changes", &Console::do_follow},
         {"out", "out [N = VALUE]", "sets a process output word, or shows all", &Console::do_out},
         {"wait", "wait TIME [for CONDITION]", "waits, at most so long, for a condition", &Console::do_wait},
         {"expect", "expect CONDITION", "fails if the condition does not hold now", &Console::do_expect},
@@ -140,6 +141,7 @@ void Console::fail(std::string_view why)
 void Console::on_time(Instant now)
 {
     while (const auto event = master_.take_event()) take(*event, now);
+    if (follows_) tell_changes();
     if (wait_) check_wait(now);
 }
 
@@ -276,6 +278,25 @@ void Console::do_in(const Words& words, Instant /*now*/)
             say(fmt::format("in {} = {}", n, show_word(input_word(master_, n).value_or(0))));
     if (const auto demand = demand_answer(master_); demand && *only == 0)
         say("demand: " + show_demand(*demand));
+}
+
+void Console::do_follow(const Words& words, Instant /*now*/)
+{
+    if (words.size() != 2 || (words[1] != "on" && words[1] != "off")) return fail("write it as: follow on");
+    follows_ = words[1] == "on";
+    followed_.clear();
+}
+
+/// The image is looked at after each turn of the master: no word that was on the bus is missed.
+void Console::tell_changes()
+{
+    followed_.resize(input_words(master_));
+    for (std::size_t n = 1; n <= followed_.size(); ++n) {
+        const auto word = input_word(master_, n);
+        if (!word || followed_[n - 1] == word) continue;
+        followed_[n - 1] = word;
+        say(fmt::format("in {} is {}", n, show_word(*word)));
+    }
 }
 
 void Console::do_out(const Words& words, Instant /*now*/)

@@ -60,6 +60,7 @@ private:
     void do_run(const Words& words, Instant now);
     void do_expect(const Words& words, Instant now);
     void do_in(const Words& words, Instant now);
+    void do_follow(const Words& words, Instant now);
     void do_out(const Words& words, Instant now);
     void do_demand(const Words& words, Instant now);
     void show_demand_registers();
@@ -79,6 +80,7 @@ private:
 
     void take(const MasterEvent& event, Instant now);
     void take_answer(const Answer& answer);
+    void tell_changes();
     void check_wait(Instant now);
     void check_demand(Instant now);
     void check_transfer(const DemandWords& answer, Instant now);
@@ -98,6 +100,8 @@ private:
     std::string line_, place_;
     bool forgiving_ = false; ///< "try": a failure is told, but does not count
     bool quit_ = false, failed_ = false;
+    bool follows_ = false;
+    std::vector<std::optional<std::uint16_t>> followed_; ///< the input words as told last
     Octets last_reply_;
     Transfer transfer_;
     std::vector<std::uint16_t> block_; ///< what was uploaded last, or is being downloaded

@@ -35,8 +35,31 @@ Parameter* Device::find(std::uint16_t tag)
 
 std::optional<Octets> DeviceLine::take_reply(Instant now)
 {
-    if (!reply_ || now < reply_->due) return std::nullopt;
-    return std::exchange(reply_, std::nullopt)->octets;
+    if (replies_.empty() || now < replies_.front().due) return std::nullopt;
+    Octets octets = std::move(replies_.front().octets);
+    replies_.pop_front();
+    return octets;
+}
+
+void DeviceLine::reply(Device& device, Octets octets, Concerned concerned, Instant due, Instant now)
+{
+    for (Departure& leaves : device.answer_faults.apply(std::move(octets), concerned, now)) {
+        Instant at = due + leaves.later;
+        for (const Reply& other : replies_) { // one after the other
+            if (other.device != &device) continue;
+            at = std::max(at, other.due + (due - now));
+            leaves.is_late = leaves.is_late || other.is_late;
+        }
+        const auto place =
+            std::upper_bound(replies_.begin(), replies_.end(), at,
+                             [](Instant when, const Reply& other) { return when < other.due; });
+        replies_.insert(place, {&device, std::move(leaves.octets), at, leaves.is_late});
+    }
+}
+
+void DeviceLine::drop_reply()
+{
+    std::erase_if(replies_, [](const Reply& reply) { return !reply.is_late; });
 }
 
 void DeviceLine::log(const Device& device, std::string_view words)

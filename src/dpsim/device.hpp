@@ -2,11 +2,13 @@
 /// What all simulated devices behind the gateway have in common: parameters, and a serial line they are on.
 #pragma once
 
+#include "dpsim/answer_faults.hpp"
 #include "dpsim/tag_file.hpp"
 #include "dpsim/telegram.hpp"
 
 #include "dpslave/base/units.hpp"
 
+#include <deque>
 #include <utility>
 
 namespace dpslave::sim {
@@ -45,6 +47,9 @@ public:
     Parameter* find(std::uint16_t tag);                                      ///< null: it has no such tag
 
     virtual void settle(Instant /*now*/) {} ///< what had to happen by itself until now
+    /// On the way of its replies, beside what the device itself does wrong.
+    AnswerFaults answer_faults{};
+
     /// Somebody beside the line has put a value into this tag: what follows from it.
     virtual void changed(std::uint16_t /*tag*/, Instant /*now*/) {}
 
@@ -63,25 +68,33 @@ public:
 
     virtual void on_bytes(Bytes octets, Instant now) = 0;
     std::optional<Octets> take_reply(Instant now);
-    Instant next_deadline() const { return reply_ ? reply_->due : kNever; }
+    Instant next_deadline() const { return replies_.empty() ? kNever : replies_.front().due; }
     virtual std::vector<Device*> devices() = 0;
 
     std::vector<std::string> take_log() { return std::exchange(log_, {}); }
     void set_logging(bool on) { logging_ = on; }
+    void set_echo(bool on) { echo_ = on; }
+    bool echoes() const { return echo_; } ///< all that is heard comes back at once
 
 protected:
-    void reply(Octets octets, Instant due) { reply_ = Reply{std::move(octets), due}; }
-    void drop_reply() { reply_.reset(); }
+    /// A prompt reply of this device would leave at `due`; its faults say what really does. It takes as long
+    /// for each reply, and gives them in the order of the questions.
+    void reply(Device& device, Octets octets, Concerned concerned, Instant due, Instant now);
+    /// The master has gone on: only late replies still come.
+    void drop_reply();
     void log(const Device& device, std::string_view words);
     void warn(const Device& device, std::string_view words); ///< even if nothing is logged
 
 private:
     struct Reply {
+        const Device* device = nullptr;
         Octets octets;
         Instant due;
+        bool is_late = false;
     };
-    std::optional<Reply> reply_;
+    std::deque<Reply> replies_; ///< by their due times; those of one device in the order of the questions
     bool logging_ = false;
+    bool echo_ = false;
     std::vector<std::string> log_;
 };
 

@@ -30,6 +30,7 @@ std::vector<std::string> DeviceCommands::common_help()
         "  ramp TAG FROM TO SECONDS   moves and stays at TO; wave: back and forth",
         "  list                       all parameters",
         "  unit NN|all                whom the next commands concern",
+        "  echo on|off                the transceiver of the master hears what it sends",
         "  log on|off                 tell what is written",
         "  stats                      counters",
         "  quit                       ends",
@@ -89,6 +90,15 @@ std::vector<std::string> DeviceCommands::command(std::string_view line, Instant 
     if (name == "quit") {
         quit_ = true;
         return {};
+    }
+    if (name == "echo" && words.size() == 2 && (words[1] == "on" || words[1] == "off")) {
+        line_.set_echo(words[1] == "on");
+        return {};
+    }
+    if (AnswerFaults::knows(name)) {
+        std::string wrong;
+        for (Device* const device : meant()) wrong = device->answer_faults.add(words);
+        return one(wrong);
     }
     return special(words, now);
 }

@@ -171,14 +171,16 @@ void DriveLine::poll(std::string_view mnemonic, Instant now)
         unit.error = parameter == nullptr ? Ee::invalid_mnemonic : Ee::write_only;
         ++unit.refusals;
         phase_ = Phase::idle;
-        return answer({kEot}, now);
+        return answer({kEot}, parameter, now);
     } else {
-        data = drive_text(model_, parameter->tag, parameter->at(now));
+        const auto text = unit.texts.find(parameter->tag.number);
+        data =
+            text != unit.texts.end() ? text->second : drive_text(model_, parameter->tag, parameter->at(now));
     }
     ++unit.reads;
     polled_ = mnemonic;
     phase_ = Phase::connected;
-    answer(reply_frame(polled_, data), now);
+    answer(reply_frame(polled_, data), parameter, now);
 }
 
 /// ACK after a reply: the next parameter that can be read, by tag number; EOT behind the last.
@@ -192,7 +194,7 @@ void DriveLine::poll_next(Instant now)
             return poll(next.mnemonic, now);
     }
     phase_ = Phase::idle;
-    answer({kEot}, now);
+    answer({kEot}, nullptr, now);
 }
 
 void DriveLine::selected(std::uint8_t check, Instant now)
@@ -218,7 +220,7 @@ void DriveLine::selected(std::uint8_t check, Instant now)
         ++unit.refusals;
         tell(fmt::format("write '{}' refused, EE >{:04X}", text_, static_cast<unsigned>(error)));
     }
-    answer({error == Ee::none ? kAck : kNak}, now);
+    answer({error == Ee::none ? kAck : kNak}, unit.find_mnemonic(std::string_view{text_}.substr(0, 2)), now);
 }
 
 Ee DriveLine::write(std::string_view mnemonic, std::string_view data)
@@ -241,13 +243,14 @@ Ee DriveLine::write(std::string_view mnemonic, std::string_view data)
     return Ee::none;
 }
 
-void DriveLine::answer(Octets octets, Instant now)
+void DriveLine::answer(Octets octets, const Parameter* parameter, Instant now)
 {
     const DriveFaults& faults = units_[current_].faults;
     if (faults.bad_bcc && octets.size() > 1) octets.back() = static_cast<std::uint8_t>(octets.back() ^ 0x01);
     if (faults.garbage)
         for (std::uint8_t& octet : octets) octet = static_cast<std::uint8_t>(random_() & 0x7F);
-    reply(std::move(octets), now + turnaround_ + faults.slow);
+    const Concerned concerned = parameter != nullptr ? Concerned{parameter->tag.number, 1} : Concerned{};
+    reply(units_[current_], std::move(octets), concerned, now + turnaround_ + faults.slow, now);
 }
 
 } // namespace dpslave::sim

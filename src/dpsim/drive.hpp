@@ -5,6 +5,7 @@
 #include "dpsim/device.hpp"
 #include "dpsim/ei_ascii.hpp"
 
+#include <map>
 #include <random>
 
 namespace dpslave::sim {
@@ -23,6 +24,8 @@ class DriveUnit : public Device {
 public:
     using Device::Device;
     Parameter* find_mnemonic(std::string_view mnemonic);
+
+    std::map<std::uint16_t, std::string> texts; ///< of tags that answer with this text, whatever they hold
 
     Ee error = Ee::none;
     DriveFaults faults{};
@@ -54,7 +57,7 @@ private:
     void poll_next(Instant now);
     void selected(std::uint8_t check, Instant now);
     Ee write(std::string_view mnemonic, std::string_view data);
-    void answer(Octets octets, Instant now);
+    void answer(Octets octets, const Parameter* parameter, Instant now);
     void tell(std::string_view words) { log(units_[current_], words); }
 
     Model model_;

@@ -15,8 +15,11 @@ std::vector<std::string> DriveCommands::all_help()
         "  bad-bcc                    replies carry a wrong block check",
         "  garbage                    replies are random octets",
         "  slow MS                    replies come so much later",
+        "  text TAG [TEXT]            the tag answers with this text; without TEXT with its value again",
         "  ok                         ends all faults",
     };
+    const auto answers = AnswerFaults::help();
+    lines.insert(lines.end() - 1, answers.begin(), answers.end());
     const auto common = common_help();
     lines.insert(lines.end(), common.begin(), common.end());
     return lines;
@@ -24,8 +27,9 @@ std::vector<std::string> DriveCommands::all_help()
 
 std::vector<std::string> DriveCommands::special(const Words& words, Instant /*now*/)
 {
-    DriveFaults faults;
     const std::string& name = words[0];
+    if (name == "text") return one(text(words));
+    DriveFaults faults;
     if (name == "silence") {
         faults.silence = true;
     } else if (name == "bad-bcc") {
@@ -45,8 +49,26 @@ std::vector<std::string> DriveCommands::special(const Words& words, Instant /*no
         return one(fmt::format("there is no command '{}'; help lists them", name));
     }
     for (DriveUnit& unit : line_.units())
-        if (is_meant(unit)) unit.faults = faults;
+        if (is_meant(unit)) {
+            unit.faults = faults;
+            unit.answer_faults.clear();
+        }
     return {};
+}
+
+/// Empty = done.
+std::string DriveCommands::text(const Words& words)
+{
+    const auto number = tag_number(words);
+    if (!number) return "write it as: text 55 12.34";
+    bool found = false;
+    for (DriveUnit& unit : line_.units()) {
+        if (!is_meant(unit) || unit.find(*number) == nullptr) continue;
+        unit.texts.erase(*number);
+        if (words.size() > 2) unit.texts[*number] = rest_of(words, 2);
+        found = true;
+    }
+    return found ? std::string{} : no_tag(words);
 }
 
 std::vector<std::string> DriveCommands::stats()

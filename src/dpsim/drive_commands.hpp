@@ -16,6 +16,7 @@ private:
     std::vector<std::string> help() const override { return all_help(); }
     std::vector<std::string> stats() override;
     std::vector<std::string> special(const Words& words, Instant now) override;
+    std::string text(const Words& words);
 
     DriveLine& line_;
 };

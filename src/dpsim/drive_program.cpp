@@ -43,7 +43,10 @@ int serve(DeviceLine& line, DeviceCommands& commands, int port, const Signals& s
             print_error("the line is gone");
             return kNoPort;
         }
-        if (!octets->empty()) line.on_bytes(*octets, monotonic_now());
+        if (!octets->empty()) {
+            if (line.echoes()) write_all(port, *octets, std::chrono::milliseconds{100});
+            line.on_bytes(*octets, monotonic_now());
+        }
         if (const auto reply = line.take_reply(monotonic_now()))
             write_all(port, *reply, std::chrono::milliseconds{100});
         if (readable(input.fd())) input.read();

@@ -18,6 +18,7 @@ struct InstrumentFaults {
     bool silence = false;                  ///< hears nothing, as if it were off
     bool bad_crc = false;                  ///< replies carry a wrong CRC
     bool garbage = false;                  ///< replies are random octets
+    bool no_loopback = false;              ///< says nothing to function 8, as an older one
     bool too_short = false;                ///< replies end one octet early
     Exception refuse = Exception::none;    ///< answers every request so
     Exception no_writes = Exception::none; ///< answers every write so

@@ -17,12 +17,15 @@ std::vector<std::string> InstrumentCommands::all_help()
         "  garbage                    replies are random octets",
         "  short                      replies end one octet early",
         "  slow MS                    replies come so much later",
+        "  no-loopback                says nothing to function 8",
         "  ok                         ends all faults",
         "  panel TAG VALUE            as the operator does at the front panel: limits and access hold",
         "  bit TAG N on|off           one bit, 0 to 15; of tag 75 the summary output status",
         "  tune TIME [fails]          how long the next autotune takes (3s); 'fails' sets bit 3 of tag 76",
     };
     const auto common = common_help();
+    const auto answers = AnswerFaults::help();
+    lines.insert(lines.end() - 4, answers.begin(), answers.end());
     lines.insert(lines.end(), common.begin(), common.end());
     return lines;
 }
@@ -95,6 +98,8 @@ std::string InstrumentCommands::fault(const Words& words)
         faults.garbage = true;
     } else if (name == "short") {
         faults.too_short = true;
+    } else if (name == "no-loopback") {
+        faults.no_loopback = true;
     } else if (name == "exception" || name == "refuse") {
         const std::string code = words.size() == 1 && name == "refuse" ? "3" : rest_of(words, 1);
         if (code != "2" && code != "3") return fmt::format("write it as: {} 2, or {} 3", name, name);
@@ -108,7 +113,10 @@ std::string InstrumentCommands::fault(const Words& words)
         return fmt::format("there is no command '{}'; help lists them", name);
     }
     for (Instrument& instrument : line_.instruments())
-        if (is_meant(instrument)) instrument.faults = faults;
+        if (is_meant(instrument)) {
+            instrument.faults = faults;
+            instrument.answer_faults.clear();
+        }
     return {};
 }
 

@@ -19,6 +19,17 @@ bool is_write(std::uint8_t function)
     return function == kWriteOne || function == kWriteBlock;
 }
 
+/// The tags of a request; of the IEEE area two registers are one.
+Concerned concerned(Bytes frame)
+{
+    constexpr std::uint16_t kIeeeArea = 0x8000;
+    if (frame[1] != kReadHolding && frame[1] != kReadInput && !is_write(frame[1])) return {};
+    const std::uint16_t first = be16(frame, 2);
+    const std::uint16_t count = frame[1] == kWriteOne ? std::uint16_t{1} : be16(frame, 4);
+    if (first < kIeeeArea) return {first, count};
+    return {static_cast<std::uint16_t>((first - kIeeeArea) / 2), static_cast<std::uint16_t>((count + 1) / 2)};
+}
+
 } // namespace
 
 bool ModbusLine::add(Instrument instrument)
@@ -92,7 +103,7 @@ void ModbusLine::carry_out(Instrument& instrument, Bytes frame, Instant now)
         } else if (function == kReadFastStatus) {
             reply.push_back(instrument.fast_status());
         } else if (function == kLoopback) {
-            if (be16(frame, 2) != 0) {
+            if (be16(frame, 2) != 0 || instrument.faults.no_loopback) {
                 ++unsupported_;
                 return;
             }
@@ -108,7 +119,7 @@ void ModbusLine::carry_out(Instrument& instrument, Bytes frame, Instant now)
         reply = {instrument.unit(), static_cast<std::uint8_t>(function | 0x80),
                  static_cast<std::uint8_t>(exception)};
     }
-    if (frame[0] != kToAll) answer(instrument, with_crc(std::move(reply)), now);
+    if (frame[0] != kToAll) answer(instrument, with_crc(std::move(reply)), concerned(frame), now);
 }
 
 Exception ModbusLine::read(Instrument& instrument, Bytes frame, Octets& answer, Instant now)
@@ -131,14 +142,14 @@ Exception ModbusLine::write(Instrument& instrument, Bytes frame, Octets& answer,
     return instrument.write_block(address, words, now);
 }
 
-void ModbusLine::answer(Instrument& instrument, Octets octets, Instant now)
+void ModbusLine::answer(Instrument& instrument, Octets octets, Concerned concerned, Instant now)
 {
     const InstrumentFaults& faults = instrument.faults;
     if (faults.bad_crc) octets.back() = static_cast<std::uint8_t>(octets.back() ^ 0x01);
     if (faults.garbage)
         for (std::uint8_t& octet : octets) octet = static_cast<std::uint8_t>(random_() & 0xFF);
     if (faults.too_short) octets.pop_back();
-    reply(std::move(octets), now + turnaround_ + faults.slow);
+    reply(instrument, std::move(octets), concerned, now + turnaround_ + faults.slow, now);
 }
 
 } // namespace dpslave::sim

@@ -31,7 +31,7 @@ private:
     void carry_out(Instrument& instrument, Bytes frame, Instant now);
     Exception read(Instrument& instrument, Bytes frame, Octets& answer, Instant now);
     Exception write(Instrument& instrument, Bytes frame, Octets& answer, Instant now);
-    void answer(Instrument& instrument, Octets octets, Instant now);
+    void answer(Instrument& instrument, Octets octets, Concerned concerned, Instant now);
 
     std::chrono::nanoseconds turnaround_;
     std::minstd_rand random_;

@@ -261,6 +261,45 @@ TEST_F(Drive, IsSlowOnRequest)
     EXPECT_EQ(line.next_deadline(), now + 52ms);
 }
 
+TEST_F(Drive, AnswersLateOnRequestEvenWhenItWasAskedSomethingElse)
+{
+    commands.command("late 900 1/2 tag 55", now);
+    EXPECT_EQ(hears(kPoll55), wire(kReply55)) << "each second one is late";
+    line.on_bytes(wire(kPoll55), now);
+    line.on_bytes(wire(kPollEe), now + 100ms);
+    EXPECT_EQ(line.next_deadline(), now + 902ms) << "one answer behind the other";
+    EXPECT_EQ(line.take_reply(now + 902ms), wire(kReply55));
+    EXPECT_FALSE(line.take_reply(now + 903ms)) << "it takes its time for each";
+    EXPECT_EQ(line.take_reply(now + 904ms), wire(error_reply("00C0").c_str()));
+}
+
+TEST_F(Drive, LosesAnAnswerOnRequestAndHasDoneWhatWasAsked)
+{
+    commands.command("lose once", now);
+    EXPECT_EQ(hears(kWrite56), Octets{});
+    EXPECT_EQ(line.units()[0].find(56)->value.counts, 1250);
+    EXPECT_EQ(hears(kWrite56), wire("06"));
+}
+
+TEST_F(Drive, SaysSomethingBeforeOrInPlaceOfItsAnswerOnRequest)
+{
+    commands.command("spoil once", now);
+    line.on_bytes(wire(kPoll55), now);
+    EXPECT_EQ(line.take_reply(now + 2ms), wire("02 62 6A 31 32 2E 35 03 12"));
+    EXPECT_EQ(line.take_reply(now + 4ms), wire(kReply55));
+    commands.command("instead 04 once", now);
+    EXPECT_EQ(hears(kPoll55), wire("04"));
+    EXPECT_EQ(hears(kPoll55), wire(kReply55));
+}
+
+TEST_F(Drive, AnswersWithATextOfItsOwnOnRequest)
+{
+    commands.command("text 55 12.345", now);
+    EXPECT_EQ(hears(kPoll55), wire("02 62 6A 31 32 2E 33 34 35 03 14"));
+    commands.command("text 55", now);
+    EXPECT_EQ(hears(kPoll55), wire(kReply55));
+}
+
 TEST_F(Drive, MovesAValueAlongARamp)
 {
     commands.command("ramp 55 0.00 100.00 10", now);
@@ -283,6 +322,9 @@ TEST_F(Drive, SaysWhatIsWrongWithACommand)
     EXPECT_THAT(commands.command("dance", now), ElementsAre(HasSubstr("no command 'dance'")));
     EXPECT_THAT(commands.command("unit 77", now), ElementsAre(HasSubstr("no unit '77'")));
     EXPECT_THAT(commands.command("slow down", now), ElementsAre(HasSubstr("slow 50")));
+    EXPECT_THAT(commands.command("late", now), ElementsAre(HasSubstr("late 900")));
+    EXPECT_THAT(commands.command("late 900 sometimes", now), ElementsAre(HasSubstr("chooses no replies")));
+    EXPECT_THAT(commands.command("instead", now), ElementsAre(HasSubstr("instead 04")));
 }
 
 } // namespace
