@@ -75,12 +75,8 @@ std::shared_ptr<const drive::TagTable> Shelf::tags(const std::filesystem::path& 
 void Shelf::keep(const profile::Faults& faults)
 {
     for (const profile::Fault& fault :
-         faults) { // two profiles may name one tag table: its faults are said once
-        const std::string text = to_string(fault);
-        if (std::none_of(faults_.begin(), faults_.end(),
-                         [&](const auto& known) { return to_string(known) == text; }))
-            faults_.push_back(fault);
-    }
+         faults) // two profiles may name one tag table: its faults are said once
+        if (told_.insert(to_string(fault)).second) faults_.push_back(fault);
 }
 
 void Unlike::check(Table& table, std::string_view key, const std::string& value, const std::string& shown,
@@ -124,6 +120,7 @@ Result<Config, Faults> load_config(const std::filesystem::path& file, const std:
 
     Faults faults = document.faults();
     faults.insert(faults.end(), shelf.faults().begin(), shelf.faults().end());
+    profile::cap(faults);
     if (!faults.empty()) return Failure{std::move(faults)};
     return config;
 }

@@ -10,6 +10,8 @@ namespace {
 using profile::Document;
 using profile::Table;
 
+constexpr std::ptrdiff_t kMostLines = 126; ///< one for each station at most
+
 /// "auto", a rate that is searched, or the one that is only ever fixed.
 void read_baud(Table& bus, BusConfig& config)
 {
@@ -168,7 +170,14 @@ std::vector<ReadLine> read_lines(Document& document, const BusConfig& bus)
     Unlike names;
     Unlike ports;
     Table root = document.root();
-    for (Table& table : root.tables("line")) {
+    std::vector<Table> tables = root.tables("line");
+    if (std::ssize(tables) > kMostLines) {
+        document.fault(tables[static_cast<std::size_t>(kMostLines)].place(),
+                       "there are more lines than stations can be (126): remove "
+                       "those that are too many.");
+        tables.erase(tables.begin() + kMostLines, tables.end());
+    }
+    for (Table& table : tables) {
         ReadLine read = read_line(table);
         if (!read.line.name.empty())
             names.check(table, "name", read.line.name, "line name \"" + read.line.name + '"',

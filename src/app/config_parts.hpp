@@ -7,6 +7,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,7 @@ private:
     std::map<std::string, std::shared_ptr<const profile::Profile>> profiles_;
     std::map<std::filesystem::path, std::shared_ptr<const drive::TagTable>> tables_;
     profile::Faults faults_;
+    std::set<std::string> told_; ///< each of them in words
 };
 
 BusConfig read_bus(profile::Document& document, profile::Faults& warnings);

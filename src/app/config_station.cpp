@@ -17,6 +17,8 @@ using profile::Place;
 using profile::Profile;
 using profile::Table;
 
+constexpr std::ptrdiff_t kMostStations = 126; ///< addresses of a bus, 0 to 125
+
 /// EI-ASCII: one hexadecimal digit for the group, one for the unit.
 std::optional<drive::UnitAddress> ei_unit(std::string_view text)
 {
@@ -345,7 +347,15 @@ std::vector<StationConfig> read_stations(Document& document, const BusConfig& bu
     std::vector<StationConfig> stations;
     StationReader reader{document, bus, lines, shelf, warnings};
     Table root = document.root();
-    for (Table& table : root.tables("station")) stations.push_back(reader.read(table));
+    std::vector<Table> tables = root.tables("station");
+    if (std::ssize(tables) > kMostStations) {
+        document.fault(
+            tables[static_cast<std::size_t>(kMostStations)].place(),
+            "there are more stations than addresses on a bus (0 to 125): remove those that are too "
+            "many.");
+        tables.erase(tables.begin() + kMostStations, tables.end());
+    }
+    for (Table& table : tables) stations.push_back(reader.read(table));
     if (stations.empty())
         document.fault(
             {},

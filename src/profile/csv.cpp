@@ -1,34 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "csv.hpp"
 
-#include <cstdint>
+#include "dpslave/base/printable.hpp"
 
 namespace dpslave::profile {
 namespace {
-
-/// Octets of the UTF-8 character at the start of `rest`; 0 = none is there (overlong forms and surrogates
-/// included).
-std::size_t character_length(std::string_view rest)
-{
-    const auto octet = [&](std::size_t i) {
-        return i < rest.size() ? static_cast<std::uint8_t>(rest[i]) : std::uint8_t{0};
-    };
-    const auto follows = [&](std::size_t i) { return (octet(i) & 0xC0) == 0x80; };
-    const std::uint8_t first = octet(0);
-    if (first < 0x80) return 1;
-    if (first >= 0xC2 && first <= 0xDF) return follows(1) ? 2 : 0;
-    if (first >= 0xE0 && first <= 0xEF) {
-        const bool overlong = first == 0xE0 && octet(1) < 0xA0;
-        const bool surrogate = first == 0xED && octet(1) >= 0xA0;
-        return follows(1) && follows(2) && !overlong && !surrogate ? 3 : 0;
-    }
-    if (first >= 0xF0 && first <= 0xF4) {
-        const bool overlong = first == 0xF0 && octet(1) < 0x90;
-        const bool too_large = first == 0xF4 && octet(1) >= 0x90;
-        return follows(1) && follows(2) && follows(3) && !overlong && !too_large ? 4 : 0;
-    }
-    return 0;
-}
 
 std::string trimmed(std::string_view text)
 {
@@ -46,7 +22,7 @@ public:
     std::vector<Row> rows()
     {
         std::vector<Row> out;
-        while (!rest_.empty()) {
+        while (!rest_.empty() && faults_.size() <= kMaxFaults) {
             Row row = read_row();
             const bool empty = row.cells.size() == 1 && row.cells[0].text.empty();
             row.good = row_is_good_;
@@ -128,12 +104,9 @@ private:
     {
         const std::size_t length = character_length(rest_);
         const std::string_view character = rest_.substr(0, length > 0 ? length : 1);
-        const auto octet = static_cast<std::uint8_t>(character[0]);
         const bool ends_line = character == "\n" || rest_.starts_with("\r\n");
-        if (length == 0)
-            fault("this character is no UTF-8: save the table as UTF-8.");
-        else if ((octet < 0x20 && !ends_line && character != "\t") || octet == 0x7F)
-            fault("a control character: write plain text only.");
+        if (is_control(character) && !ends_line && character != "\t")
+            fault("a control character: write plain text only, and save the table as UTF-8.");
         rest_.remove_prefix(character.size());
         ++column_;
         if (character == "\n") {

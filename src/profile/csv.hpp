@@ -22,9 +22,9 @@ struct Row {
     std::vector<Cell> cells;
 };
 
-/// The rows of `content`, empty lines left out. LF and CR LF end a line; a quoted cell may hold either.
-/// A row with a fault (quotes, characters that are no UTF-8 text) is left out, and the fault is added to
-/// `faults`.
+/// The rows of `content`, which is UTF-8, empty lines left out. LF and CR LF end a line; a quoted cell may
+/// hold either. A row with a fault (quotes, control characters) is left out, and the fault is added to
+/// `faults`. Behind more than kMaxFaults nothing is read.
 std::vector<Row> read_csv(std::string_view content, const std::string& file, Faults& faults);
 
 /// `text` as a cell: in quotes where it needs them.

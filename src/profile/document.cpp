@@ -2,8 +2,10 @@
 // The only file that knows toml++: what it parsed is copied into plain nodes, each with its place.
 #include "dpslave/profile/document.hpp"
 
-#include "text_file.hpp"
+#include "nesting.hpp"
 
+#include "dpslave/base/printable.hpp"
+#include "dpslave/profile/text_file.hpp"
 #include "dpslave/profile/wording.hpp"
 
 #include <toml++/toml.h>
@@ -130,10 +132,13 @@ std::string wrong(std::string_view key, std::string_view wanted, const Value& va
 
 bool has_control_characters(std::string_view text)
 {
-    return std::any_of(text.begin(), text.end(), [](char c) {
-        const auto octet = static_cast<unsigned char>(c);
-        return octet < 0x20 || octet == 0x7F;
-    });
+    while (!text.empty()) {
+        const std::size_t length =
+            std::max<std::size_t>(1, character_length(text)); // toml++ lets only UTF-8 pass
+        if (is_control(text.substr(0, length))) return true;
+        text.remove_prefix(length);
+    }
+    return false;
 }
 
 bool before(const Fault& left, const Fault& right)
@@ -155,6 +160,7 @@ void find_unknown_keys(const Node& node, const std::string& file, Faults& faults
     // A table of which nothing was asked is one whose place was already refused as a whole.
     if (node.asked_for.empty()) return;
     for (const Entry& entry : node.entries) {
+        if (faults.size() > kMaxFaults) return;
         const auto& legal = node.asked_for;
         if (std::find(legal.begin(), legal.end(), entry.key) != legal.end()) {
             find_unknown_keys(entry.value, file, faults);
@@ -389,6 +395,11 @@ Document::Document(const std::filesystem::path& file) : name_(file.string()), ro
         faults_.push_back(content.error());
         return;
     }
+    if (const auto place = too_deep(*content)) {
+        fault(*place, "tables, lists or dotted keys are nested deeper than " + std::to_string(kMaxNesting) +
+                          " here: nothing of ours is.");
+        return;
+    }
     try {
         *root_ = convert(toml::parse(std::string_view{*content}), "", false);
         root_->place = {}; // what the file as a whole lacks has no line
@@ -409,7 +420,7 @@ Table Document::root()
 
 void Document::fault(Place place, std::string what)
 {
-    faults_.push_back({name_, place.line, place.column, std::move(what)});
+    if (faults_.size() <= kMaxFaults) faults_.push_back({name_, place.line, place.column, std::move(what)});
 }
 
 Faults Document::faults() const
@@ -417,6 +428,7 @@ Faults Document::faults() const
     Faults all = faults_;
     find_unknown_keys(*root_, name_, all);
     std::stable_sort(all.begin(), all.end(), before);
+    cap(all);
     return all;
 }
 

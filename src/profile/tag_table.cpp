@@ -2,13 +2,16 @@
 // Tag tables: CSV rows become drive::TagTable, whole or not at all.
 #include "csv.hpp"
 #include "tag_row.hpp"
-#include "text_file.hpp"
 
+#include "dpslave/base/printable.hpp"
 #include "dpslave/profile/profile.hpp"
+#include "dpslave/profile/text_file.hpp"
 #include "dpslave/profile/wording.hpp"
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <utility>
 
 namespace dpslave::profile {
 namespace {
@@ -27,12 +30,13 @@ public:
             return Failure{faults_};
         }
         if (rows.front().good && header(rows.front()))
-            for (std::size_t i = 1; i < rows.size(); ++i)
+            for (std::size_t i = 1; i < rows.size() && faults_.size() <= kMaxFaults; ++i)
                 if (rows[i].good) add(rows[i]);
         if (!faults_.empty()) {
             std::stable_sort(faults_.begin(), faults_.end(), [](const Fault& left, const Fault& right) {
                 return std::pair{left.line, left.column} < std::pair{right.line, right.column};
             });
+            cap(faults_);
             return Failure{faults_};
         }
         return drive::TagTable{std::move(tags_)};
@@ -97,12 +101,15 @@ private:
     }
 
     /// The rows before this one were names only: this one is the tag, they are its further names.
-    static void make_first(Tag& known, Tag tag)
+    void make_first(Tag& known, Tag tag)
     {
         std::vector<std::string> names = std::move(known.aliases);
         names.insert(names.begin(), known.name);
-        for (std::string& name : names)
-            if (!name.empty() && name != tag.name) tag.aliases.push_back(std::move(name));
+        for (std::string& name : names) {
+            if (name.empty() || name == tag.name) continue;
+            aliases_.emplace(tag.number, name);
+            tag.aliases.push_back(std::move(name));
+        }
         known = std::move(tag);
     }
 
@@ -117,7 +124,7 @@ private:
                       " on line " + std::to_string(known.line) +
                       ": make them equal, or leave the cell empty in a line that gives a further name.");
         } else if (!tag.name.empty() && tag.name != first.name &&
-                   std::find(first.aliases.begin(), first.aliases.end(), tag.name) == first.aliases.end()) {
+                   aliases_.emplace(tag.number, tag.name).second) {
             first.aliases.push_back(tag.name);
         }
     }
@@ -132,6 +139,7 @@ private:
     Columns columns_;
     std::vector<Tag> tags_;
     std::map<std::uint16_t, First> firsts_; ///< by tag
+    std::set<std::pair<std::uint16_t, std::string>> aliases_;
     std::size_t rows_ = 0;
 };
 
@@ -146,7 +154,7 @@ Result<drive::TagTable, Faults> load_tags(const std::filesystem::path& file)
 
 Result<drive::TagTable, Faults> read_tags(std::string_view content, const std::string& file)
 {
-    return TableReader{file}.read(content);
+    return TableReader{file}.read(utf8(content));
 }
 
 } // namespace dpslave::profile

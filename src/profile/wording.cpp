@@ -15,6 +15,8 @@ std::string in_quotes(std::string_view text)
 
 std::string_view nearest(std::string_view wrong, std::span<const std::string> legal)
 {
+    constexpr std::size_t longest = 64; // no key and no name of ours has so many octets
+    if (wrong.size() > longest) return {};
     std::string_view best;
     std::size_t best_distance = std::max<std::size_t>(2, wrong.size() / 3) + 1;
     for (const std::string& candidate : legal) {

@@ -48,6 +48,73 @@ TEST_F(TomlDocument, gives_what_was_asked_for_and_is_content)
     EXPECT_THAT(document.faults(), IsEmpty());
 }
 
+std::string repeated(std::string_view part, int times)
+{
+    std::string out;
+    for (int i = 0; i < times; ++i) out += part;
+    return out;
+}
+
+TEST_F(TomlDocument, that_is_nested_deeper_than_any_of_ours_is_a_fault_and_is_not_walked_down)
+{
+    constexpr int kDeep = 200'000;
+    for (const std::string& content :
+         {"a = 1\n" + repeated("a.", kDeep) + "a=1\n", "a = 1\nb=" + repeated("[", kDeep),
+          "a = 1\nb=" + repeated("{a=", kDeep), "a = 1\n[" + repeated("a . ", kDeep) + "a]\n",
+          "a = 1\n" + repeated("\"a\".", kDeep) + "a=1\n", "a = 1\nb = [\"\\\"\", " + repeated("[", kDeep)}) {
+        Document& document = read(content);
+        EXPECT_FALSE(document.readable());
+        EXPECT_THAT(short_forms(document.faults()),
+                    ElementsAre(AllOf(StartsWith("2:"), HasSubstr("nested deeper"))));
+    }
+}
+
+TEST_F(TomlDocument, with_dots_and_brackets_in_texts_and_comments_is_not_nested)
+{
+    const std::string dots = repeated("a.[{", 100);
+    Document& document = read("a = \"" + dots + "\" # " + dots + "\nb = '" + dots + "'\nc = \"\"\"\n" + dots +
+                              "\n\"\"\"\n" + repeated("# x.y.z\n", 100));
+    Table root = document.root();
+    root.has("a");
+    root.has("b");
+    root.has("c");
+
+    EXPECT_TRUE(document.readable());
+    EXPECT_THAT(document.faults(), IsEmpty());
+}
+
+TEST_F(TomlDocument, with_thousands_of_faults_tells_the_first_ones_and_that_there_are_more)
+{
+    std::string content;
+    for (int i = 0; i < 12'000; ++i) content += "wrong" + std::to_string(i) + " = 1\n";
+    Document& document = read(content);
+    document.root().text("port");
+
+    const auto faults = document.faults();
+    ASSERT_EQ(faults.size(), profile::kMaxFaults + 1);
+    EXPECT_THAT(faults.back().what, HasSubstr("more faults"));
+}
+
+TEST_F(TomlDocument, faults_show_the_text_of_others_without_what_a_terminal_obeys)
+{
+    Document& document = read("\"\\u001b[2J\\u009b\\u202e\\u000aforged\" = 1\nname = \"Z\u00FCrich\"\n");
+    document.root().integer("name", 0, 1);
+    std::string all;
+    for (const auto& fault : document.faults()) all += to_string(fault);
+
+    EXPECT_THAT(all, AllOf(HasSubstr("\\x1B[2J\\x9B\\u202E\\x0Aforged"), HasSubstr("Z\u00FCrich")));
+    EXPECT_EQ(all.find('\x1b'), std::string::npos);
+    EXPECT_EQ(all.find('\n'), std::string::npos);
+}
+
+TEST_F(TomlDocument, a_fault_with_a_value_of_a_whole_file_is_a_sentence_that_can_be_read)
+{
+    Document& document = read("name = \"" + std::string(900'000, 'x') + "\"\n");
+    document.root().choice<int>("name", {{"a", 1}});
+
+    EXPECT_LT(to_string(document.faults().at(0)).size(), 1200u);
+}
+
 TEST_F(TomlDocument, a_key_nobody_asked_for_is_a_fault_that_names_the_nearest)
 {
     Document& document = read("[bus]\nprot = \"x\"\nzzzzzzzz = 1\n");

@@ -4,6 +4,7 @@
 #include "dpslave/profile/profile.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 namespace dpslave {
 namespace {
@@ -39,6 +40,55 @@ protected:
 
     Folder folder_;
 };
+
+TEST_F(TagTable, of_iso_8859_1_or_utf_8_names_what_its_author_wrote)
+{
+    EXPECT_EQ(good("tag,name\n1,Z\xFCrich\n").find(1)->name, "Z\u00FCrich");
+    EXPECT_EQ(good("tag,name\n1,Z\u00FCrich\n").find(1)->name, "Z\u00FCrich");
+}
+
+TEST_F(TagTable, with_thousands_of_faults_tells_the_first_ones_and_that_there_are_more)
+{
+    std::string content = "tag,name,type\n";
+    for (int i = 0; i < 12'000; ++i) content += std::to_string(i) + ",a name,NOTYPE\n";
+
+    const Faults faults = bad(content);
+
+    ASSERT_EQ(faults.size(), profile::kMaxFaults + 1);
+    EXPECT_EQ(faults[0].line, 2u);
+    EXPECT_EQ(faults[profile::kMaxFaults - 1].line, profile::kMaxFaults + 1);
+    EXPECT_THAT(faults.back().what, HasSubstr("more faults"));
+}
+
+TEST_F(TagTable, with_thousands_of_rows_of_wrong_form_tells_the_first_ones_and_that_there_are_more)
+{
+    std::string content = "tag,name\n";
+    for (int i = 0; i < 12'000; ++i) content += std::to_string(i) + ",a\x07\n";
+
+    EXPECT_EQ(bad(content).size(), profile::kMaxFaults + 1);
+}
+
+TEST_F(TagTable, of_many_names_for_one_tag_keeps_each_once)
+{
+    std::string content = "tag,name\n";
+    for (int i = 0; i < 60'000; ++i) content += "1,n" + std::to_string(i / 2) + "\n";
+
+    EXPECT_EQ(good(content).find(1)->aliases.size(), 29'999u);
+}
+
+TEST_F(TagTable, that_is_no_regular_file_or_too_large_is_refused_at_once)
+{
+    const auto why = [](const std::filesystem::path& file) { return load_tags(file).error().at(0).what; };
+    const auto pipe = folder_.path() / "pipe.csv";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+
+    EXPECT_THAT(why(pipe), HasSubstr("no regular file"));
+    EXPECT_THAT(why("/dev/ptmx"), HasSubstr("no regular file"));
+    EXPECT_THAT(why("/dev/zero"), HasSubstr("no regular file"));
+    EXPECT_THAT(why(folder_.path()), HasSubstr("is a folder"));
+    EXPECT_THAT(why(folder_.write("large.csv", std::string(1024 * 1024 + 1, ' '))),
+                HasSubstr("larger than 1 MiB"));
+}
 
 TEST_F(TagTable, takes_every_column_in_any_order_and_leaves_unknown_ones_alone)
 {
@@ -308,7 +358,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadTable{"tag,name\n1,\"open\n2,b\n", "2:3: ", "never closed"},
         BadTable{"tag,name\n1,\"a\" b\n", "2:7: ", "behind the closing quote"},
         BadTable{"tag,name\n1,5\" pipe\n", "2:4: ", "write this quote twice"},
-        BadTable{"tag,name\n1,Z\xE4hler\n", "2:4: ", "save the table as UTF-8"},
+        BadTable{"tag,name\n1,Z\xE4hler \x80\n", "2:10: ", "save the table as UTF-8"},
+        BadTable{"tag,name\n1,a\xC2\x9B"
+                 "31mz\n",
+                 "2:4: ", "control character"},
+        BadTable{"tag,name\n1,a\xE2\x80\xAEz\n", "2:4: ", "control character"},
         BadTable{"tag,name\n1,a\x07z\n", "2:4: ", "control character"},
         BadTable{"tag,\"name\n1,a\n", "1:5: ", "never closed"},
         BadTable{"tag,name,min\n1,\xC3\xA4\xC3\xB6,x\n", "2:6: ", "min \"x\""},
@@ -339,7 +393,7 @@ TEST_F(TagTable, a_file_that_is_not_there_or_no_file_is_a_fault_of_the_file)
 
     const auto folder = load_tags(folder_.path());
     ASSERT_FALSE(folder);
-    EXPECT_THAT(folder.error().at(0).what, HasSubstr("Is a directory"));
+    EXPECT_THAT(folder.error().at(0).what, HasSubstr("it is a folder"));
 }
 
 TEST(FaultText, is_file_line_column_and_sentence_as_compilers_have_it)

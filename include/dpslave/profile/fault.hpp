@@ -2,6 +2,7 @@
 /// A fault in a file that a person wrote: where it is, and what to do about it.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,14 @@ struct Fault {
 /// All faults found in one run, in the order of the file.
 using Faults = std::vector<Fault>;
 
-/// "FILE:LINE:COLUMN: what", as compilers do.
+/// So many faults of one run are told, and then that there are more: a file with thousands must not keep its
+/// reader busy, and nobody reads so many.
+inline constexpr std::size_t kMaxFaults = 100;
+
+/// Those behind the first kMaxFaults give way to one that says so.
+void cap(Faults& faults);
+
+/// "FILE:LINE:COLUMN: what", as compilers do; printable, and not longer than a person reads.
 std::string to_string(const Fault& fault);
 
 } // namespace dpslave::profile
