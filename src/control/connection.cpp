@@ -39,6 +39,14 @@ void Connection::flush()
         }
     }
     out_.erase(0, sent);
+    if (out_.empty()) drop_output(); // all memory is locked: a large reply does not keep its room
+}
+
+void Connection::cut()
+{
+    kill();
+    drop_output();
+    ::shutdown(fd(), SHUT_RDWR);
 }
 
 bool Connection::send(std::string_view message, std::size_t limit)
@@ -53,7 +61,9 @@ std::uint32_t Connection::wanted_events() const noexcept
 {
     std::uint32_t events = 0; // EPOLLHUP and EPOLLERR come unasked
     if (!out_.empty()) events |= EPOLLOUT;
-    if (idle() && !ended_) events |= EPOLLIN;
+    // A call that is here already: he has his next turn as soon as a reply to it could be sent.
+    if (idle() && holds_calls) events |= EPOLLOUT;
+    if (idle() && !holds_calls && !ended_) events |= EPOLLIN;
     return events;
 }
 

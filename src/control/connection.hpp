@@ -25,9 +25,13 @@ public:
     int fd() const noexcept { return fd_.get(); }
     bool dead() const noexcept { return dead_; }
     void kill() noexcept { dead_ = true; }
+    /// Dead, without what waits; epoll reports it once more, so that it is forgotten.
+    void cut();
     bool ended() const noexcept { return ended_; }
     /// Ready for his next call: replies are fetched, nothing is awaited.
     bool idle() const noexcept { return !dead_ && waits == Waits::nothing && out_.empty(); }
+
+    bool all_sent() const noexcept { return out_.empty(); }
 
     /// Reads what has come, as far as there is room for it.
     void receive();
@@ -36,7 +40,8 @@ public:
     /// Adds to what waits and sends. False: more than `limit` octets would wait.
     bool send(std::string_view message, std::size_t limit);
     /// The caller will never read: forgets what waits.
-    void drop_output() noexcept { out_.clear(); }
+    void drop_output() { std::string{}.swap(out_); }
+    std::size_t unsent() const noexcept { return out_.size(); }
 
     /// What epoll shall report of him now.
     std::uint32_t wanted_events() const noexcept;
@@ -45,8 +50,10 @@ public:
     const Caller caller;
     const bool operates;
     Framer in{kMaxCall};
+    bool holds_calls = false; ///< there may be a whole call in `in`
     Waits waits = Waits::nothing;
     std::uint64_t number = 0;       ///< the token or stream he waits for
+    std::uint64_t used = 0;         ///< the server's count of uses at his last call or reply
     std::uint32_t known_events = 0; ///< what epoll was told last
 
 private:

@@ -85,6 +85,7 @@ Reply Server::Impl::answer_own(const Connection& connection, Call& call)
     remove_nulls(call.parameters);
     Caller caller = connection.caller;
     caller.more = call.more;
+    caller.operates = connection.operates;
     return handlers.find(call.method)->second(call.parameters, caller);
 }
 
@@ -121,6 +122,24 @@ void Server::Impl::send(Connection& connection, const std::string& message)
     } else if (!connection.send(message, settings.max_unsent)) {
         ++counters.too_slow;
         connection.kill();
+    } else {
+        bound_unsent();
+    }
+}
+
+/// Many callers who do not read are no more than a few: the one for whom most waits is ended.
+void Server::Impl::bound_unsent()
+{
+    for (;;) {
+        std::size_t all = 0;
+        Connection* most = nullptr;
+        for (const auto& [id, one] : connections) {
+            all += one->unsent();
+            if (most == nullptr || one->unsent() > most->unsent()) most = one.get();
+        }
+        if (most == nullptr || all <= settings.max_unsent_of_all) return;
+        ++counters.too_slow;
+        most->cut();
     }
 }
 

@@ -14,7 +14,7 @@ namespace dpslave::control {
 namespace {
 
 constexpr std::uint64_t kListener = 0; ///< epoll's name for the listening socket; connections count from 1
-constexpr int kAcceptedAtOnce = 16;    ///< a flood of callers does not hold the main thread
+constexpr int kAcceptedAtOnce = 8;     ///< a flood of callers does not hold the main thread
 
 } // namespace
 
@@ -24,6 +24,11 @@ bool may_operate(const Caller& caller, std::optional<gid_t> operator_group) noex
     if (!operator_group) return false;
     return caller.gid == *operator_group ||
            std::find(caller.groups.begin(), caller.groups.end(), *operator_group) != caller.groups.end();
+}
+
+std::string words_of(const Caller& caller)
+{
+    return fmt::format("uid {}, pid {}", caller.uid, caller.pid);
 }
 
 bool Server::Impl::listen()
@@ -60,15 +65,14 @@ bool Server::Impl::accept_one()
 
 void Server::Impl::take_in(Descriptor fd)
 {
-    Caller caller = peer_of(fd.get());
+    Caller caller = settings.identify ? settings.identify(fd.get()) : peer_of(fd.get());
     const bool operates = may_operate(caller, settings.operator_group);
-    const std::size_t kept = operates ? 0 : std::min(settings.kept_for_operators, settings.max_clients);
     auto connection = std::make_unique<Connection>(++last_id, std::move(fd), std::move(caller), operates);
+    connection->used = ++uses;
     epoll_event event{};
     event.events = connection->known_events = connection->wanted_events();
     event.data.u64 = connection->id;
-    if (connections.size() >= settings.max_clients - kept ||
-        ::epoll_ctl(epoll.get(), EPOLL_CTL_ADD, connection->fd(), &event) < 0) {
+    if (!make_room(*connection) || ::epoll_ctl(epoll.get(), EPOLL_CTL_ADD, connection->fd(), &event) < 0) {
         ++counters.turned_away;
         connection->send(encode_error({"Busy"}), kMaxReply);
         return;
@@ -77,6 +81,57 @@ void Server::Impl::take_in(Descriptor fd)
     connections.emplace(connection->id, std::move(connection));
 }
 
+/// A place for `newcomer`. A user at his share gives up one of his own; when all places are taken, the user
+/// who has the most gives up one. False: there is none to be had.
+bool Server::Impl::make_room(const Connection& newcomer)
+{
+    const uid_t uid = newcomer.caller.uid;
+    const bool is_root = uid == 0;
+    const std::size_t held = held_by(uid);
+    if (!is_root && held >= std::max<std::size_t>(1, settings.max_clients / 4)) return end_idle_of(uid);
+    const std::size_t kept =
+        newcomer.operates ? 0 : std::min(settings.kept_for_operators, settings.max_clients);
+    if (connections.size() < settings.max_clients - kept) return true;
+    const auto other = fullest(newcomer.operates);
+    return other && (is_root || held_by(*other) > held + 1) && end_idle_of(*other);
+}
+
+std::size_t Server::Impl::held_by(uid_t uid) const
+{
+    return static_cast<std::size_t>(
+        std::count_if(connections.begin(), connections.end(),
+                      [uid](const auto& one) { return one.second->caller.uid == uid; }));
+}
+
+/// The user with the most connections, root and, unless `with_operators`, the operators apart.
+std::optional<uid_t> Server::Impl::fullest(bool with_operators) const
+{
+    std::map<uid_t, std::size_t> places;
+    for (const auto& [id, one] : connections)
+        if (one->caller.uid != 0 && (with_operators || !one->operates)) ++places[one->caller.uid];
+    const auto most = std::max_element(places.begin(), places.end(),
+                                       [](const auto& a, const auto& b) { return a.second < b.second; });
+    return most != places.end() ? std::optional{most->first} : std::nullopt;
+}
+
+/// Ends the connection of `uid` that has been idle for longest, with Busy for its reason. False: each of them
+/// waits for an answer of ours.
+bool Server::Impl::end_idle_of(uid_t uid)
+{
+    Connection* longest = nullptr;
+    for (const auto& [id, one] : connections) {
+        if (one->caller.uid != uid || one->waits == Connection::Waits::later) continue;
+        if (longest == nullptr || one->used < longest->used) longest = one.get();
+    }
+    if (longest == nullptr) return false;
+    ++counters.displaced;
+    longest->send(encode_error({"Busy"}), settings.max_unsent);
+    longest->kill();
+    settle(*longest);
+    return true;
+}
+
+/// One turn: sends what waits, then takes and answers one call.
 void Server::Impl::serve(Connection& connection, std::uint32_t events)
 {
     const bool gone =
@@ -84,28 +139,24 @@ void Server::Impl::serve(Connection& connection, std::uint32_t events)
     if (gone && connection.waits != Connection::Waits::nothing) return connection.kill();
     if (gone) connection.drop_output();
     connection.flush();
-    if (connection.idle()) connection.receive(); // calls sent before he went are still done
-    process(connection);
-    if (gone) connection.kill();
-}
-
-/// Answers the calls that have come whole, until one keeps the caller waiting or he has to fetch his replies
-/// first.
-void Server::Impl::process(Connection& connection)
-{
-    while (connection.idle()) {
-        const auto message = connection.in.next();
-        if (message && !*message) {
-            if (connection.ended()) connection.kill(); // all calls done, all replies fetched
-            return;
-        }
-        auto call = message ? parse_call(**message) : Result<Call, Flaw>{Failure{message.error()}};
-        if (!call) {
-            ++counters.malformed;
-            return connection.kill();
-        }
-        dispatch(connection, *call);
+    if (!connection.idle()) return;
+    auto message = connection.in.next();
+    if (message && !*message) {
+        connection.receive();
+        message = connection.in.next();
     }
+    connection.holds_calls = message && *message;
+    if (message && !*message) {
+        if (connection.ended() || gone) connection.kill(); // all calls done, all replies fetched
+        return;
+    }
+    auto call = message ? parse_call(**message) : Result<Call, Flaw>{Failure{message.error()}};
+    if (!call) {
+        ++counters.malformed;
+        return connection.kill();
+    }
+    connection.used = ++uses;
+    dispatch(connection, *call);
 }
 
 void Server::Impl::settle(Connection& connection)
@@ -157,7 +208,7 @@ int Server::fd() const noexcept
 
 void Server::on_ready()
 {
-    std::array<epoll_event, 2 * 32> events{};
+    std::array<epoll_event, kTurnsARound> events{}; // the kernel goes round: the next ones come next time
     const int n = ::epoll_wait(impl_->epoll.get(), events.data(), static_cast<int>(events.size()), 0);
     for (int i = 0; i < n; ++i) {
         const epoll_event& event = events[static_cast<std::size_t>(i)];
@@ -181,7 +232,6 @@ bool Server::complete(std::uint64_t token, const Reply& reply)
     connection.waits = Connection::Waits::nothing;
     impl_->send_final(connection, reply);
     const bool taken = !connection.dead();
-    impl_->process(connection); // calls that came behind this one
     impl_->settle(connection);
     return taken;
 }
@@ -193,6 +243,7 @@ bool Server::push(std::uint64_t stream, const Json& parameters)
     Connection& connection = *found->second;
     impl_->send(connection, encode_reply({parameters}, true));
     const bool taken = !connection.dead();
+    if (taken && connection.all_sent()) connection.used = ++impl_->uses;
     impl_->settle(connection);
     return taken;
 }
@@ -205,7 +256,6 @@ bool Server::end_stream(std::uint64_t stream, const Error& why)
     impl_->streams.erase(found);
     connection.waits = Connection::Waits::nothing;
     impl_->send_final(connection, why);
-    impl_->process(connection); // calls that came behind this one
     impl_->settle(connection);
     return true;
 }

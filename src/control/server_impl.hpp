@@ -12,6 +12,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace dpslave::control {
@@ -30,8 +31,11 @@ struct Server::Impl {
     void accept_callers();
     bool accept_one();
     void take_in(Descriptor fd);
+    bool make_room(const Connection& newcomer);
+    std::size_t held_by(uid_t uid) const;
+    std::optional<uid_t> fullest(bool with_operators) const;
+    bool end_idle_of(uid_t uid);
     void serve(Connection& connection, std::uint32_t events);
-    void process(Connection& connection);
     /// After anything was done with a connection: tells epoll what to watch, or forgets the connection.
     void settle(Connection& connection);
 
@@ -43,6 +47,7 @@ struct Server::Impl {
     void deliver(Connection& connection, const Call& call, const Reply& reply);
     void send(Connection& connection, const std::string& message);
     void send_final(Connection& connection, const Reply& reply);
+    void bound_unsent();
 
     static Descriptor open_spare() { return Descriptor{::open("/dev/null", O_RDONLY | O_CLOEXEC)}; }
 
@@ -56,6 +61,7 @@ struct Server::Impl {
     std::map<std::uint64_t, std::unique_ptr<Connection>> connections;
     std::map<std::uint64_t, Connection*> laters, streams; ///< by the application's number
     std::uint64_t last_id = 0;
+    std::uint64_t uses = 0; ///< calls and replies until now: the clock of Connection::used
     ServerCounters counters;
 };
 

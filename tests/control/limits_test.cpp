@@ -92,6 +92,22 @@ TEST(ControlLimits, AStreamThatNobodyReadsIsDroppedAtItsBound)
     EXPECT_TRUE(bench.server->streams().empty());
 }
 
+TEST(ControlLimits, ManyCallersWhoDoNotReadOccupyNoMoreThanAFewDo)
+{
+    constexpr std::size_t kReply = 500'000, kOfAll = 2'000'000;
+    Bench bench{large_answers(kReply), [](ServerSettings& s) { s.max_unsent_of_all = kOfAll; }};
+    std::vector<RawCaller> deaf;
+    for (int i = 0; i < 20; ++i) {
+        deaf.push_back(bench.caller());
+        deaf.back().write(call("GetStatus"));
+        bench.settle();
+    }
+
+    EXPECT_GE(bench.server->counters().too_slow, 20 - kOfAll / (kReply / 4));
+    EXPECT_LE(bench.server->clients(), kOfAll / (kReply / 4)) << "a socket holds some of a reply";
+    EXPECT_TRUE(bench.ask("GetVersion").contains("parameters"));
+}
+
 TEST(ControlLimits, ACallerWhoDoesNotReadIsNotReadFromEither)
 {
     Bench bench{large_answers(300'000)};

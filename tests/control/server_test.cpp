@@ -97,6 +97,7 @@ TEST_F(ControlServer, StillAnswersACallerWhoHasClosedHisSideForWriting)
     caller.close_writing();
 
     EXPECT_EQ(bench.reply(caller), json(R"({"parameters":{"n":1}})"));
+    bench.settle();
     EXPECT_TRUE(bench.server->complete(7, Done{}));
     EXPECT_EQ(bench.reply(caller), json(R"({"parameters":{}})"));
     EXPECT_EQ(bench.reply(caller), std::nullopt);

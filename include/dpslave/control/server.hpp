@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The control socket: a Varlink service on a Unix stream socket, without a thread and without a wait of its
 /// own. The main thread puts fd() into its epoll and calls on_ready(). Every caller is bounded: how many
-/// there are, how long a call is, how much may wait to be read by him. A caller who is too slow or speaks
-/// nonsense loses his connection, nobody else notices.
+/// there are, how many of one user, how long a call is, how many calls a round, how much may wait to be read
+/// by him. A caller who is too slow or speaks nonsense loses his connection, and no other one notices.
 #pragma once
 
 #include "dpslave/control/interface.hpp"
@@ -28,8 +28,12 @@ struct Caller {
     gid_t gid = 65534;
     pid_t pid = 0;
     std::vector<gid_t> groups; ///< supplementary ones
-    bool more = false; ///< this call takes several replies: without it a Stream ends after its first one
+    bool more = false;     ///< this call takes several replies: without it a Stream ends after its first one
+    bool operates = false; ///< may use methods with Right::operate
 };
+
+/// "uid 1000, pid 4711": for a log.
+std::string words_of(const Caller& caller);
 
 /// May `caller` use methods with Right::operate? Root may, and the operator group; without a group only root.
 bool may_operate(const Caller& caller, std::optional<gid_t> operator_group) noexcept;
@@ -55,14 +59,21 @@ using Handlers = std::map<std::string, Handler, std::less<>>;
 
 struct ServerSettings {
     std::filesystem::path socket = "/run/dpslaved/control.sock";
-    std::optional<gid_t> operator_group; ///< none: only root operates
-    std::string operator_group_name;     ///< for the error NotPermitted
-    std::string version;                 ///< of the program, for org.varlink.service.GetInfo
-    std::string url;                     ///< of the project, for the same
-    std::size_t max_clients = 32;
-    std::size_t kept_for_operators = 4;     ///< of max_clients: so that nobody can lock the operators out
+    std::optional<gid_t> operator_group;    ///< none: only root operates
+    std::string operator_group_name;        ///< for the error NotPermitted
+    std::string version;                    ///< of the program, for org.varlink.service.GetInfo
+    std::string url;                        ///< of the project, for the same
+    std::size_t max_clients = 32;           ///< one user id that is not root: a quarter of them at most
+    std::size_t kept_for_operators = 4;     ///< of max_clients: they always get in
     std::size_t max_unsent = 2 * kMaxReply; ///< octets that may wait for one slow caller
+    std::size_t max_unsent_of_all = 4 * kMaxReply; ///< above it the one who owes most loses his connection
+    /// Who is at the other end of a connected socket; none: the kernel is asked.
+    std::function<Caller(int fd)> identify;
 };
+
+/// How many connections have a turn in one on_ready(), with one call each: the main thread comes back to its
+/// own work after that, whatever the callers have sent.
+inline constexpr std::size_t kTurnsARound = 8;
 
 /// What the server has seen, for `dpctl counters`.
 struct ServerCounters {
@@ -70,6 +81,7 @@ struct ServerCounters {
     std::uint64_t calls = 0;
     std::uint64_t errors = 0;      ///< calls answered with an error
     std::uint64_t turned_away = 0; ///< too many callers
+    std::uint64_t displaced = 0;   ///< idle connections ended to make room for another one
     std::uint64_t malformed = 0;   ///< connections ended for a Flaw
     std::uint64_t too_slow = 0;    ///< connections ended because replies were not fetched
     std::uint64_t not_permitted = 0;
@@ -87,7 +99,8 @@ public:
 
     /// Readable when there is something to do (an inner epoll).
     int fd() const noexcept;
-    /// Does what there is to do, without ever waiting.
+    /// One round: at most kTurnsARound connections have their turn. Never waits. What is left over makes fd()
+    /// readable again.
     void on_ready();
 
     /// Gives the answer that a handler promised with Later: Done or Error. False: that caller has gone, or
