@@ -4,6 +4,8 @@
 #include "explain.hpp"
 #include "words.hpp"
 
+#include "dpslave/base/printable.hpp"
+
 #include <fmt/format.h>
 
 namespace dpslave::dpctl {
@@ -26,7 +28,9 @@ int tell(const control::ReplyMessage& error, const Options& options, Terminal& t
     if (options.json)
         terminal.out << json_text(Json::object({{"error", error.error}, {"parameters", error.parameters}}))
                      << '\n';
-    terminal.err << "dpctl: " << explain(error) << '\n';
+    const control::ReplyMessage shown{printable_texts(error.parameters), printable(error.error),
+                                      error.continues};
+    terminal.err << "dpctl: " << explain(shown) << '\n';
     return kNo;
 }
 
@@ -38,7 +42,7 @@ Result<Json, int> ask(const Options& options, Terminal& terminal, std::string_vi
     auto reply = client->call(method, parameters);
     if (!reply) return Failure{tell(reply.error(), terminal)};
     if (!reply->error.empty()) return Failure{tell(*reply, options, terminal)};
-    return std::move(reply->parameters);
+    return options.json ? std::move(reply->parameters) : printable_texts(std::move(reply->parameters));
 }
 
 int show(const Options& options, Terminal& terminal, std::string_view method, const Json& parameters,

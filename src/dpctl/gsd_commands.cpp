@@ -3,6 +3,7 @@
 
 #include "gsd_files.hpp"
 
+#include "dpslave/base/printable.hpp"
 #include "dpslave/gsd/check.hpp"
 #include "dpslave/gsd/identifier.hpp"
 #include "dpslave/gsd/io_map.hpp"
@@ -23,24 +24,8 @@ using Path = std::filesystem::path;
 
 int refused(Terminal& terminal, const std::string& sentence)
 {
-    fmt::print(terminal.err, "dpctl: {}\n", sentence);
+    fmt::print(terminal.err, "dpctl: {}\n", printable(sentence));
     return kNo;
-}
-
-/// A GSD is Latin-1, a terminal is UTF-8; what is UTF-8 already stays.
-std::string utf8(std::string_view latin1)
-{
-    std::string out;
-    for (const char each : latin1) {
-        const auto octet = static_cast<unsigned char>(each);
-        if (octet >= 0x80) {
-            out += static_cast<char>(0xC0 | octet >> 6);
-            out += static_cast<char>(0x80 | (octet & 0x3F));
-        } else {
-            out += octet < 0x20 || octet == 0x7F ? '?' : each;
-        }
-    }
-    return out;
 }
 
 std::optional<std::uint32_t> number_of(std::string_view text)
@@ -58,7 +43,7 @@ void print(std::ostream& out, const std::string& file, const gsd::Finding& findi
 {
     const std::string place = finding.line > 0 ? fmt::format("{}:{}", file, finding.line) : file;
     fmt::print(out, "{}: {}: {}\n", place, finding.severity == gsd::Severity::error ? "error" : "warning",
-               utf8(finding.what));
+               printable(finding.what));
 }
 
 std::string summary(const gsd::Findings& findings)
@@ -146,7 +131,7 @@ private:
 void print_advice(const gsd::Document& document, Terminal& terminal)
 {
     for (const std::string& advice : gsd::io_map(document, {}).advice)
-        fmt::print(terminal.err, "warning: {}\n", advice);
+        fmt::print(terminal.err, "warning: {}\n", printable(advice));
 }
 
 // ---- show
@@ -166,7 +151,7 @@ void print_direction(std::ostream& out, const char* title, const std::vector<gsd
         const std::string word = first_word == last_word ? std::to_string(first_word)
                                                          : fmt::format("{}-{}", first_word, last_word);
         fmt::print(out, "  {:<9} {:<7} {:<6} {}\n", place, word, value.tag ? std::to_string(*value.tag) : "-",
-                   value.what);
+                   printable(value.what));
     }
 }
 
@@ -178,7 +163,7 @@ void print_modules(std::ostream& out, const gsd::Document& document)
         document.number("Max_Module").value_or(0));
     for (const gsd::Module& module : document.modules) {
         const auto sum = gsd::sum_of_identifiers(module.identifiers);
-        fmt::print(out, "  {:<32} {:>3} octets in {:>3} out\n", utf8(module.name), sum ? sum->in : 0,
+        fmt::print(out, "  {:<32} {:>3} octets in {:>3} out\n", printable(module.name), sum ? sum->in : 0,
                    sum ? sum->out : 0);
     }
 }
@@ -216,17 +201,17 @@ int gsd_show(const GsdOptions& options, Terminal& terminal)
         for (const drive::Tag& tag : profile->tags.all()) hints.names.emplace(tag.number, tag.name);
     }
     const gsd::IoMap map = gsd::io_map(document, hints);
-    fmt::print(terminal.out, "{}, {}, Ident_Number 0x{:04X}\n", utf8(document.text("Vendor_Name")),
-               utf8(document.text("Model_Name")), document.number("Ident_Number").value_or(0));
+    fmt::print(terminal.out, "{}, {}, Ident_Number 0x{:04X}\n", printable(document.text("Vendor_Name")),
+               printable(document.text("Model_Name")), document.number("Ident_Number").value_or(0));
     if (const std::string text = document.text("Info_Text"); !text.empty())
-        fmt::print(terminal.out, "{}\n", utf8(text));
+        fmt::print(terminal.out, "{}\n", printable(text));
     if (map.fixed) {
         print_direction(terminal.out, "Inputs, from the slave to the master", map.inputs, map.in_octets);
         print_direction(terminal.out, "Outputs, from the master to the slave", map.outputs, map.out_octets);
     } else {
         print_modules(terminal.out, document);
     }
-    for (const std::string& advice : map.advice) fmt::print(terminal.err, "warning: {}\n", advice);
+    for (const std::string& advice : map.advice) fmt::print(terminal.err, "warning: {}\n", printable(advice));
     return kFine;
 }
 
@@ -253,7 +238,8 @@ int gsd_make(const GsdOptions& options, Terminal& terminal)
     }
     const std::string content = gsd::write(made->device);
     const gsd::Document document = gsd::parse(content);
-    for (const std::string& warning : made->warnings) fmt::print(terminal.err, "warning: {}\n", warning);
+    for (const std::string& warning : made->warnings)
+        fmt::print(terminal.err, "warning: {}\n", printable(warning));
     print_advice(document, terminal);
     if (options.output.empty()) {
         terminal.out << content;

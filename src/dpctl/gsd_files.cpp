@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gsd_files.hpp"
 
+#include "dpslave/profile/text_file.hpp"
+
 #include <fcntl.h>
 #include <stdio.h> // renameat2
 #include <sys/stat.h>
@@ -69,19 +71,9 @@ int put_in_place(const char* temporary, const std::filesystem::path& file, bool 
 
 Result<std::string, FileError> read_file(const std::filesystem::path& file)
 {
-    Descriptor descriptor{::open(file.c_str(), O_RDONLY | O_CLOEXEC)};
-    if (descriptor.number() < 0) return Failure{last_error()};
-    std::string content;
-    std::array<char, 16384> part{};
-    for (;;) {
-        const ssize_t got = ::read(descriptor.number(), part.data(), part.size());
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return Failure{last_error()};
-        if (got == 0) return content;
-        content.append(part.data(), static_cast<std::size_t>(got));
-        if (content.size() > kMaxGsdFile)
-            return Failure{FileError{"it is larger than 1 MiB, so it is no GSD file"}};
-    }
+    auto content = profile::read_regular_file(file);
+    if (!content) return Failure{FileError{content.error().why}};
+    return *std::move(content);
 }
 
 std::optional<FileError> write_file(const std::filesystem::path& file, std::string_view content, bool replace)

@@ -11,14 +11,12 @@
 
 namespace dpslave::dpctl {
 
-/// No GSD is longer; what is, is a wrong path.
-inline constexpr std::size_t kMaxGsdFile = 1024U * 1024U;
-
 /// The reason of a failure, without the file's name.
 struct FileError {
     std::string why;
 };
 
+/// A regular file of at most 1 MiB, octet by octet.
 Result<std::string, FileError> read_file(const std::filesystem::path& file);
 
 /// Under a temporary name beside `file`, then renamed: nobody ever sees half of it. `replace` = false: a file

@@ -72,7 +72,7 @@ std::optional<Json> quietly(const Options& options, std::string_view method)
     if (!client) return std::nullopt;
     auto reply = client->call(method, Json::object());
     if (!reply || !reply->error.empty()) return std::nullopt;
-    return std::move(reply->parameters);
+    return options.json ? std::move(reply->parameters) : printable_texts(std::move(reply->parameters));
 }
 
 } // namespace

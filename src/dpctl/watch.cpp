@@ -2,6 +2,9 @@
 #include "ask.hpp"
 #include "render.hpp"
 #include "subcommands.hpp"
+#include "words.hpp"
+
+#include "dpslave/base/printable.hpp"
 
 #include <sys/ioctl.h>
 #include <sys/signalfd.h>
@@ -62,7 +65,7 @@ void redraw(const std::string& picture, std::ostream& out)
 void show_one(const Json& before, const Json& now, const Options& options, Terminal& terminal)
 {
     if (options.json)
-        terminal.out << now.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
+        terminal.out << printable_json(now.dump(-1, ' ', false, Json::error_handler_t::replace)) << '\n';
     else if (terminal.tty)
         redraw(render_watch(now, terminal.colour), terminal.out);
     else
@@ -93,6 +96,7 @@ int do_watch(const Options& options, Terminal& terminal)
         if (!reply) return tell_gone(reply.error(), terminal);
         if (!*reply) return kFine; // Ctrl-C
         if (!(*reply)->error.empty()) return tell(**reply, options, terminal);
+        if (!options.json) (*reply)->parameters = printable_texts(std::move((*reply)->parameters));
         show_one(before, (*reply)->parameters, options, terminal);
         if (!(*reply)->continues) return kFine;
         before = std::move((*reply)->parameters);

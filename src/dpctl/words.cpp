@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "words.hpp"
 
+#include "dpslave/base/printable.hpp"
+
 #include <fmt/format.h>
 
 namespace dpslave::dpctl {
@@ -41,7 +43,18 @@ std::string plural(std::int64_t count, const char* one)
 
 std::string json_text(const Json& value)
 {
-    return value.dump(2, ' ', false, Json::error_handler_t::replace);
+    return printable_json(value.dump(2, ' ', false, Json::error_handler_t::replace));
+}
+
+Json printable_texts(Json value)
+{
+    if (value.is_string()) return printable(value.get_ref<const std::string&>());
+    if (value.is_array())
+        for (Json& item : value) item = printable_texts(std::move(item));
+    if (!value.is_object()) return value;
+    Json out = Json::object();
+    for (auto& [key, item] : value.items()) out[printable(key)] = printable_texts(std::move(item));
+    return out;
 }
 
 } // namespace dpslave::dpctl

@@ -31,7 +31,25 @@ using control::Reply;
 
 // ---------------------------------------------------------------- the daemon
 
-FixtureDaemon::FixtureDaemon() : stop_(::eventfd(0, EFD_CLOEXEC))
+namespace {
+
+Json with_behind_each_text(Json value, const std::string& added)
+{
+    if (value.is_string()) return value.get<std::string>() + added;
+    if (value.is_structured())
+        for (Json& item : value) item = with_behind_each_text(std::move(item), added);
+    return value;
+}
+
+} // namespace
+
+Json FixtureDaemon::reply(const std::string& method) const
+{
+    return with_behind_each_text(fixture(method), behind_each_text_);
+}
+
+FixtureDaemon::FixtureDaemon(std::string behind_each_text)
+    : behind_each_text_(std::move(behind_each_text)), stop_(::eventfd(0, EFD_CLOEXEC))
 {
     control::ServerSettings settings;
     settings.socket = socket_;
@@ -44,7 +62,7 @@ FixtureDaemon::FixtureDaemon() : stop_(::eventfd(0, EFD_CLOEXEC))
             own.on_ready();
             for (const auto& [token, reply] : std::exchange(answers_, {})) own.complete(token, reply);
             if (std::exchange(second_picture_due_, false)) {
-                Json picture = fixture("Watch");
+                Json picture = reply("Watch");
                 picture["stations"][0]["state"] = "Wait_Prm";
                 for (const std::uint64_t stream : own.streams()) own.push(stream, picture);
             }
@@ -64,10 +82,10 @@ control::Handlers FixtureDaemon::handlers()
     control::Handlers all;
     for (const auto& method : control::kMethods) {
         const std::string name{method.name};
-        all[name] = [name](const Json& parameters, const control::Caller&) -> Reply {
+        all[name] = [this, name](const Json& parameters, const control::Caller&) -> Reply {
             const std::string station = parameters.value("station", "unwinder");
             if (station == "unwinder" || station == "rewinder" || station == "5" || station == "16")
-                return Done{fixture(name)};
+                return Done{reply(name)};
             const Json known = Json::array({"unwinder", "rewinder"});
             return Error{"NoSuchStation", Json::object({{"station", station}, {"known", known}})};
         };
@@ -87,11 +105,11 @@ control::Handlers FixtureDaemon::handlers()
                 Json::object({{"parameter", "FAULT"}, {"value", "1"}, {"reason", "it is an output"}})};
         const std::lock_guard lock(mutex_);
         written_ = parameters;
-        return Done{fixture("SetTec")};
+        return Done{reply("SetTec")};
     };
     all["Watch"] = [this](const Json&, const control::Caller&) {
         second_picture_due_ = true;
-        return control::Stream{++last_number_, fixture("Watch")};
+        return control::Stream{++last_number_, reply("Watch")};
     };
     return all;
 }
@@ -104,9 +122,11 @@ Reply FixtureDaemon::tag(const Json& parameters)
     const std::uint64_t token = ++last_number_;
     if (number == 1)
         answers_.emplace_back(
-            token, Error{"DriveRefused", Json::object({{"tag", 1}, {"reason", "read only"}, {"code", 1}})});
+            token,
+            Error{"DriveRefused",
+                  Json::object({{"tag", 1}, {"reason", "read only" + behind_each_text_}, {"code", 1}})});
     else if (number != 2)
-        answers_.emplace_back(token, Done{fixture("ReadTag")});
+        answers_.emplace_back(token, Done{reply("ReadTag")});
     return control::Later{token};
 }
 

@@ -17,7 +17,8 @@ namespace dpslave::test {
 /// the unwinder has left Data_Exch, as soon as somebody watches.
 class FixtureDaemon {
 public:
-    FixtureDaemon();
+    /// `behind_each_text`: is added to each text of each reply.
+    explicit FixtureDaemon(std::string behind_each_text = {});
     FixtureDaemon(const FixtureDaemon&) = delete;
     FixtureDaemon& operator=(const FixtureDaemon&) = delete;
     ~FixtureDaemon();
@@ -33,7 +34,9 @@ public:
 private:
     control::Handlers handlers();
     control::Reply tag(const Json& parameters);
+    Json reply(const std::string& method) const;
 
+    std::string behind_each_text_;
     TempFolder folder_;
     std::filesystem::path socket_ = folder_.path() / "control.sock";
     std::vector<std::pair<std::uint64_t, control::Reply>> answers_;

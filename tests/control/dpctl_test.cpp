@@ -5,8 +5,12 @@
 #include "render.hpp"
 #include "varlink_reader.hpp"
 
+#include "dpslave/base/printable.hpp"
+
 #include <gmock/gmock.h>
 #include <unistd.h>
+
+#include <sstream>
 
 namespace dpslave::test {
 namespace {
@@ -48,6 +52,38 @@ TEST_F(DpctlProgram, EndsWith0WhenAllIsFine)
         const Ran ran = run({subcommand});
         EXPECT_EQ(ran.exit, 0) << subcommand;
         EXPECT_EQ(ran.err, "") << subcommand;
+    }
+}
+
+/// The first character that a terminal would obey, but the ends of our own lines.
+std::string obeyed_in(std::string_view text)
+{
+    while (!text.empty()) {
+        const std::size_t length = character_length(text);
+        if (length == 0) return "no UTF-8";
+        if (text[0] != '\n' && is_control(text.substr(0, length))) return printable(text.substr(0, length));
+        text.remove_prefix(length);
+    }
+    return "";
+}
+
+TEST(DpctlOfAHostileReply, PrintsNothingThatATerminalObeysAndLeavesOtherTextAlone)
+{
+    const FixtureDaemon daemon{" Z\u00FCrich\x1B[2J\u009B31m\u202E\r\n"};
+    for (const char* words : {"status", "stations", "info", "io", "diag", "counters", "leds", "tec",
+                              "version", "doctor", "reload", "read 7", "read 1"}) {
+        std::string word;
+        std::vector<std::string> arguments{"--socket", daemon.socket()};
+        for (std::istringstream all{words}; all >> word;) arguments.push_back(word);
+        if (word == "7" || word == "1") arguments.insert(arguments.end(), {"--station", "unwinder"});
+        for (const bool json : {false, true}) {
+            if (json) arguments.push_back("--json");
+            const Ran ran = dpctl(arguments);
+            EXPECT_EQ(obeyed_in(ran.out), "") << words;
+            EXPECT_EQ(obeyed_in(ran.err), "") << words;
+            if (words != std::string{"counters"} && words != std::string{"doctor"})
+                EXPECT_THAT(ran.out + ran.err, HasSubstr("Z\u00FCrich")) << words;
+        }
     }
 }
 

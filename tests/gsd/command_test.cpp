@@ -96,7 +96,7 @@ TEST(GsdCheckCommand, PrintsNoControlCharactersOfAFile)
     const auto file = folder.write("EXMP0001.GSD", "#Profibus_DP\r\nCol\x1B[31mour\xFC = 1\r\n");
     const std::string out = gsd_command({"check", file}).out;
     EXPECT_EQ(out.find('\x1B'), std::string::npos);
-    EXPECT_THAT(out, HasSubstr("\"Col?[31mour\xC3\xBC\"")) << "Latin-1 shown in UTF-8";
+    EXPECT_THAT(out, HasSubstr("\"Col\\x1B[31mour\xC3\xBC\"")) << "Latin-1 shown in UTF-8";
 }
 
 TEST(GsdMakeCommand, PrintsTheFileWithoutOutput)

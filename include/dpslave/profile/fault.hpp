@@ -18,8 +18,8 @@ struct Fault {
 /// All faults found in one run, in the order of the file.
 using Faults = std::vector<Fault>;
 
-/// So many faults of one run are told, and then that there are more: a file with thousands must not keep its
-/// reader busy, and nobody reads so many.
+/// So many faults of one run are told, and then that there are more: a file with thousands must not keep the
+/// program busy, and no person reads so many.
 inline constexpr std::size_t kMaxFaults = 100;
 
 /// Those behind the first kMaxFaults give way to one that says so.
