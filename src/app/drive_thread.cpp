@@ -3,6 +3,7 @@
 
 #include "dpslave/io/clock.hpp"
 
+#include <fmt/format.h>
 #include <poll.h>
 #include <spdlog/spdlog.h>
 
@@ -154,7 +155,7 @@ drive::Outcome DriveThread::exchange_with(const Unit& unit, const drive::Transac
         if (outcome.error == AccessError::none)
             forget_trouble(unit, transaction);
         else if (outcome.error != AccessError::no_answer)
-            remember_trouble(unit, transaction, backend.last_trouble());
+            remember_trouble(unit, transaction, outcome.error, backend.last_trouble());
     }
     return outcome;
 }
@@ -169,6 +170,7 @@ void DriveThread::publish()
     }
     while (const auto answer = poller_.take_operate_answer()) link_.answers.push(*answer);
     say_link_changes();
+    log_.on_time(io::monotonic_now());
 }
 
 void DriveThread::say_link_changes()
@@ -177,19 +179,20 @@ void DriveThread::say_link_changes()
         Unit& unit = units_[i];
         const drive::UnitSnapshot& now = poller_.snapshot(i);
         if (!now.known || (unit.was_known && unit.answered == now.answers)) continue;
-        if (now.answers)
-            spdlog::info("{}: the drive answers", unit.config->name);
-        else
-            spdlog::warn(
-                "{}: the drive does not answer; inputs are held, outputs are written again when it returns",
-                unit.config->name);
+        log_.say(now.answers ? LimitedLog::Level::info : LimitedLog::Level::warning,
+                 unit.config->name +
+                     (now.answers ? ": the drive answers"
+                                  : ": the drive does not answer; inputs are held, outputs are written again "
+                                    "when it returns"),
+                 io::monotonic_now());
         unit.was_known = true;
         unit.answered = now.answers;
     }
 }
 
-/// Said once in the log, shown by `dpctl diag` until the access works.
-void DriveThread::remember_trouble(const Unit& unit, const drive::Transaction& access,
+/// Said once in the log, shown by `dpctl diag` until the access works. A value that never fits is a new text
+/// each time; the log counts those of one cause.
+void DriveThread::remember_trouble(const Unit& unit, const drive::Transaction& access, AccessError cause,
                                    const std::string& text)
 {
     const std::uint16_t tag = access.tag->number;
@@ -202,7 +205,9 @@ void DriveThread::remember_trouble(const Unit& unit, const drive::Transaction& a
         forget_trouble(unit, access);
         break;
     }
-    spdlog::warn("{}: {}", unit.config->name, line);
+    log_.say(LimitedLog::Level::warning,
+             fmt::format("{}/{}/{}/{}", unit.number, tag, is_write, static_cast<int>(cause)),
+             unit.config->name + ": " + line, io::monotonic_now());
     if (troubles_.count == troubles_.troubles.size()) { // the oldest makes room
         std::copy(troubles_.troubles.begin() + 1, troubles_.troubles.end(), troubles_.troubles.begin());
         --troubles_.count;

@@ -5,6 +5,7 @@
 #include "dpslave/io/clock.hpp"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,6 +16,27 @@ using control::Done;
 using control::Error;
 using control::Json;
 using control::Reply;
+
+namespace {
+
+/// `value`, as a person writes it, as the word of this tag.
+Result<std::uint16_t, Error> word_to_write(const StationConfig& station, std::uint16_t tag,
+                                           const std::string& value)
+{
+    const auto refused = [&](std::string reason) {
+        return Failure{Error{"BadValue", {{"tag", tag}, {"value", value}, {"reason", std::move(reason)}}}};
+    };
+    const drive::Tag* row = station.tags->find(tag);
+    if (row == nullptr)
+        return refused(fmt::format("tag {} is not in {}: without its type and decimals no value can be "
+                                   "written; add a line for it",
+                                   tag, station.tag_file));
+    const drive::ParsedValue parsed = drive::parse_value(*row, value);
+    if (parsed.error != AccessError::none) return refused(bad_value_words(*row, parsed.error));
+    return parsed.word;
+}
+
+} // namespace
 
 control::Handlers MainThread::handlers()
 {
@@ -34,7 +56,7 @@ control::Handlers MainThread::handlers()
          [this](const Json&, const control::Caller&) -> Reply {
              return Done{{{"stations", stations_json(view_)}}};
          }},
-        {"GetInfo", [this](const Json& parameters, const control::Caller&) { return on_info(parameters); }},
+        {"GetInfo", each(&MainThread::info_of)},
         {"GetIo", each(&MainThread::io_of)},
         {"GetDiagnosis", each(&MainThread::diagnosis_of)},
         {"GetCounters",
@@ -42,11 +64,12 @@ control::Handlers MainThread::handlers()
         {"GetLeds", each(&MainThread::leds_of)},
         {"GetTec", [this](const Json& parameters, const control::Caller&) { return on_tec(parameters); }},
         {"Watch", [this](const Json& parameters, const control::Caller&) { return on_watch(parameters); }},
-        {"ReadTag",
-         [this](const Json& parameters, const control::Caller&) { return on_tag(parameters, false); }},
-        {"WriteTag",
-         [this](const Json& parameters, const control::Caller&) { return on_tag(parameters, true); }},
-        {"SetTec", [this](const Json& parameters, const control::Caller&) { return on_set_tec(parameters); }},
+        {"ReadTag", [this](const Json& parameters,
+                           const control::Caller& who) { return on_tag(parameters, who, false); }},
+        {"WriteTag", [this](const Json& parameters,
+                            const control::Caller& who) { return on_tag(parameters, who, true); }},
+        {"SetTec",
+         [this](const Json& parameters, const control::Caller& who) { return on_set_tec(parameters, who); }},
         {"Reload", [this](const Json&, const control::Caller&) { return on_reload(); }},
     };
 }
@@ -70,23 +93,26 @@ Reply MainThread::on_each_station(const Json& parameters, Json (MainThread::*one
     return Done{{{"stations", std::move(all)}}};
 }
 
-Reply MainThread::on_info(const Json& parameters)
+/// Only the file knows what a restart would bring. It is read when it has changed, on this thread's
+/// own time: no question makes it read from a disk.
+void MainThread::look_at_file(Instant now)
 {
-    read_file_again();
-    return on_each_station(parameters, &MainThread::info_of);
-}
-
-/// Only the file knows what a restart would bring. It is read when it has changed, and not for each
-/// question.
-void MainThread::read_file_again()
-{
+    if (now < next_look_) return;
+    next_look_ = now + kFileTick;
     std::error_code gone;
     const auto changed = std::filesystem::last_write_time(config_.file, gone);
     if (gone || changed == file_read_) return;
     file_read_ = changed;
+    const auto config = load_config(config_.file, profiles_);
+    remember_file(config ? &*config : nullptr);
+}
+
+/// What the file says now. Nothing: it does not pass, and a restart would bring nothing.
+void MainThread::remember_file(const Config* config)
+{
     in_file_.clear();
-    if (const auto config = load_config(config_.file, profiles_)) // a file that does not pass brings nothing
-        for (const StationConfig& one : config->stations) in_file_[one.name] = one.address;
+    if (config == nullptr) return;
+    for (const StationConfig& one : config->stations) in_file_[one.name] = one.address;
 }
 
 Json MainThread::info_of(std::size_t station)
@@ -203,7 +229,31 @@ void MainThread::push_watchers(Instant now)
     }
 }
 
-Reply MainThread::on_tag(const Json& parameters, bool is_write)
+/// Reads and writes that wait for a drive have few places: no user may take them all.
+bool MainThread::has_place_for(const control::Caller& who) const
+{
+    const auto of = [this](auto holds) {
+        return static_cast<std::size_t>(std::count_if(
+            asked_.begin(), asked_.end(), [&](const auto& one) { return holds(one.second.who); }));
+    };
+    const std::size_t his = of([&](const control::Caller& one) { return one.uid == who.uid; });
+    const std::size_t others = of([](const control::Caller& one) { return !one.operates; });
+    if (who.uid != 0 && his >= kMaxAskedByOne) return false;
+    return asked_.size() < kMaxAsked && (who.operates || others < kMaxAskedByOthers);
+}
+
+/// As the drive line saw it last, of a tag that the master has chosen.
+std::optional<std::string> MainThread::known_value(std::size_t station, std::uint16_t tag) const
+{
+    const StationView& view = view_.stations[station];
+    if (!view.drive.answers || view.drive.generation != view.bus.layout.generation) return std::nullopt;
+    for (std::size_t k = 0; k < view.bus.layout.count; ++k)
+        if (view.bus.layout.parameters[k].tag == tag && view.drive.updated_at[k] != Instant{})
+            return shown_value(*view.config->tags, tag, view.drive.words[k]);
+    return std::nullopt;
+}
+
+Reply MainThread::on_tag(const Json& parameters, const control::Caller& who, bool is_write)
 {
     const Choice choice = choose(parameters, true);
     if (choice.error) return *choice.error;
@@ -213,38 +263,45 @@ Reply MainThread::on_tag(const Json& parameters, bool is_write)
                      {{"tag", number}, {"value", ""}, {"reason", "a tag is a number from 0 to 65535"}}};
 
     const Post& post = posts_[*choice.station];
-    const StationConfig& station = *post.config;
     drive::OperateOrder order{.number = next_order_,
                               .unit = 0, // found by the drive thread
                               .is_write = is_write,
                               .tag = static_cast<std::uint16_t>(number),
                               .word = 0};
     if (is_write) {
-        const auto value = parameters["value"].get<std::string>();
-        const drive::Tag* row = station.tags->find(order.tag);
-        if (row == nullptr)
-            return Error{
-                "BadValue",
-                {{"tag", number},
-                 {"value", value},
-                 {"reason", fmt::format("tag {} is not in {}: without its type and decimals no value can be "
-                                        "written; add a line for it",
-                                        number, station.tag_file)}}};
-        const drive::ParsedValue parsed = drive::parse_value(*row, value);
-        if (parsed.error != AccessError::none)
-            return Error{
-                "BadValue",
-                {{"tag", number}, {"value", value}, {"reason", bad_value_words(*row, parsed.error)}}};
-        order.word = parsed.word;
+        const Result<std::uint16_t, Error> word =
+            word_to_write(*post.config, order.tag, parameters["value"].get<std::string>());
+        if (!word) return word.error();
+        order.word = *word;
     }
-    if (asked_.size() >= kMaxAsked || !post.station.line->link.orders.push({post.station.number, order}))
+    if (!has_place_for(who) || !post.station.line->link.orders.push({post.station.number, order}))
         return Error{"Busy", Json::object()};
     asked_[order.number] = {.station = post.station.number,
                             .config = post.config,
                             .tag = order.tag,
                             .word = order.word,
-                            .is_write = is_write};
+                            .is_write = is_write,
+                            .who = who,
+                            .before = known_value(*choice.station, order.tag)};
     return control::Later{.token = next_order_++};
+}
+
+/// One line for each write: who, what, and what came of it.
+void MainThread::log_write(const Asked& asked, std::string_view outcome)
+{
+    const StationConfig& station = *asked.config;
+    const drive::Tag* row = station.tags->find(asked.tag);
+    spdlog::info("{}: tag {}{}{} set to {} by {}, before {}: {}", station.name, asked.tag,
+                 row != nullptr && !row->name.empty() ? " " : "", row != nullptr ? row->name : "",
+                 shown_value(*station.tags, asked.tag, asked.word), words_of(asked.who),
+                 asked.before.value_or("not known"), outcome);
+}
+
+/// The end has come before the drives have answered.
+void MainThread::log_unanswered() const
+{
+    for (const auto& [number, asked] : asked_)
+        if (asked.is_write) log_write(asked, "the program ended before the drive answered");
 }
 
 void MainThread::answer_asked()
@@ -256,7 +313,9 @@ void MainThread::answer_asked()
             const Asked& asked = found->second;
             const StationConfig& station = *asked.config;
             const drive::Tag* row = station.tags->find(asked.tag);
-            if (answer->error != AccessError::none) {
+            const bool is_done = answer->error == AccessError::none;
+            if (asked.is_write) log_write(asked, is_done ? "done" : text(answer->error));
+            if (!is_done) {
                 const auto code = dp::demand_code(answer->error);
                 server_->complete(answer->number, Error{"DriveRefused",
                                                         {{"tag", asked.tag},

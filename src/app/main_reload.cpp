@@ -87,6 +87,7 @@ MainThread::Reloaded MainThread::try_reload()
 {
     Reloaded result;
     auto wanted = load_config(config_.file, profiles_);
+    remember_file(wanted ? &*wanted : nullptr);
     if (!wanted) {
         result.faults = sentences(wanted.error());
         return result;
@@ -167,6 +168,7 @@ void MainThread::answer_those_who_asked()
             }
             const auto [token, asked] = *one;
             asked_.erase(one);
+            if (asked.is_write) log_write(asked, "the station was changed or removed by a reload");
             server_->complete(
                 token,
                 Error{"DriveRefused",

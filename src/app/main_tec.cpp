@@ -12,6 +12,18 @@ using control::Error;
 using control::Json;
 using control::Reply;
 
+namespace {
+
+/// As the function block shows it; empty: there is no such row.
+std::string input_value(const DeviceState& device, const std::string& parameter)
+{
+    for (const tec::Row& row : device.rows())
+        if (tec::is_called(row, parameter)) return row.shown;
+    return {};
+}
+
+} // namespace
+
 Reply MainThread::on_tec(const Json& parameters)
 {
     const Choice choice = choose(parameters, false);
@@ -26,7 +38,7 @@ Reply MainThread::on_tec(const Json& parameters)
     return Done{{{"stations", std::move(all)}}};
 }
 
-Reply MainThread::on_set_tec(const Json& parameters)
+Reply MainThread::on_set_tec(const Json& parameters, const control::Caller& who)
 {
     const Choice choice = choose(parameters, true);
     if (choice.error) return *choice.error;
@@ -45,8 +57,10 @@ Reply MainThread::on_set_tec(const Json& parameters)
             if (i != *choice.station && posts_[i].device.address() == *address)
                 return refused(fmt::format("address {} is that of station {}: choose another", *address,
                                            config_of(i).name));
+    const std::string before = input_value(device, parameter);
     if (const auto reason = device.set(parameter, value)) return refused(*reason);
-    spdlog::info("{}: {} set to {} by hand", station.name, parameter, value);
+    spdlog::info("{}: {} set to {} by {}, before {}", station.name, parameter, input_value(device, parameter),
+                 words_of(who), before);
     follow_device(*choice.station);
     Json all = Json::array();
     all.push_back(tec_json(station.name, device));

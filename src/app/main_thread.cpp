@@ -128,6 +128,7 @@ bool MainThread::run()
         for (const epoll_event& event : epoll_.wait(ready, wake - io::monotonic_now())) {
             if (event.data.u64 == kSignalKey && on_signals()) {
                 notifier_.stopping();
+                log_unanswered();
                 return true;
             }
             if (event.data.u64 == kServerKey) {
@@ -153,6 +154,7 @@ void MainThread::tick(Instant now)
     show_lamps(now);
     answer_asked();
     push_watchers(now);
+    look_at_file(now);
     feed_watchdog(now);
     if (std::string line = status_line(view_); line != status_said_) {
         notifier_.status(line);
@@ -221,50 +223,61 @@ void MainThread::log_news()
     log_port_news();
     for (Post& post : posts_)
         for (const Sentence& news : post.device.take_news())
-            spdlog::log(news.is_warning ? spdlog::level::warn : spdlog::level::info, "{}", news.text);
+            log_.say(news.is_warning ? LimitedLog::Level::warning : LimitedLog::Level::info, news.text,
+                     io::monotonic_now());
+    log_.on_time(io::monotonic_now());
 }
 
 void MainThread::log_events(const Station& station)
 {
     while (const auto event = station.link->events.pop()) {
-        const std::string line = sentence(station.config->name, *event);
         using Kind = dp::Event::Kind;
         const bool is_warning = event->kind == Kind::refused || event->kind == Kind::foreign_set_prm ||
                                 event->kind == Kind::watchdog_of_master || event->kind == Kind::overflow;
-        spdlog::log(is_warning ? spdlog::level::warn : spdlog::level::info, "{}", line);
+        // Without what was got and expected: a master that counts it up is still refused for one cause.
+        const std::string key =
+            fmt::format("{}/{}/{}/{}/{}/{}", station.number, static_cast<int>(event->kind),
+                        static_cast<int>(event->state), static_cast<int>(event->reason), event->master,
+                        static_cast<int>(event->refusal.why));
+        log_.say(is_warning ? LimitedLog::Level::warning : LimitedLog::Level::info, key,
+                 sentence(station.config->name, *event), io::monotonic_now());
     }
 }
 
 void MainThread::log_port_news()
 {
+    using Level = LimitedLog::Level;
     const std::string& port = config_.bus.port;
+    const auto say = [&](Level level, std::string text) {
+        log_.say(level, std::move(text), io::monotonic_now());
+    };
     while (const auto news = bus_.port_news.pop()) {
         switch (*news) {
             case PortNews::gone:
-                spdlog::error("{} has gone; it is opened again as soon as it returns", port);
+                say(Level::error, port + " has gone; it is opened again as soon as it returns");
                 break;
-            case PortNews::back: spdlog::info("{} is back", port); break;
+            case PortNews::back: say(Level::info, port + " is back"); break;
             case PortNews::driver_gone:
-                spdlog::error(
-                    "the driver enable of {} cannot be switched: nothing is sent until it works again; look "
-                    "whether the GPIO chip is still there",
-                    port);
+                say(Level::error, "the driver enable of " + port +
+                                      " cannot be switched: nothing is sent until it works again; look "
+                                      "whether the GPIO chip is still there");
                 break;
             case PortNews::driver_guarded:
-                spdlog::warn("the driver enable of {} was let go by the guard: the UART did not say in time "
-                             "that it had "
-                             "sent all; `dpctl counters` shows how often (driver_guarded)",
-                             port);
+                say(Level::warning, "the driver enable of " + port +
+                                        " was let go by the guard: the UART did not say in time that it had "
+                                        "sent all; `dpctl counters` shows how often (driver_guarded)");
                 break;
-            case PortNews::driver_back: spdlog::info("the driver enable of {} works again", port); break;
+            case PortNews::driver_back:
+                say(Level::info, "the driver enable of " + port + " works again");
+                break;
         }
     }
     if (std::unique_ptr<PortWords> words; bus_.port_words.take(words))
-        spdlog::log(words->is_warning ? spdlog::level::warn : spdlog::level::err, "{}", words->text);
+        say(words->is_warning ? Level::warning : Level::error, words->text);
     if (const std::uint64_t dropped = guard_.dropped(); std::exchange(dropped_seen_, dropped) != dropped)
-        spdlog::error("the driver enable of {} was active for longer than any telegram takes, and was made "
-                      "inactive: the bus thread did not come to it in time",
-                      port);
+        say(Level::error, "the driver enable of " + port +
+                              " was active for longer than any telegram takes, and was made inactive: the "
+                              "bus thread did not come to it in time");
 }
 
 void MainThread::show_lamps(Instant now)

@@ -3,20 +3,20 @@
 
 #include "dpslave/io/clock.hpp"
 
-#include <spdlog/spdlog.h>
-
 namespace dpslave::app {
 
 TtyLine::TtyLine(io::Port port, std::atomic<bool>& is_open) : port_(std::move(port)), is_open_(is_open) {}
 
 bool TtyLine::ready()
 {
+    log_.on_time(now());
     if (port_.is_open()) return true;
     const bool is_back = port_.ready(now());
-    if (const auto why = port_.take_trouble()) spdlog::error("{}; it is tried again", *why);
+    if (const auto why = port_.take_trouble())
+        log_.say(LimitedLog::Level::error, *why + "; it is tried again", now());
     if (!is_back) return false;
     is_open_.store(true, std::memory_order_relaxed);
-    spdlog::info("{} is back", port_.path());
+    log_.say(LimitedLog::Level::info, port_.path() + " is back", now());
     return true;
 }
 
@@ -24,7 +24,8 @@ void TtyLine::lose()
 {
     port_.lose(now());
     is_open_.store(false, std::memory_order_relaxed);
-    spdlog::error("{} has gone; it is opened again as soon as it returns", port_.path());
+    log_.say(LimitedLog::Level::error, port_.path() + " has gone; it is opened again as soon as it returns",
+             now());
 }
 
 bool TtyLine::write(Bytes octets)

@@ -3,6 +3,7 @@
 #include "dpslave/app/daemon.hpp"
 #include "dpslave/app/service.hpp"
 #include "dpslave/app/version.hpp"
+#include "dpslave/base/printable.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -53,6 +54,20 @@ public:
     std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<JournalLevel>(); }
 };
 
+/// The message, in which no text of a file, a drive or a caller can forge a line or move a cursor.
+class PrintableMessage final : public spdlog::custom_flag_formatter {
+public:
+    void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& out) override
+    {
+        const std::string text = dpslave::printable({message.payload.data(), message.payload.size()});
+        out.append(text.data(), text.data() + text.size());
+    }
+    std::unique_ptr<custom_flag_formatter> clone() const override
+    {
+        return std::make_unique<PrintableMessage>();
+    }
+};
+
 /// To standard error: with the time, or with the level for the journal. Not into the journal's own socket:
 /// what a program says there right before its end is not found under its unit.
 void set_up_log()
@@ -61,7 +76,8 @@ void set_up_log()
         std::make_shared<spdlog::logger>("dpslaved", std::make_shared<spdlog::sinks::stderr_sink_mt>());
     auto format = std::make_unique<spdlog::pattern_formatter>();
     format->add_flag<JournalLevel>('*');
-    format->set_pattern(stderr_is_journal() ? "%*%v" : "%Y-%m-%d %H:%M:%S.%e %l: %v");
+    format->add_flag<PrintableMessage>('~');
+    format->set_pattern(stderr_is_journal() ? "%*%~" : "%Y-%m-%d %H:%M:%S.%e %l: %~");
     log->set_formatter(std::move(format));
     log->flush_on(spdlog::level::info);
     spdlog::set_default_logger(std::move(log));

@@ -3,6 +3,7 @@
 #include "gateway.hpp"
 
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 namespace dpslave::test {
 namespace {
@@ -80,6 +81,46 @@ TEST(Dpctl, ReadsAndWritesATagOfTheDriveInItsOwnUnits)
     EXPECT_THAT(silent.err, HasSubstr("does not answer"));
 }
 
+TEST(Dpctl, EachWriteIsALineOfTheLogThatTellsWhoAndTheValueBefore)
+{
+    Gateway gateway;
+    const std::string by = " by uid " + std::to_string(::geteuid()) + ", pid ";
+    EXPECT_EQ(gateway.dpctl({"write", "62", "95.5"}).status, 0);
+    EXPECT_TRUE(gateway.daemon().says("set to 95.5" + by));
+    EXPECT_TRUE(gateway.daemon().ever_said(", before not known: done")) << "no master has chosen it";
+
+    Master master{gateway, {"--tags", "62,56w"}};
+    ASSERT_TRUE(master.does("start 30s"));
+    EXPECT_TRUE(master.does("wait 30s for in 1 = 955"));
+    EXPECT_TRUE(gateway.word_becomes(62, "raw", 955));
+    EXPECT_EQ(gateway.dpctl({"write", "62", "80.0"}).status, 0);
+    EXPECT_TRUE(gateway.daemon().says("set to 80.0" + by));
+    EXPECT_TRUE(gateway.daemon().ever_said(", before 95.5: done"));
+
+    gateway.drive().tell("silence");
+    EXPECT_EQ(gateway.dpctl({"write", "62", "70.0"}).status, 1);
+    EXPECT_TRUE(gateway.daemon().says("set to 70.0" + by));
+    EXPECT_TRUE(gateway.daemon().ever_said(": no answer") || gateway.daemon().ever_said("does not answer"));
+}
+
+TEST(Dpctl, ManyValuesOfOneTagThatDoNotFitAreFewLinesInTheLog)
+{
+    Gateway gateway{{.keys = "tags = \"one.csv\"\n", .started = false}};
+    write_file(gateway.folder("one.csv"), "tag,name,type,decimals,access\n55,one decimal too few,INT,1,ro\n");
+    gateway.start_daemon();
+    Master master{gateway, {"--tags", "55"}};
+    ASSERT_TRUE(master.does("start 30s"));
+    for (int i = 11; i < 31; ++i) {
+        const std::string value = "12." + std::to_string(i);
+        gateway.drive().tell("set 55 " + value);
+        ASSERT_TRUE(eventually([&] {
+            return gateway.diagnosis().at("trouble").dump().find(value) != std::string::npos;
+        })) << gateway.diagnosis().at("trouble");
+    }
+    EXPECT_TRUE(gateway.daemon().ever_said("tag 55: "));
+    EXPECT_LT(gateway.daemon().how_often("tag 55: "), 10U) << "20 values, one cause";
+}
+
 TEST(Dpctl, WatchShowsChangesAsTheyCome)
 {
     Gateway gateway;
@@ -102,9 +143,10 @@ TEST(Dpctl, ShowsAnAddressThatWasChangedInTheFileAsPending)
     std::string text = gateway.config_text();
     text.replace(text.find("address = 5"), 11, "address = 7");
     write_file(gateway.config(), text);
-    const Json info = gateway.json({"info"}).at("stations").at(0);
-    EXPECT_EQ(info.at("address_active"), 5);
-    EXPECT_EQ(info.at("address_pending"), 7);
+    const auto info = [&] { return gateway.json({"info"}).at("stations").at(0); };
+    EXPECT_TRUE(eventually([&] { return info().at("address_pending") == 7; }))
+        << "it looks at its file itself";
+    EXPECT_EQ(info().at("address_active"), 5);
     EXPECT_THAT(gateway.dpctl({"info"}).out, HasSubstr("5 active, 7 pending"));
     {
         Master master{gateway, {"--tags", "55"}, 5};

@@ -1,18 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // How the daemon starts, does not start, and ends; what it tells the service manager.
 #include "gateway.hpp"
+#include "service_manager.hpp"
 
 #include <gmock/gmock.h>
-#include <poll.h>
-#include <sys/socket.h>
-#include <sys/un.h>
-#include <unistd.h>
-
-#include <array>
-#include <cerrno>
-#include <cstring>
-#include <sstream>
-#include <system_error>
 
 namespace dpslave::test {
 namespace {
@@ -20,52 +11,6 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
-
-/// The place of systemd: a datagram socket, of which each line is noted.
-class ServiceManager {
-public:
-    explicit ServiceManager(const std::filesystem::path& path)
-        : fd_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0))
-    {
-        sockaddr_un address{};
-        address.sun_family = AF_UNIX;
-        path.string().copy(address.sun_path, sizeof address.sun_path - 1);
-        const void* const any = &address;
-        if (fd_ < 0 || ::bind(fd_, static_cast<const sockaddr*>(any), sizeof address) != 0)
-            throw std::system_error{errno, std::system_category(), path.string()};
-        listener_ = std::jthread{[this](const std::stop_token& stop) { listen(stop); }};
-    }
-    ~ServiceManager()
-    {
-        listener_.request_stop();
-        listener_.join();
-        ::close(fd_);
-    }
-    ServiceManager(const ServiceManager&) = delete;
-    ServiceManager& operator=(const ServiceManager&) = delete;
-
-    ::testing::AssertionResult hears(std::string_view text) { return heard_.says(text); }
-
-private:
-    void listen(const std::stop_token& stop)
-    {
-        while (!stop.stop_requested()) {
-            pollfd one{fd_, POLLIN, 0};
-            if (::poll(&one, 1, 50) != 1) continue;
-            std::array<char, 4096> datagram{};
-            const ssize_t got = ::recv(fd_, datagram.data(), datagram.size(), 0);
-            std::istringstream lines{
-                std::string{datagram.data(), static_cast<std::size_t>(std::max<ssize_t>(got, 0))}};
-            for (std::string line; std::getline(lines, line);) transcript_.add(line);
-        }
-        transcript_.close();
-    }
-
-    int fd_;
-    Transcript transcript_;
-    Reader heard_{transcript_};
-    std::jthread listener_;
-};
 
 TEST(End, BySigtermZeroesTheOutputsRemovesTheSocketAndIsASuccess)
 {
@@ -115,6 +60,24 @@ TEST(Notify, TellsThatAReloadBeginsAndIsOverAlsoWhenItIsRefused)
         EXPECT_TRUE(manager.hears("MONOTONIC_USEC="));
         EXPECT_TRUE(manager.hears("READY=1"));
     }
+}
+
+TEST(Log, ShowsTextOfOthersWithoutWhatATerminalObeys)
+{
+    Gateway gateway{{.started = false}};
+    const auto file = gateway.folder("Z\u00FCrich\x1B[2J\u202E.toml");
+    write_file(file, gateway.config_text());
+    Arguments command = gateway.daemon_command();
+    command.at(2) = file;
+    Process daemon{command};
+    ASSERT_TRUE(daemon.says("station(s) on"));
+
+    daemon.send(SIGHUP);
+
+    EXPECT_TRUE(daemon.says("Z\u00FCrich\\x1B[2J\\u202E.toml again"));
+    EXPECT_FALSE(daemon.ever_said("\x1B"));
+    EXPECT_FALSE(daemon.ever_said("\u202E"));
+    EXPECT_EQ(daemon.end(), 0);
 }
 
 TEST(BadStart, NamesAllFaultsOfTheConfigurationInOneRunAndOpensNothing)

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "dpslave/app/config.hpp"
+#include "dpslave/app/limited_log.hpp"
 #include "dpslave/app/line_backend.hpp"
 #include "dpslave/app/links.hpp"
 #include "dpslave/drive/poller.hpp"
@@ -53,7 +54,8 @@ private:
     drive::Outcome exchange_with(const Unit& unit, const drive::Transaction& transaction);
     void publish();
     void say_link_changes();
-    void remember_trouble(const Unit& unit, const drive::Transaction& access, const std::string& text);
+    void remember_trouble(const Unit& unit, const drive::Transaction& access, AccessError cause,
+                          const std::string& text);
     void forget_trouble(const Unit& unit, const drive::Transaction& access);
     void rest(int wake, Instant now) const;
     void farewell();
@@ -75,6 +77,7 @@ private:
     Instant leave_until_{};
     std::vector<LineOrder> early_orders_; ///< for drives that are among the next ones
     TroubleList troubles_;
+    LimitedLog log_;
     std::vector<std::uint16_t> words_;
 };
 

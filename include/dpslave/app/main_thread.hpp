@@ -7,6 +7,7 @@
 #include "dpslave/app/device_state.hpp"
 #include "dpslave/app/driver_guard.hpp"
 #include "dpslave/app/lamps.hpp"
+#include "dpslave/app/limited_log.hpp"
 #include "dpslave/app/links.hpp"
 #include "dpslave/app/plant.hpp"
 #include "dpslave/app/report.hpp"
@@ -63,6 +64,8 @@ private:
         std::uint16_t tag = 0;
         std::uint16_t word = 0;
         bool is_write = false;
+        control::Caller who;
+        std::optional<std::string> before; ///< the value of the tag when it was asked, if it was known
     };
     struct Watcher {
         std::optional<std::string> station; ///< its name
@@ -75,12 +78,14 @@ private:
     control::Reply on_each_station(const control::Json& parameters,
                                    control::Json (MainThread::*one)(std::size_t));
     control::Reply on_watch(const control::Json& parameters);
-    control::Reply on_tag(const control::Json& parameters, bool is_write);
-    control::Reply on_info(const control::Json& parameters);
+    control::Reply on_tag(const control::Json& parameters, const control::Caller& who, bool is_write);
     control::Reply on_tec(const control::Json& parameters);
-    control::Reply on_set_tec(const control::Json& parameters);
+    control::Reply on_set_tec(const control::Json& parameters, const control::Caller& who);
     control::Json info_of(std::size_t station);
-    void read_file_again();
+    bool has_place_for(const control::Caller& who) const;
+    std::optional<std::string> known_value(std::size_t station, std::uint16_t tag) const;
+    static void log_write(const Asked& asked, std::string_view outcome);
+    void log_unanswered() const;
     control::Json io_of(std::size_t station);
     control::Json diagnosis_of(std::size_t station);
     control::Json leds_of(std::size_t station);
@@ -115,6 +120,8 @@ private:
     void feed_watchdog(Instant now);
     void tick(Instant now);
     bool on_signals();
+    void look_at_file(Instant now);
+    void remember_file(const Config* config);
 
     // main_reload.cpp
     /// What a reload came to, as the method Reload tells it.
@@ -162,9 +169,14 @@ private:
     std::string status_said_;
     std::uint64_t heartbeat_seen_ = 0;
     Instant next_watchdog_{};
-    std::filesystem::file_time_type file_read_{}; ///< when the configuration file was changed last
+    Instant next_look_{};                                        ///< at the configuration file
+    std::filesystem::file_time_type file_read_{};                ///< its time when it was read last
     std::map<std::string, std::uint8_t, std::less<>> in_file_{}; ///< addresses in it, by the station's name
-    static constexpr std::size_t kMaxAsked = 16;                 ///< what the rings of a line can hold
+    LimitedLog log_;
+    static constexpr std::size_t kMaxAsked = 16;         ///< what the rings of a line can hold
+    static constexpr std::size_t kMaxAskedByOthers = 12; ///< of those who are no operators, all together
+    static constexpr std::size_t kMaxAskedByOne = 4;     ///< of one user id that is not root
+    static constexpr std::chrono::seconds kFileTick{1};
 
     Reloading reloading_ = Reloading::idle;
     bool reload_wanted_ = false;

@@ -3,6 +3,7 @@
 /// opened again with back-off.
 #pragma once
 
+#include "dpslave/app/limited_log.hpp"
 #include "dpslave/base/units.hpp"
 #include "dpslave/drive/serial_line.hpp"
 #include "dpslave/io/port.hpp"
@@ -27,6 +28,7 @@ private:
 
     io::Port port_;
     std::atomic<bool>& is_open_;
+    LimitedLog log_;
 };
 
 } // namespace dpslave::app

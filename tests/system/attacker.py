@@ -1,0 +1,86 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What a user without any right may do to the control socket, all at once and until it is ended.
+
+usage: attacker.py SOCKET UID    with UID other than its own it becomes that user first (as root)
+"""
+import itertools
+import os
+import socket
+import sys
+
+
+def call(method, parameters="{}", more=""):
+    return ('{"method":"%s","parameters":%s%s}\0' % (method, parameters, more)).encode()
+
+
+OWN = "org.dpslaved.Control."
+MANY = 200
+# What a connection sends, again and again or once, and whether it takes what is answered.
+HABITS = [
+    (call(OWN + "GetStatus") * MANY, "again", True),
+    (call(OWN + "GetCounters") * MANY, "again", False),
+    (call("org.varlink.service.GetInterfaceDescription", '{"interface":"org.dpslaved.Control"}') * MANY, "again", True),
+    (call(OWN + "ReadTag", '{"tag":62}') * MANY, "again", True),
+    (call(OWN + "WriteTag", '{"tag":62,"value":"1"}') * MANY, "again", True),
+    (call(OWN + "Watch", more=',"more":true'), "once", False),
+    (b'{"method":"org.dpslaved.', "once", False),
+    (b"x" * 65536, "again", False),
+    (b"{" * 1000 + b"\0", "again", True),
+]
+
+
+class Caller:
+    def __init__(self, path, habit):
+        self.path, (self.octets, self.how_often, self.reads) = path, habit
+        self.socket = None
+
+    def act(self):
+        try:
+            if self.socket is None:
+                self.socket = socket.socket(socket.AF_UNIX)
+                self.socket.setblocking(False)
+                self.socket.connect(self.path)
+                self.socket.send(self.octets)
+            while self.how_often == "again":
+                self.socket.send(self.octets)
+            self.listen()
+        except BlockingIOError:
+            self.listen()
+        except OSError:
+            self.close()
+
+    def listen(self):
+        """Takes what there is, if that is its habit; finds out whether the daemon has ended the connection."""
+        try:
+            flags = 0 if self.reads else socket.MSG_PEEK
+            while self.socket is not None:
+                if not self.socket.recv(1 << 20, flags):
+                    self.close()
+                elif not self.reads:
+                    return
+        except BlockingIOError:
+            pass
+        except OSError:
+            self.close()
+
+    def close(self):
+        self.socket.close()
+        self.socket = None
+
+
+def main():
+    path, uid = sys.argv[1], int(sys.argv[2])
+    if uid != os.geteuid():
+        os.setgroups([])
+        os.setgid(uid)
+        os.setuid(uid)
+    callers = [Caller(path, habit) for habit, _ in zip(itertools.cycle(HABITS), range(40))]
+    for turn in itertools.count():
+        for one in callers:
+            one.act()
+        if turn == 3:
+            print("attacking", flush=True)
+
+
+main()
