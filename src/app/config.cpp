@@ -115,7 +115,7 @@ Result<Config, Faults> load_config(const std::filesystem::path& file, const std:
     if (const auto sysfs = root.table("leds").text("sysfs")) config.sysfs = *sysfs;
     config.control = read_control(document, root.table("control"), config.warnings);
     const std::vector<ReadLine> lines = read_lines(document, config.bus);
-    config.stations = read_stations(document, config.bus, lines, shelf, config.warnings);
+    config.stations = read_stations(document, config.bus, config.sysfs, lines, shelf, config.warnings);
     for (const ReadLine& read : lines) config.lines.push_back(read.line);
 
     Faults faults = document.faults();

@@ -44,33 +44,37 @@ std::uint16_t read_tag(Table& table, std::string_view key, std::int64_t lowest, 
     return tag ? static_cast<std::uint16_t>(*tag) : otherwise;
 }
 
-/// The tag of the trip code by its number; of a device that cannot tell why it has tripped also one bit, as a
-/// lamp has it.
-void read_trip(Table& tec, const StationConfig& station, TecConfig& config)
+/// The tag of the trip code by its number, or a bit that is set while the drive has tripped, as a lamp has
+/// it. 0 = not known, whatever the profile says.
+void read_trip(Table& tec, profile::TripSource& trip)
 {
+    if (!tec.has("trip_tag")) return;
     if (!tec.is_text("trip_tag")) {
-        config.trip_tag = read_tag(tec, "trip_tag", 0, 0);
+        trip = {};
+        trip.bit.tag = read_tag(tec, "trip_tag", 0, 0);
         return;
     }
     const auto text = tec.text("trip_tag");
     if (!text) return;
-    if (station.profile && station.profile->diagnosis != DiagForm::tripped) {
-        tec.refuse("trip_tag",
-                   "'trip_tag' " + in_quotes(*text) + ": a device of profile " +
-                       in_quotes(station.profile->name) +
-                       " has its trip code in the low octet of a tag: write the tag as a number.");
-        return;
-    }
-    const auto bit = profile::parse_lamp(*text);
-    if (!bit) {
+    if (const auto bit = profile::parse_lamp(*text))
+        trip = {*bit, bit->tag == 0};
+    else
         tec.refuse("trip_tag", "'trip_tag' " + in_quotes(*text) +
-                                   R"(: write tag and bit of the drive, as in "537.11"; "!537.11" for a )"
-                                   R"(trip while the bit is 0; or "12" for any bit of the tag.)");
-        return;
-    }
-    config.trip_tag = bit->tag;
-    config.trip_mask = bit->mask;
-    config.trip_inverted = bit->inverted;
+                                   R"(: write tag and bit of the drive, as in "272.3"; "!537.11" for a )"
+                                   R"(trip while the bit is 0; "12" for any bit of the tag; or without )"
+                                   R"(quotes the tag whose low octet is the trip code.)");
+}
+
+/// In the block 0 is "no trip": that a tag is missing must be said elsewhere (X-50).
+void warn_of_unknown_trips(const Document& document, const Table& table, const StationConfig& station,
+                           Faults& warnings)
+{
+    if (station.tec->trip.bit.tag != 0) return;
+    const profile::Place at = table.place();
+    warnings.push_back({document.name(), at.line, at.column,
+                        "trips of station " + in_quotes(station.name) +
+                            " are not known: its diagnosis says \"no trip\" whatever the drive does; set "
+                            "trip_tag in [station.tec] to the tag of the trip code, or to a bit."});
 }
 
 void read_tec(Document& document, Table& table, StationConfig& station, Faults& warnings)
@@ -86,6 +90,7 @@ void read_tec(Document& document, Table& table, StationConfig& station, Faults& 
     if (station.profile) {
         config.health = station.profile->health;
         config.run = station.profile->run;
+        config.trip = station.profile->trip;
     }
     config.start.address = station.address;
     read_setting(tec, "type", config.start.type);
@@ -93,7 +98,7 @@ void read_tec(Document& document, Table& table, StationConfig& station, Faults& 
     read_setting(tec, "int_diag_select", config.start.int_diag_select);
     read_setting(tec, "ride_through", config.start.ride_through);
     read_setting(tec, "unused_1", config.start.unused_1);
-    read_trip(tec, station, config);
+    read_trip(tec, config.trip);
     config.ext_diagnostic_tag = read_tag(tec, "ext_diagnostic_tag", 0, 0);
     read_lamp(tec, "health", config.health);
     read_lamp(tec, "run", config.run);
@@ -107,6 +112,7 @@ void read_tec(Document& document, Table& table, StationConfig& station, Faults& 
     if (!station.profile || !station.profile->has_tec) return;
     station.zero_after = tec::zero_after(config.start);
     station.tec = config;
+    warn_of_unknown_trips(document, table, station, warnings);
 }
 
 void read_diagnosis(Table& table, StationConfig& station)
@@ -147,6 +153,7 @@ void set_decimals(drive::Tag& tag, std::uint8_t decimals)
     if (tag.min) tag.min = rescaled(*tag.min, tag.decimals, decimals, true);
     if (tag.max) tag.max = rescaled(*tag.max, tag.decimals, decimals, false);
     tag.decimals = decimals;
+    tag.decimals_known = true;
 }
 
 /// Integer resolution: a scaled value is read from the IEEE area, where it has its full value, and rounded.
@@ -179,7 +186,7 @@ void read_resolution(Table& table, StationConfig& station)
     if (table.has("display_decimals") && !has_display)
         table.refuse("display_decimals", "no tag of " + station.tag_file +
                                              " has decimals \"display\": remove 'display_decimals'.");
-    if (!station.integer_resolution && decimals.value_or(0) == 0) return;
+    if (!station.integer_resolution && !decimals) return;
 
     std::vector<drive::Tag> tags = rows;
     for (drive::Tag& tag : tags) {
@@ -196,7 +203,7 @@ void choose_watched(StationConfig& station)
 {
     std::vector<std::uint16_t> wanted{station.status_tag};
     if (station.tec)
-        wanted.insert(wanted.end(), {station.tec->trip_tag, station.tec->ext_diagnostic_tag,
+        wanted.insert(wanted.end(), {station.tec->trip.bit.tag, station.tec->ext_diagnostic_tag,
                                      station.tec->health.tag, station.tec->run.tag});
     for (const std::uint16_t tag : wanted) {
         auto& known = station.watched;

@@ -9,6 +9,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dpslave::app {
@@ -52,8 +53,17 @@ std::vector<ReadLine> read_lines(profile::Document& document, const BusConfig& b
 
 /// The [[station]] tables, with unlike names, addresses, drives and lamp sinks.
 std::vector<StationConfig> read_stations(profile::Document& document, const BusConfig& bus,
+                                         const std::filesystem::path& sysfs,
                                          const std::vector<ReadLine>& lines, Shelf& shelf,
                                          profile::Faults& warnings);
+
+/// The tag table of a station and the keys that say what becomes of tags without a scale. `protocol`: of its
+/// line; empty = not known.
+void read_tag_keys(profile::Document& document, profile::Table& table, StationConfig& station, Shelf& shelf,
+                   std::string_view protocol);
+/// Says of the table in use what its rows do not: that there are none, mnemonics, decimals, confirmations.
+void judge_tags(profile::Document& document, profile::Table& table, const StationConfig& station,
+                std::string_view protocol, profile::Faults& warnings);
 
 /// The keys of a station that only some device types have: [station.tec], [station.diagnosis], ext_diag_bit,
 /// resolution, display_decimals; and what follows from them: the tag table in use, and the tags that are

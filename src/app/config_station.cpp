@@ -38,11 +38,21 @@ std::optional<drive::UnitAddress> modbus_unit(std::string_view text)
     return drive::UnitAddress{.group = 0, .unit = address};
 }
 
+/// As a person may write one: "12", "0x1F", "-5", "1.5".
+bool is_number(std::string_view name)
+{
+    if (name.starts_with('+') || name.starts_with('-')) name.remove_prefix(1);
+    const bool is_hex = name.starts_with("0x") || name.starts_with("0X");
+    const std::string_view digits = is_hex ? name.substr(2) : name;
+    const std::string_view legal = is_hex ? "0123456789abcdefABCDEF" : "0123456789.";
+    return !digits.empty() && digits.find_first_not_of(legal) == std::string_view::npos;
+}
+
 class StationReader {
 public:
-    StationReader(Document& document, const BusConfig& bus, const std::vector<ReadLine>& lines, Shelf& shelf,
-                  profile::Faults& warnings)
-        : document_(document), bus_(bus), lines_(lines), shelf_(shelf), warnings_(warnings)
+    StationReader(Document& document, const BusConfig& bus, const std::filesystem::path& sysfs,
+                  const std::vector<ReadLine>& lines, Shelf& shelf, profile::Faults& warnings)
+        : document_(document), bus_(bus), sysfs_(sysfs), lines_(lines), shelf_(shelf), warnings_(warnings)
     {}
 
     StationConfig read(Table& table)
@@ -50,6 +60,10 @@ public:
         StationConfig station;
         table.require("name", R"(name = "unwinder", by which dpctl calls it)");
         station.name = table.text("name").value_or("");
+        if (is_number(station.name))
+            table.refuse("name",
+                         "station name " + in_quotes(station.name) +
+                             " is a number, which dpctl would take for an address: begin it with a letter.");
         if (!station.name.empty())
             names_.check(table, "name", station.name, "station name " + in_quotes(station.name),
                          "give each station a name of its own");
@@ -58,9 +72,12 @@ public:
         read_drive(table, station);
         read_behaviour(table, station);
         read_personality(table, station);
-        read_tags(table, station);
+        const std::string_view protocol =
+            line_known_ ? lines_[station.line].line.protocol : std::string_view{};
+        read_tag_keys(document_, table, station, shelf_, protocol);
         read_leds(table, station);
         read_device_keys(document_, table, station, warnings_);
+        judge_tags(document_, table, station, protocol, warnings_);
         return station;
     }
 
@@ -235,6 +252,7 @@ private:
                                         std::to_string(static_cast<std::uint32_t>(*bus_.baud)) +
                                         " bit/s: its [max_tsdr] does not list it.");
         if (bus_.max_tsdr > 0) set_max_tsdr(personality, table);
+        personality.tries_outputs = line_known_ && lines_[station.line].line.protocol == kEiAscii;
         station.personality = std::make_shared<const dp::Personality>(std::move(personality));
     }
 
@@ -256,43 +274,6 @@ private:
         }
     }
 
-    void read_tags(Table& table, StationConfig& station)
-    {
-        if (const auto own = table.text("tags")) {
-            const std::filesystem::path file =
-                std::filesystem::path{document_.name()}.parent_path() / *own; // absolute stays
-            station.tag_file = file.lexically_normal().string();
-            station.tags = shelf_.tags(file.lexically_normal());
-        } else if (station.profile) {
-            station.tag_file = station.profile->tag_file.string();
-            station.tags = {station.profile, &station.profile->tags};
-        }
-        if (station.profile && station.tags) warn_of_tags_without_mnemonic(station);
-    }
-
-    void warn_of_tags_without_mnemonic(const StationConfig& station)
-    {
-        if (!line_known_ || lines_[station.line].line.protocol != kEiAscii) return;
-        std::string list;
-        std::size_t count = 0;
-        constexpr std::size_t shown = 8;
-        for (const drive::Tag& tag : station.tags->all()) {
-            if (tag.type == drive::TagType::string || mnemonic_of(tag, station.profile->mnemonics)) continue;
-            if (++count <= shown) list += (count > 1 ? ", " : "") + std::to_string(tag.number);
-        }
-        if (count == 0) return;
-        if (count > shown) list += " and " + std::to_string(count - shown) + " more";
-        const std::string what = "no mnemonic for tag " + list +
-                                 ": they read as invalid tag; fill in column mnemonic, or set "
-                                 "mnemonic_rule in profile " +
-                                 in_quotes(station.profile->name) + ".";
-        const auto same = [&](const profile::Fault& known) {
-            return known.file == station.tag_file && known.what == what;
-        };
-        if (std::none_of(warnings_.begin(), warnings_.end(), same))
-            warnings_.push_back({station.tag_file, 0, 0, what});
-    }
-
     void read_leds(Table& table, StationConfig& station)
     {
         Table leds = table.table("leds");
@@ -303,7 +284,8 @@ private:
         for (const std::string& lamp : lamps) {
             const auto sink = leds.text(lamp);
             if (!sink || !legal_sink(leds, lamp, *sink)) continue;
-            sinks_.check(leds, lamp, *sink, "sink " + in_quotes(*sink), "give each lamp an LED of its own");
+            sinks_.check(leds, lamp, io::led_sink_target(*sink, sysfs_),
+                         "the LED of sink " + in_quotes(*sink), "give each lamp an LED of its own");
             station.leds.push_back({lamp, *sink});
         }
     }
@@ -315,11 +297,11 @@ private:
             return false;
         };
         if (const auto trouble = io::judge_led_sink(sink)) return refuse(*trouble + ".");
-        const auto line = io::line_of_led_sink(sink);
         const io::DriverEnableSettings& driver = bus_.driver_enable;
-        const bool is_drivers = line && driver.direction == io::Direction::gpio &&
-                                line->line == driver.gpio_line &&
-                                canonical(line->chip) == canonical(driver.gpio_chip);
+        const std::string drivers_line = "line:" + driver.gpio_chip + ':' + std::to_string(driver.gpio_line);
+        const bool is_drivers =
+            driver.direction == io::Direction::gpio &&
+            io::led_sink_target(sink, sysfs_) == io::led_sink_target(drivers_line, sysfs_);
         return !is_drivers || refuse("this line switches the transceiver (gpio_line in [bus]): a lamp needs "
                                      "a line of its own.");
     }
@@ -331,6 +313,7 @@ private:
 
     Document& document_;
     const BusConfig& bus_;
+    const std::filesystem::path& sysfs_;
     const std::vector<ReadLine>& lines_;
     Shelf& shelf_;
     profile::Faults& warnings_;
@@ -341,11 +324,12 @@ private:
 } // namespace
 
 std::vector<StationConfig> read_stations(Document& document, const BusConfig& bus,
+                                         const std::filesystem::path& sysfs,
                                          const std::vector<ReadLine>& lines, Shelf& shelf,
                                          profile::Faults& warnings)
 {
     std::vector<StationConfig> stations;
-    StationReader reader{document, bus, lines, shelf, warnings};
+    StationReader reader{document, bus, sysfs, lines, shelf, warnings};
     Table root = document.root();
     std::vector<Table> tables = root.tables("station");
     if (std::ssize(tables) > kMostStations) {

@@ -16,7 +16,9 @@ constexpr int kHighestAddress = 125;
 
 tec::TripForm trip_form(const StationConfig& config)
 {
-    return config.profile->diagnosis == DiagForm::tripped ? tec::TripForm::tripped : tec::TripForm::code;
+    const bool is_code =
+        config.profile->diagnosis != DiagForm::tripped && config.tec && config.tec->trip.is_code;
+    return is_code ? tec::TripForm::code : tec::TripForm::tripped;
 }
 
 constexpr std::string_view kRideThroughWarning =
@@ -87,10 +89,11 @@ DeviceState::DeviceState(const StationConfig& config, bool self_test_passed)
 void DeviceState::look(const StationView& station, const BusSnapshot& bus)
 {
     look_at_drive(station.drive);
-    condition_.data_exchange = station.bus.state == dp::State::data_exch;
+    condition_.data_exchange = station.bus.state == dp::State::data_exch && !station.bus.holds;
     condition_.drive_answers = station.line_open && (!station.drive.known || station.drive.answers);
     condition_.running = station.bus.state != dp::State::power_on;
     say_status();
+    say_scales(station);
     if (!config_->tec) return;
 
     const TecConfig& tec = *config_->tec;
@@ -168,7 +171,7 @@ BusOrders DeviceState::bus_orders() const
 /// Null: nothing is known of the trip.
 const DeviceState::Seen* DeviceState::seen_trip() const
 {
-    const Seen* const one = config_->tec ? seen(config_->tec->trip_tag) : nullptr;
+    const Seen* const one = config_->tec ? seen(config_->tec->trip.bit.tag) : nullptr;
     return one != nullptr && one->was_read ? one : nullptr;
 }
 
@@ -178,8 +181,8 @@ std::uint16_t DeviceState::trip_word() const
     const Seen* const one = seen_trip();
     if (one == nullptr) return 0;
     if (trip_form(*config_) == tec::TripForm::code) return one->word;
-    const bool is_set = (one->word & config_->tec->trip_mask) != 0;
-    return is_set != config_->tec->trip_inverted ? std::uint16_t{1} : std::uint16_t{0};
+    const bool is_set = (one->word & config_->tec->trip.bit.mask) != 0;
+    return is_set != config_->tec->trip.bit.inverted ? std::uint16_t{1} : std::uint16_t{0};
 }
 
 std::uint8_t DeviceState::trip_octet() const
@@ -206,8 +209,9 @@ std::array<tec::Row, 10> DeviceState::rows() const
 
 std::optional<std::string> DeviceState::trip() const
 {
-    if (!config_->tec || config_->tec->trip_tag == 0) return std::nullopt;
-    const std::uint16_t tag = config_->tec->trip_tag;
+    if (!config_->tec) return std::nullopt;
+    const std::uint16_t tag = config_->tec->trip.bit.tag;
+    if (tag == 0) return "not known: no tag tells it; set trip_tag in [station.tec]";
     const Seen* const one = seen_trip();
     if (one == nullptr) return fmt::format("unknown: tag {} was never read", tag);
     const std::string words = tec::trip_words(trip_octet());
@@ -323,6 +327,18 @@ void DeviceState::say_trip()
         say(false, "trip of the drive: none any more");
     else
         say(true, "trip of the drive: " + *trip());
+}
+
+/// Once for each set of tags: what holds the start, what reads 0, and what to do.
+void DeviceState::say_scales(const StationView& station)
+{
+    std::string now = scale_words(station).value_or("");
+    if (now == scales_said_) return;
+    if (now.empty())
+        say(false, "every tag that the master has chosen has a scale");
+    else
+        say(true, now);
+    scales_said_ = std::move(now);
 }
 
 void DeviceState::say_status()

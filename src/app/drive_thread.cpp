@@ -20,6 +20,9 @@ drive::UnitSettings unit_settings(const StationConfig& station, const LineConfig
     unit.address = station.unit;
     unit.tags = station.tags.get();
     unit.tags_only_from_table = station.profile->tags_only_from_table;
+    unit.scale_from_table = line.protocol == kEiAscii;
+    unit.unlisted_decimals = station.unlisted_decimals;
+    unit.unscaled_holds = station.unscaled_holds;
     unit.output_refresh = station.output_refresh;
     unit.zero_after = station.zero_after;
     // Modbus instruments keep what they are told in a memory that wears: only what differs is written.
@@ -144,6 +147,7 @@ drive::Outcome DriveThread::exchange_with(const Unit& unit, const drive::Transac
             const std::span<std::uint16_t> words = std::span{words_}.first(transaction.count);
             outcome.error = backend.read(address, *transaction.tag, words);
             outcome.words = words;
+            outcome.answer = backend.last_answer();
             break;
         }
         case Kind::write: outcome.error = backend.write(address, *transaction.tag, transaction.words); break;

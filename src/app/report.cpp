@@ -45,6 +45,7 @@ std::string_view text(WordState state)
         case WordState::read_only: return "read only";
         case WordState::out_of_range: return "out of range";
         case WordState::refused: return "refused";
+        case WordState::unscaled: return "unscaled";
     }
     return "?";
 }
@@ -135,6 +136,10 @@ std::string_view text(AccessError error) noexcept
         case AccessError::not_config_mode: return "only in configuration mode";
         case AccessError::unsupported_type: return "this type of parameter is not transported";
         case AccessError::value_not_encoded: return "the drive cannot read this value";
+        case AccessError::no_scale:
+            return "the drive answers with a number, and no tag table says how many decimals it has";
+        case AccessError::contradicted:
+            return "the drive has answered with more decimals than the tag table gives";
     }
     return "?";
 }
@@ -241,15 +246,20 @@ json words_json(const StationView& station, Instant now)
         const std::uint16_t tag = bus.layout.parameters[i].tag;
         const std::uint16_t raw = input ? bus.inputs[i] : bus.outputs[i];
         const drive::Tag* row = station.config->tags->find(tag);
+        const bool is_contradicted = same_layout && drive.errors[i] == AccessError::contradicted;
+        const std::string answer = same_layout ? drive.answer_texts[i].data() : "";
         std::size_t& octet = input ? in_octet : out_octet;
-        words.push_back({{"tag", tag},
-                         {"name", row != nullptr ? json(row->name) : json(nullptr)},
-                         {"direction", input ? "in" : "out"},
-                         {"octet", octet},
-                         {"raw", raw},
-                         {"value", shown_value(*station.config->tags, tag, raw)},
-                         {"state", text(same_layout ? drive.states[i] : WordState::untried)},
-                         {"age_ms", same_layout ? age_json(drive.updated_at[i], now) : json(nullptr)}});
+        words.push_back(
+            {{"tag", tag},
+             {"name", row != nullptr ? json(row->name) : json(nullptr)},
+             {"direction", input ? "in" : "out"},
+             {"octet", octet},
+             {"raw", raw},
+             {"value", shown_value(*station.config->tags, tag, raw)},
+             {"state",
+              is_contradicted ? "contradicted" : text(same_layout ? drive.states[i] : WordState::untried)},
+             {"answer", answer.empty() ? json(nullptr) : json(answer)},
+             {"age_ms", same_layout ? age_json(drive.updated_at[i], now) : json(nullptr)}});
         octet += 2;
     };
     for (std::size_t i = 0; i < bus.layout.count; ++i) {
@@ -336,12 +346,18 @@ json diagnosis_json(const StationView& station)
     json trouble = json::array();
     if (station.drive.known && !station.drive.answers)
         trouble.push_back("the drive does not answer: its inputs are held and marked stale");
+    if (const auto scales = scale_words(station)) trouble.push_back(*scales);
+    if (station.config->tec && station.config->tec->trip.bit.tag == 0)
+        trouble.push_back("trips are not known: no tag tells them, so \"no trip\" above means nothing; set "
+                          "trip_tag in [station.tec]");
     for (const std::string& one : station.troubles) trouble.push_back(one);
 
     json result = diagnosis_octets_json(*station.config, station.bus.diagnosis.bytes());
     result["name"] = station.config->name;
     result["hex"] = hex(station.bus.diagnosis.bytes());
     result["refusal"] = refusal;
+    result["held"] = station.bus.holds;
+    result["unscaled"] = unscaled_json(station);
     result["last_prm"] = hex(station.bus.prm.bytes());
     result["last_cfg"] = hex(station.bus.cfg.bytes());
     result["trouble"] = trouble;

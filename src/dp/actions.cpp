@@ -199,7 +199,7 @@ void Slave::start_exchange(const fdl::Indication& request)
     if (!concerns_prm(refusal_.why)) refusal_ = {};
     outputs_changed_ = true;
     if (config_.demand) demand_.begin(generations_);
-    if (config_.reads) {
+    if (config_.reads || (personality_.tries_outputs && config_.layout.count > 0)) {
         stat_diag_ = diag_pending_ = true;
         ready_by_ = request.at + kReadyAfter;
     }

@@ -50,12 +50,14 @@ void Slave::activate_received()
         outputs_changed_ = true;
     }
     active_.demand = received_.demand;
-    if (config_.demand) demand_.request(active_.demand);
+    if (config_.demand && !finds_scales()) demand_.request(active_.demand);
 }
 
-/// From the first Data_Exchange or Clear_Data of this layout on.
+/// From the first Data_Exchange or Clear_Data of this layout on; but a master that exchanges although
+/// Stat_Diag holds it off writes nothing to a drive whose scales are not known yet.
 void Slave::allow_writing()
 {
+    if (finds_scales()) return;
     outputs_changed_ = outputs_changed_ || !may_write_;
     may_write_ = true;
 }

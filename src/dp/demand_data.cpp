@@ -42,7 +42,9 @@ std::optional<std::uint16_t> demand_code(AccessError error) noexcept
         case AccessError::deferred:
         case AccessError::not_understood: return std::nullopt;
         case AccessError::invalid_tag:
-        case AccessError::unsupported_type: return kInvalidTag;
+        case AccessError::unsupported_type:
+        case AccessError::no_scale: // the manuals know no better one
+        case AccessError::contradicted: return kInvalidTag;
         case AccessError::read_only:
         case AccessError::not_stopped:
         case AccessError::not_config_mode: return kReadOnly;

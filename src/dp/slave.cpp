@@ -102,7 +102,9 @@ void Slave::tick(Instant at)
         ++counters_.watchdog_expired;
         act(Trigger::watchdog_expired, at);
     }
-    if (at >= ready_by_) act(Trigger::inputs_ready, at);
+    if (at < ready_by_) return;
+    ready_by_ = kNever;
+    if (!holds()) act(Trigger::inputs_ready, at);
 }
 
 Trigger Slave::judge(const fdl::Indication& request)
@@ -185,7 +187,9 @@ void Slave::set_inputs(const InputImage& inputs)
 {
     if (inputs.generation == 0 || inputs.generation != config_.layout.generation) return;
     inputs_ = inputs;
-    if (stat_diag_ && inputs.every_input_tried) act(Trigger::inputs_ready, Instant{});
+    const bool time_is_over = ready_by_ == kNever;
+    if (stat_diag_ && !holds() && (inputs.every_input_tried || time_is_over))
+        act(Trigger::inputs_ready, Instant{});
 }
 
 void Slave::set_demand_answer(const DemandAnswer& answer)
@@ -263,6 +267,7 @@ Snapshot Slave::snapshot() const
                   .sync = sync_,
                   .freeze = freeze_,
                   .stat_diag = stat_diag_,
+                  .holds = holds(),
                   .diag_pending = diag_pending_,
                   .diagnosis = {},
                   .prm = prm_seen_,

@@ -33,9 +33,12 @@ Table word_table(const Json& words)
     Table table({"DIR", ">OCTET", ">TAG", "NAME", ">VALUE", ">RAW", "STATE", ">AGE"});
     for (const Json& w : words) {
         const std::string state = text(w, "state");
+        const std::string answer = text(w, "answer", "");
         const Tone tone = state == "good" ? Tone::good : state == "untried" ? Tone::plain : Tone::bad;
         table.add({text(w, "direction"), number(w, "octet"), number(w, "tag"), text(w, "name", ""),
-                   text(w, "value"), word(integer(w, "raw")), Cell{state, tone}, age(real(w, "age_ms"))});
+                   text(w, "value"), word(integer(w, "raw")),
+                   Cell{answer.empty() ? state : fmt::format("{} '{}'", state, answer), tone},
+                   age(real(w, "age_ms"))});
     }
     return table;
 }

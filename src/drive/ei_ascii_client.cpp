@@ -3,35 +3,35 @@
 
 #include "digits.hpp"
 #include "ei_access.hpp"
+#include "ei_forms.hpp"
 
 #include <algorithm>
 
 namespace dpslave::drive {
 namespace {
 
-AccessError error_of(ei::ValueFlaw flaw)
+/// The drive holds `word`: `text` is what it has answered when it was read back.
+bool holds(EiForms& forms, UnitAddress unit, const Tag& tag, std::string_view text, std::uint16_t word)
 {
-    return flaw == ei::ValueFlaw::out_of_span ? AccessError::out_of_range : AccessError::unsupported_type;
-}
-
-std::pair<std::uint16_t, std::uint16_t> key(UnitAddress unit, std::uint16_t tag)
-{
-    return {static_cast<std::uint16_t>(unit.group << 8 | unit.unit), tag};
-}
-
-bool holds(const Tag& tag, const std::string& text, std::uint16_t word)
-{
-    const auto held = tag.listed ? ei::decode_value(tag, text) : ei::decode_word(text);
-    return held && *held == word;
+    const EiForms::Taken held = forms.take(unit, tag, text);
+    return held.error == AccessError::none && held.word == word;
 }
 
 } // namespace
 
 EiAsciiClient::EiAsciiClient(SerialLine& line, EiTiming timing, std::vector<EiUnit> units)
-    : access_(std::make_unique<ei::Access>(line, timing)), units_(std::move(units))
+    : access_(std::make_unique<ei::Access>(line, timing)),
+      units_(std::move(units)),
+      forms_(std::make_unique<EiForms>())
 {}
 
 EiAsciiClient::~EiAsciiClient() = default;
+
+void EiAsciiClient::set_units(std::vector<EiUnit> units)
+{
+    units_ = std::move(units);
+    forms_->forget_all();
+}
 
 AnswerCounts EiAsciiClient::counts(UnitAddress unit) const
 {
@@ -75,33 +75,14 @@ AccessError EiAsciiClient::read(UnitAddress unit, const Tag& tag, std::span<std:
 AccessError EiAsciiClient::take_value(UnitAddress unit, const Tag& tag, const std::string& text,
                                       std::uint16_t& word)
 {
-    if (!tag.listed) return take_unlisted(unit, tag, text, word);
-    const auto value = ei::decode_value(tag, text);
-    if (value) {
-        word = *value;
-        return AccessError::none;
+    EiForms::Taken taken = forms_->take(unit, tag, text);
+    if (taken.error == AccessError::none) {
+        word = taken.word;
+        return taken.error;
     }
-    trouble_ = "tag " + std::to_string(tag.number) + " (" + std::string{drive::text(tag.type)} + ", " +
-               std::to_string(tag.decimals) + " decimals) answers '" + text +
-               "': " + std::string{ei::text(value.error())};
-    return error_of(value.error());
-}
-
-/// A tag that is in no table: '>' makes it a WORD; one number does not show how many decimals it has.
-AccessError EiAsciiClient::take_unlisted(UnitAddress unit, const Tag& tag, const std::string& text,
-                                         std::uint16_t& word)
-{
-    if (const auto value = ei::decode_word(text)) {
-        words_.insert(key(unit, tag.number));
-        word = *value;
-        return AccessError::none;
-    }
-    words_.erase(key(unit, tag.number));
-    const std::string number = std::to_string(tag.number);
-    trouble_ = "tag " + number + " is in no tag table and answers '" + text +
-               "', which does not show its decimals; the table needs a line with tag=" + number +
-               " and its name, type and decimals";
-    return AccessError::invalid_tag;
+    answer_ = text;
+    trouble_ = std::move(taken.trouble);
+    return taken.error;
 }
 
 AccessError EiAsciiClient::write(UnitAddress unit, const Tag& tag, std::span<const std::uint16_t> words)
@@ -112,7 +93,7 @@ AccessError EiAsciiClient::write(UnitAddress unit, const Tag& tag, std::span<con
         return AccessError::unsupported_type;
     }
     const std::uint16_t word = words[0];
-    if (!tag.listed && words_.count(key(unit, tag.number)) == 0) {
+    if (forms_->must_be_read(unit, tag)) {
         std::uint16_t present = 0;
         const AccessError error = read(unit, tag, {&present, 1});
         if (error != AccessError::none) return error;
@@ -120,14 +101,17 @@ AccessError EiAsciiClient::write(UnitAddress unit, const Tag& tag, std::span<con
     const auto mnemonic = mnemonic_for(unit, tag);
     if (!mnemonic) return AccessError::invalid_tag;
     const auto enums = rule_of(unit) == MnemonicRule::ac ? ei::EnumForm::decimal : ei::EnumForm::hexadecimal;
-    const auto text = ei::encode_value(tag, word, enums);
+    const auto text =
+        ei::encode_value(forms_->is_word(unit, tag) ? unlisted_tag(tag.number) : tag, word, enums);
     if (!text) {
         trouble_ = hex_text(word, 4) + " as " + std::string{drive::text(tag.type)} + ": " +
                    std::string{ei::text(text.error())};
-        return error_of(text.error());
+        return text.error() == ei::ValueFlaw::out_of_span ? AccessError::out_of_range
+                                                          : AccessError::unsupported_type;
     }
     const AccessError error = access_->write(unit, *mnemonic, *text);
-    if (error == AccessError::deferred && access_->read_back() && holds(tag, *access_->read_back(), word))
+    if (error == AccessError::deferred && access_->read_back() &&
+        holds(*forms_, unit, tag, *access_->read_back(), word))
         return AccessError::none;
     trouble_ = access_->trouble();
     return error;
@@ -135,6 +119,7 @@ AccessError EiAsciiClient::write(UnitAddress unit, const Tag& tag, std::span<con
 
 bool EiAsciiClient::probe(UnitAddress unit)
 {
+    forms_->forget(unit); // a lost drive is probed before anything else: it may be another one
     const bool answers = access_->probe(unit);
     trouble_ = answers ? std::string{} : access_->trouble();
     return answers;

@@ -13,7 +13,7 @@ constexpr unsigned kMaxRepeats = 6; ///< 64 s: beyond every limit
 bool ends_when_held(AccessError error)
 {
     return error != AccessError::read_only && error != AccessError::invalid_tag &&
-           error != AccessError::unsupported_type;
+           error != AccessError::unsupported_type && error != AccessError::contradicted;
 }
 
 } // namespace
@@ -46,12 +46,18 @@ void OutputPlan::set(std::span<const std::uint16_t> words, bool may_write)
     }
 }
 
-/// A changed word is due at once, kAtOnce. A tag that the drive does not have is dropped and tried
-/// rarely; a word that it did not understand is tried as rarely, unless its refresh comes first.
+/// The drive has no such tag, or its scale is not known: dropped, and tried rarely.
+bool OutputPlan::is_dropped(const Item& item)
+{
+    return item.state == WordState::invalid_tag || item.state == WordState::unscaled;
+}
+
+/// A changed word is due at once, kAtOnce. What is dropped is tried rarely; a word that it did not understand
+/// is tried as rarely, unless its refresh comes first.
 Instant OutputPlan::due_at(const Item& item) const
 {
     if (!item.asked) return kNever;
-    if (item.state == WordState::invalid_tag) return item.attempted_at + kInvalidRetry;
+    if (is_dropped(item)) return item.attempted_at + kInvalidRetry;
     if (item.answered != item.wanted) return kAtOnce;
     if (rule_.compare) return repeat_at(item);
     const bool not_understood = item.error == AccessError::not_understood;
@@ -69,8 +75,8 @@ Instant OutputPlan::repeat_at(const Item& item) const
 
 bool OutputPlan::joins(const Item& item, Instant now) const
 {
-    return item.readable && !item.alone && !item.waits && !item.row->modbus_register &&
-           item.state != WordState::invalid_tag && item.round != round_ && due_at(item) <= now;
+    return item.readable && !item.alone && !item.waits && !item.row->modbus_register && !is_dropped(item) &&
+           item.round != round_ && due_at(item) <= now;
 }
 
 /// Fills the batch with the item and its neighbours by tag as far as they are due.
@@ -211,10 +217,20 @@ void OutputPlan::unreadable(const Tag* row)
     }
 }
 
+void OutputPlan::refuse(const Tag* row, AccessError error)
+{
+    for (Item& item : items_) {
+        if (item.row != row) continue;
+        item.asked = false;
+        item.state = state_of(error);
+        item.error = error;
+    }
+}
+
 void OutputPlan::drive_lost()
 {
     for (Item& item : items_) {
-        if (!item.asked || item.state == WordState::invalid_tag) continue;
+        if (!item.asked || is_dropped(item)) continue;
         item.state = WordState::stale;
         item.error = AccessError::no_answer;
     }
@@ -233,7 +249,7 @@ void OutputPlan::drive_returned()
         item.repeated.reset();
         item.round = item.waits ? round_ + 1 : round_;
         item.waits = false;
-        if (item.state != WordState::invalid_tag) continue;
+        if (!is_dropped(item)) continue;
         item.state = WordState::stale;
         item.error = AccessError::no_answer;
     }

@@ -96,10 +96,14 @@ public:
     /// The drive does not give its word: nothing can be compared.
     void unreadable(const Tag* row);
 
+    /// It is not written any more.
+    void refuse(const Tag* row, AccessError error);
+
     void drive_lost();
     void drive_returned(); ///< before begin_round()
 
 private:
+    static bool is_dropped(const Item& item);
     Instant due_at(const Item& item) const;
     Instant repeat_at(const Item& item) const;
     bool joins(const Item& item, Instant now) const;

@@ -8,6 +8,13 @@
 
 namespace dpslave::drive {
 
+AnswerText answer_text(std::string_view text)
+{
+    AnswerText shown{};
+    text.copy(shown.data(), shown.size() - 1);
+    return shown;
+}
+
 Poller::Poller(const std::vector<UnitSettings>& units, BlockRule rule)
 {
     for (const UnitSettings& settings : units)

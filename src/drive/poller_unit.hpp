@@ -85,6 +85,7 @@ private:
     Transaction make_write(Purpose purpose, const Tag* row, std::uint16_t word);
     void begin_round(Instant now);
 
+    AccessError judged(const Transaction& transaction, const Outcome& outcome);
     bool is_repeated(AccessError error, int& not_understood) const;
     void defer(const Transaction& transaction, Instant now);
     bool proven_by_reading(const Transaction& transaction) const;
@@ -98,6 +99,7 @@ private:
     void done_operate(const Transaction& transaction, const Outcome& outcome);
     void count(const Transaction& transaction, AccessError error);
     void show();
+    void show_form(const OutputPlan::Item& output);
     void show_inputs();
     void show_watched();
 

@@ -48,7 +48,7 @@ void Poller::Unit::done(const Transaction& transaction, const Outcome& outcome, 
     if (transaction.kind == Transaction::Kind::read && what.error == AccessError::none &&
         what.words.size() < transaction.count)
         what.error = AccessError::no_answer; // half an answer is none
-    what.error = with_reason(transaction, what.error);
+    what.error = judged(transaction, what);
     if (what.error == AccessError::deferred) {
         defer(transaction, now);
         return show();
@@ -97,6 +97,22 @@ void Poller::Unit::defer(const Transaction& transaction, Instant now)
     }
 }
 
+/// With what the table says of a refusal; and a row that an answer has once contradicted stays refused,
+/// whatever answers come later: 12.5 may fit where 12.34 has shown that the decimals are wrong.
+AccessError Poller::Unit::judged(const Transaction& transaction, const Outcome& outcome)
+{
+    const AccessError error = with_reason(transaction, outcome.error);
+    if (transaction.tag == nullptr || transaction.count != 1) return error;
+    const std::uint16_t tag = transaction.tag->number;
+    if (error == AccessError::contradicted) {
+        tags_.contradict(tag);
+        reads_.refuse(tag, error, outcome.answer);
+        outputs_.refuse(transaction.tag, error);
+        inputs_changed_ = true;
+    }
+    return error == AccessError::none && tags_.is_contradicted(tag) ? AccessError::contradicted : error;
+}
+
 void Poller::Unit::count(const Transaction& transaction, AccessError error)
 {
     if (error == AccessError::no_answer)
@@ -128,7 +144,7 @@ void Poller::Unit::done_read(const Outcome& outcome, Instant now)
         return;
     }
     if (is_repeated(outcome.error, inputs_not_understood_)) return;
-    if (reads_.done(job_.block, outcome.error, outcome.words, now)) inputs_changed_ = true;
+    if (reads_.done(job_.block, outcome.error, outcome.words, now, outcome.answer)) inputs_changed_ = true;
     if (writing_) compare(outcome);
 }
 
@@ -249,6 +265,7 @@ std::optional<InputImage> Poller::Unit::take_inputs()
     image.generation = image_.layout.generation;
     image.drive_answers = snapshot_.answers;
     image.every_input_tried = reads_.every_input_tried();
+    image.scale_missing = settings_.unscaled_holds && reads_.scale_missing();
     const std::span<const Parameter> parameters = parameters_of(image_.layout);
     for (std::size_t i = 0; i < parameters.size(); ++i) {
         const Parameter& parameter = parameters[i];
@@ -275,9 +292,22 @@ void Poller::Unit::show()
         snapshot_.states[item.parameter] = item.state;
         snapshot_.errors[item.parameter] = item.error;
         snapshot_.updated_at[item.parameter] = item.updated_at;
+        show_form(item);
     }
     show_inputs();
     show_watched();
+}
+
+/// Of an output that waits for its form: what the drive has answered.
+void Poller::Unit::show_form(const OutputPlan::Item& output)
+{
+    const auto found = output.row != nullptr ? reads_.find(output.row->number) : std::nullopt;
+    if (!found) return;
+    const ReadPlan::Item& item = reads_.items()[*found];
+    snapshot_.answer_texts[output.parameter] = item.answer;
+    if (!item.form || output.state != WordState::untried || item.state != WordState::unscaled) return;
+    snapshot_.states[output.parameter] = item.state;
+    snapshot_.errors[output.parameter] = item.error;
 }
 
 /// Of a parameter that is both read and written the refusal of a write is shown, else the read.
@@ -291,6 +321,7 @@ void Poller::Unit::show_inputs()
         const ReadPlan::Item& item = reads_.items()[*found];
         snapshot_.words[i] = item.word;
         snapshot_.updated_at[i] = item.updated_at;
+        snapshot_.answer_texts[i] = item.answer;
         if (parameter.writes && is_refusal(snapshot_.errors[i])) continue;
         snapshot_.states[i] = item.state;
         snapshot_.errors[i] = item.error;

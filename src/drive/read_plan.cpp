@@ -19,6 +19,8 @@ WordState state_of(AccessError error)
         case AccessError::not_stopped:
         case AccessError::not_config_mode:
         case AccessError::unsupported_type: return WordState::refused;
+        case AccessError::no_scale:
+        case AccessError::contradicted: return WordState::unscaled;
     }
     return WordState::refused;
 }
@@ -27,7 +29,7 @@ WordState state_of(AccessError error)
 bool ReadPlan::excluded(const Item& item)
 {
     return !item.asked || item.state == WordState::invalid_tag || item.state == WordState::refused ||
-           item.state == WordState::read_only;
+           item.state == WordState::read_only || item.state == WordState::unscaled;
 }
 
 void ReadPlan::reset(std::vector<Item> items)
@@ -50,7 +52,8 @@ void ReadPlan::compare(bool outputs)
 
 bool ReadPlan::in_use(const Item& item) const
 {
-    return item.input || item.watched || (item.compared && compares_);
+    return item.input || item.watched || (item.compared && compares_) ||
+           (item.form && item.state != WordState::good);
 }
 
 std::optional<std::size_t> ReadPlan::find(std::uint16_t tag) const
@@ -83,7 +86,7 @@ void ReadPlan::rebuild()
         const bool apart = item.row->modbus_register.has_value();
         open = open && !excluded(item) && !apart;
         if (excluded(item) || !in_use(item)) continue;
-        calm_ = calm_ && !item.input && !(item.compared && compares_);
+        calm_ = calm_ && !item.input && !item.form && !(item.compared && compares_);
         if (open && joins(item))
             blocks_.back().last = i;
         else
@@ -92,8 +95,16 @@ void ReadPlan::rebuild()
     }
 }
 
+/// Whether it has a scale is to be known before the exchange begins, however many others there are to read.
+bool ReadPlan::is_urgent(const Item& item) const
+{
+    return item.unscaled && item.asked && !item.tried && in_use(item);
+}
+
 std::optional<ReadPlan::Block> ReadPlan::next(Instant now)
 {
+    for (std::size_t i = 0; i < items_.size(); ++i)
+        if (is_urgent(items_[i]) && now >= items_[i].retry_at) return Block{i, i};
     for (const Block block : blocks_) {
         if (block.last < position_) continue;
         if (!begun_) began_at_ = now;
@@ -141,17 +152,25 @@ bool ReadPlan::serves_input(Block block) const
 bool ReadPlan::serves_output(Block block) const
 {
     for (std::size_t i = block.first; i <= block.last; ++i)
-        if (items_[i].compared && compares_) return true;
+        if ((items_[i].compared && compares_) || items_[i].form) return true;
     return false;
 }
 
 bool ReadPlan::every_input_tried() const
 {
     return std::all_of(items_.begin(), items_.end(),
-                       [](const Item& item) { return !item.input || item.tried; });
+                       [](const Item& item) { return !(item.input || item.form) || item.tried; });
 }
 
-bool ReadPlan::done(Block block, AccessError error, std::span<const std::uint16_t> words, Instant now)
+bool ReadPlan::scale_missing() const
+{
+    return std::any_of(items_.begin(), items_.end(), [](const Item& item) {
+        return (item.input || item.form) && item.error == AccessError::no_scale;
+    });
+}
+
+bool ReadPlan::done(Block block, AccessError error, std::span<const std::uint16_t> words, Instant now,
+                    std::string_view answer)
 {
     if (error == AccessError::none && words.size() >= count_of(block)) return good(block, words, now);
     if (block.first != block.last) {
@@ -160,7 +179,7 @@ bool ReadPlan::done(Block block, AccessError error, std::span<const std::uint16_
         split(block);
         return false;
     }
-    return bad(block.first, error, now);
+    return bad(block.first, error, now, answer);
 }
 
 bool ReadPlan::good(Block block, std::span<const std::uint16_t> words, Instant now)
@@ -170,12 +189,13 @@ bool ReadPlan::good(Block block, std::span<const std::uint16_t> words, Instant n
     for (std::size_t i = block.first; i <= block.last; ++i) {
         Item& item = items_[i];
         const auto word = words[static_cast<std::size_t>(item.row->number - items_[block.first].row->number)];
-        changed =
-            changed || (item.input && (!item.tried || item.word != word || item.state != WordState::good));
-        joins_again = joins_again || excluded(item);
+        changed = changed || ((item.input || item.form) &&
+                              (!item.tried || item.word != word || item.state != WordState::good));
+        joins_again = joins_again || excluded(item) || item.form;
         item.word = word;
         item.state = WordState::good;
         item.error = AccessError::none;
+        item.answer = {};
         item.tried = true;
         item.busy = 0;
         item.updated_at = now;
@@ -225,7 +245,7 @@ bool ReadPlan::busy(Block block)
     return changed;
 }
 
-bool ReadPlan::bad(std::size_t index, AccessError error, Instant now)
+bool ReadPlan::bad(std::size_t index, AccessError error, Instant now, std::string_view answer)
 {
     Item& item = items_[index];
     const bool was_excluded = excluded(item);
@@ -234,9 +254,11 @@ bool ReadPlan::bad(std::size_t index, AccessError error, Instant now)
     // nothing is known, so it reads 0.
     const bool held = state == WordState::out_of_range || error == AccessError::not_understood;
     const std::uint16_t word = held ? item.word : std::uint16_t{0};
-    const bool changed = item.input && (!item.tried || item.state != state || item.word != word);
+    const bool changed = (item.input || item.form) &&
+                         (!item.tried || item.state != state || item.error != error || item.word != word);
     item.state = state;
     item.error = error;
+    item.answer = answer_text(answer);
     item.word = word;
     item.tried = true;
     item.retry_at = now + kInvalidRetry;
@@ -246,6 +268,20 @@ bool ReadPlan::bad(std::size_t index, AccessError error, Instant now)
     else if (excluded(item) != was_excluded)
         rebuild();
     return changed;
+}
+
+void ReadPlan::refuse(std::uint16_t tag, AccessError error, std::string_view answer)
+{
+    const auto index = find(tag);
+    if (!index) return;
+    Item& item = items_[*index];
+    item.asked = false;
+    item.tried = true;
+    item.word = 0;
+    item.state = state_of(error);
+    item.error = error;
+    item.answer = answer_text(answer);
+    rebuild();
 }
 
 void ReadPlan::skip(Block block)

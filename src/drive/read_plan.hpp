@@ -5,7 +5,7 @@
 /// mended then. A tag with a register of its own is never part of a block.
 #pragma once
 
-#include "dpslave/drive/backend.hpp"
+#include "dpslave/drive/poller.hpp"
 
 #include <chrono>
 #include <cstdint>
@@ -42,6 +42,9 @@ public:
         bool input = false;    ///< an input of the layout
         bool watched = false;  ///< read with or without a layout
         bool compared = false; ///< an output whose word in the drive is looked at, while it is written
+        /// An output that only an answer of the drive gives a form: read until it is known.
+        bool form = false;
+        bool unscaled = false; ///< a number has no scale by the row: asked first, before the others
         /// False: decided without the drive (STRING, write-only, not in the table); state says how.
         bool asked = true;
         std::uint16_t word = 0;
@@ -52,6 +55,7 @@ public:
         Instant retry_at{};        ///< of an excluded item: when the drive is asked again
         bool starts_block = false; ///< cut here on the way to a hole
         bool after_hole = false;   ///< the item before it and this one are refused together
+        AnswerText answer{};       ///< behind the errors no_scale and contradicted
         int busy = 0;              ///< rounds in a row in which a block from here on was not understood
     };
     /// Items `first` to `last` in one transaction.
@@ -76,10 +80,16 @@ public:
     std::uint16_t count_of(Block block) const; ///< tags, the unasked ones between included
     bool serves_input(Block block) const;      ///< also false: nothing but compared and watched tags
     bool serves_output(Block block) const;
-    bool every_input_tried() const;
+    bool every_input_tried() const; ///< and each output whose form is asked for
+    /// One of those has answered with a number of unknown scale.
+    bool scale_missing() const;
 
-    /// What became of `block`; not for no_answer. True: a value or a state of an input changed.
-    bool done(Block block, AccessError error, std::span<const std::uint16_t> words, Instant now);
+    /// What became of `block`; not for no_answer. `answer`: see Outcome. True: a value or a state of an input
+    /// changed.
+    bool done(Block block, AccessError error, std::span<const std::uint16_t> words, Instant now,
+              std::string_view answer = {});
+    /// It is not asked for any more: 0 from now on.
+    void refuse(std::uint16_t tag, AccessError error, std::string_view answer);
     void skip(Block block); ///< leaves it out in this round
     /// It was not asked for the sake of an answer that is still owed: its words are held until the next
     /// round.
@@ -91,6 +101,7 @@ public:
 private:
     static bool excluded(const Item& item);
     bool in_use(const Item& item) const;
+    bool is_urgent(const Item& item) const;
     /// A refused block, cut in two: is the hole between its halves?
     struct Cut {
         Block block{};
@@ -105,7 +116,7 @@ private:
     bool busy(Block block);
     void look_at_cut(Block good);
     bool good(Block block, std::span<const std::uint16_t> words, Instant now);
-    bool bad(std::size_t index, AccessError error, Instant now);
+    bool bad(std::size_t index, AccessError error, Instant now, std::string_view answer);
 
     BlockRule rule_;
     std::vector<Item> items_;

@@ -188,9 +188,24 @@ Tag unlisted_tag(std::uint16_t number)
     return tag;
 }
 
+Tag unlisted_tag(std::uint16_t number, std::uint8_t decimals)
+{
+    Tag tag = unlisted_tag(number);
+    tag.type = TagType::number;
+    tag.decimals = decimals;
+    return tag;
+}
+
+bool has_scale(const Tag& tag) noexcept
+{
+    if (!tag.confirmed) return false;
+    if (tag.type == TagType::number) return tag.decimals_known;
+    return tag.listed;
+}
+
 std::string displayed(const Tag& tag, std::uint16_t word)
 {
-    const bool hexadecimal = tag.type == TagType::word || tag.type == TagType::string;
+    const bool hexadecimal = tag.type == TagType::word || tag.type == TagType::string || !tag.confirmed;
     const unsigned decimals = tag.type == TagType::number ? tag.decimals : 0;
     std::string out = hexadecimal ? hex_text(word, 4) : decimal_text(counts_of(tag, word), decimals);
     const std::string labels = labels_of(tag, word);

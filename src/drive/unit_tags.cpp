@@ -14,6 +14,8 @@ UnitTags::UnitTags(const UnitSettings& unit)
     : table_(unit.tags),
       only_from_table_(unit.tags_only_from_table),
       compare_outputs_(unit.compare_outputs),
+      scale_from_table_(unit.scale_from_table),
+      unlisted_decimals_(unit.scale_from_table ? unit.unlisted_decimals : std::nullopt),
       never_written_(unit.never_written),
       watched_(unit.watched)
 {
@@ -23,7 +25,8 @@ UnitTags::UnitTags(const UnitSettings& unit)
 const Tag* UnitTags::row(std::uint16_t number)
 {
     if (const Tag* row = table_ != nullptr ? table_->find(number) : nullptr) return row;
-    return &unlisted_.try_emplace(number, unlisted_tag(number)).first->second;
+    const Tag made = unlisted_decimals_ ? unlisted_tag(number, *unlisted_decimals_) : unlisted_tag(number);
+    return &unlisted_.try_emplace(number, made).first->second;
 }
 
 AccessError UnitTags::verdict(const Tag& row, bool is_write) const
@@ -33,6 +36,7 @@ AccessError UnitTags::verdict(const Tag& row, bool is_write) const
     if (is_write && never) return AccessError::read_only;
     if (!row.listed && only_from_table_) return AccessError::invalid_tag;
     if (row.type == TagType::string) return AccessError::unsupported_type;
+    if (is_contradicted(row.number)) return AccessError::contradicted;
     if (is_write && row.access == Access::read_only) return AccessError::read_only;
     if (!is_write && row.access == Access::write_only) return AccessError::unsupported_type;
     return AccessError::none;
@@ -45,6 +49,7 @@ ReadPlan::Item UnitTags::read_item(std::uint16_t number)
     item.error = verdict(*item.row, false);
     item.asked = item.error == AccessError::none;
     item.tried = !item.asked;
+    item.unscaled = scale_from_table_ && !has_scale(*item.row);
     if (!item.asked) item.state = state_of(item.error);
     return item;
 }
@@ -57,7 +62,9 @@ std::vector<ReadPlan::Item> UnitTags::reads_of(const Layout& layout)
         item.input = parameter.reads;
         item.compared = compare_outputs_ && parameter.writes && item.asked &&
                         verdict(*item.row, true) == AccessError::none;
-        if (item.input || item.compared) items.push_back(item);
+        item.form =
+            parameter.writes && item.unscaled && item.asked && verdict(*item.row, true) == AccessError::none;
+        if (item.input || item.compared || item.form) items.push_back(item);
     }
     for (const std::uint16_t tag : watched_) {
         ReadPlan::Item item = read_item(tag);
@@ -74,6 +81,7 @@ std::vector<ReadPlan::Item> UnitTags::reads_of(const Layout& layout)
         }
         merged.back().input = merged.back().input || item.input;
         merged.back().compared = merged.back().compared || item.compared;
+        merged.back().form = merged.back().form || item.form;
         merged.back().watched = merged.back().watched || item.watched;
     }
     return merged;

@@ -9,6 +9,8 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -33,6 +35,11 @@ public:
     /// ascending.
     std::vector<ReadPlan::Item> reads_of(const Layout& layout);
     std::vector<OutputPlan::Item> outputs_of(const Layout& layout);
+    /// The drive has answered with more decimals than the row gives: refused for as long as this lives, which
+    /// is until the table changes.
+    void contradict(std::uint16_t number) { contradicted_.insert(number); }
+    bool is_contradicted(std::uint16_t number) const { return contradicted_.count(number) != 0; }
+
     const std::vector<std::uint16_t>& watched() const { return watched_; } ///< kMaxWatched at most
 
 private:
@@ -41,8 +48,11 @@ private:
     const TagTable* table_;
     bool only_from_table_;
     bool compare_outputs_;
+    bool scale_from_table_;
+    std::optional<std::uint8_t> unlisted_decimals_;
     std::vector<std::uint16_t> never_written_;
     std::vector<std::uint16_t> watched_;
+    std::set<std::uint16_t> contradicted_;
     std::map<std::uint16_t, Tag> unlisted_; ///< rows of tags that are in no table; they stay where they are
 };
 

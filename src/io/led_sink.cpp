@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpslave/io/led_sink.hpp"
 
+#include "gpio_chips.hpp"
+
 #include "dpslave/io/fd.hpp"
 #include "dpslave/io/gpio.hpp"
 
@@ -15,6 +17,7 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace dpslave::io {
 namespace {
@@ -188,7 +191,83 @@ std::pair<std::string, std::string> cut(const std::string& text, std::size_t col
     return {text.substr(0, colon), text.substr(colon + 1)};
 }
 
+/// A GPIO chip of sysfs: <sysfs>/class/gpio/gpiochipBASE.
+struct SysfsChip {
+    unsigned base = 0;
+    unsigned pins = 0;
+    std::string label;
+    std::string device; ///< "gpiochip0", as /dev has it; empty = not known
+};
+
+/// The character device of a chip stands in the folder of the device that it belongs to.
+std::string device_of(const fs::path& chip)
+{
+    std::error_code error;
+    for (fs::directory_iterator entry{chip / "device", error}, end; !error && entry != end;
+         entry.increment(error)) {
+        const std::string name = entry->path().filename().string();
+        if (name.starts_with("gpiochip") && number_of(std::string_view{name}.substr(8))) return name;
+    }
+    return {};
+}
+
+std::vector<SysfsChip> sysfs_chips(const fs::path& gpio)
+{
+    std::vector<SysfsChip> chips;
+    std::error_code error;
+    for (fs::directory_iterator entry{gpio, error}, end; !error && entry != end; entry.increment(error)) {
+        const auto base = number_of(read_line(entry->path() / "base"));
+        const auto pins = number_of(read_line(entry->path() / "ngpio"));
+        if (base && pins)
+            chips.push_back({*base, *pins, read_line(entry->path() / "label"), device_of(entry->path())});
+    }
+    return chips;
+}
+
+std::string line_target(const std::string& chip, unsigned line)
+{
+    return "line:" + chip + ':' + std::to_string(line);
+}
+
+/// "gpio:N" and "gpio:LABEL:OFFSET" as the line of a chip, as far as sysfs tells; else by the number.
+std::string pin_target(const std::string& name, const fs::path& gpio)
+{
+    const auto number = numbered(name, gpio);
+    if (!number) return "gpio:" + name;
+    for (const SysfsChip& chip : sysfs_chips(gpio))
+        if (!chip.device.empty() && *number >= chip.base && *number - chip.base < chip.pins)
+            return line_target(chip.device, *number - chip.base);
+    return "gpio:" + std::to_string(*number);
+}
+
+/// A chip by its path, name or label as "gpiochip0", as far as that can be known without opening it.
+std::string chip_target(const std::string& chip, const fs::path& gpio)
+{
+    std::error_code error;
+    if (is_path(chip)) {
+        const fs::path real = fs::weakly_canonical(chip, error);
+        const fs::path path = error ? fs::path{chip}.lexically_normal() : real;
+        return path.parent_path() == "/dev" ? path.filename().string() : path.string();
+    }
+    for (const SysfsChip& known : sysfs_chips(gpio))
+        if (!known.device.empty() && known.label == chip) return known.device;
+    return chip;
+}
+
 } // namespace
+
+std::string led_sink_target(const std::string& sink, const fs::path& sysfs)
+{
+    const fs::path gpio = sysfs / "class" / "gpio";
+    if (const auto line = line_of_led_sink(sink))
+        return line_target(chip_target(line->chip, gpio), line->line);
+    const auto [kind, rest] = cut(sink, sink.find(':'));
+    if (kind == "gpio") return pin_target(rest, gpio);
+    if (kind != "led") return sink;
+    std::error_code error;
+    const fs::path lamp = fs::canonical(sysfs / "class" / "leds" / rest, error);
+    return "led:" + (error ? rest : lamp.filename().string());
+}
 
 void LedSink::set(bool lit, Instant now)
 {

@@ -130,17 +130,6 @@ std::string wrong(std::string_view key, std::string_view wanted, const Value& va
     return "'" + std::string{key} + "' must be " + std::string{wanted} + ", not " + shown(value) + ".";
 }
 
-bool has_control_characters(std::string_view text)
-{
-    while (!text.empty()) {
-        const std::size_t length =
-            std::max<std::size_t>(1, character_length(text)); // toml++ lets only UTF-8 pass
-        if (is_control(text.substr(0, length))) return true;
-        text.remove_prefix(length);
-    }
-    return false;
-}
-
 bool before(const Fault& left, const Fault& right)
 {
     return std::pair{left.line, left.column} < std::pair{right.line, right.column};
@@ -373,7 +362,8 @@ std::string_view line_of(std::string_view content, unsigned number)
     return content.substr(0, content.find('\n'));
 }
 
-/// The pages write an Ident_Number that no source states as 0x.... : whoever copies that is told what to put there.
+/// The pages write an Ident_Number that no source states as 0x.... : whoever copies that is told what to put
+/// there.
 std::string what_is_wrong(std::string_view content, Place place, std::string_view description)
 {
     const std::string_view line = line_of(content, place.line);

@@ -111,6 +111,8 @@ private:
         if (!profile_.has_tec) return;
         lamp(table, "health", profile_.health);
         lamp(table, "run", profile_.run);
+        lamp(table, "trip_tag", profile_.trip.bit);
+        profile_.trip.is_code = profile_.trip.bit.tag == 0;
     }
 
     static void lamp(Table& table, std::string_view key, MirroredLamp& into)

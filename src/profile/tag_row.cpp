@@ -18,6 +18,10 @@ using drive::WritableWhen;
 /// In column decimals: as many as the instrument's display has.
 constexpr std::string_view kFollowsDisplay = "display";
 
+/// The drive's last error, which the program itself asks for (EI-ASCII reference, section 4). Another case of
+/// the letters is a parameter: tag 518 of an AC drive has "ee" by its rule.
+constexpr std::string_view kErrorMnemonic = "EE";
+
 /// A whole text as an unsigned number; nothing if it is anything else or above `max`.
 std::optional<std::uint32_t> number_of(std::string_view text, int base, std::uint32_t max)
 {
@@ -64,6 +68,8 @@ public:
         tag.number = static_cast<std::uint16_t>(number(kTag, 0xFFFF).value_or(0));
         if (!given(kTag)) fault(kTag, "the tag number is missing: every row needs one.");
         tag.name = text(kName);
+        if (has_control_characters(tag.name))
+            fault(kName, "the name holds a control character or a line break: write plain text on one line.");
         tag.section = text(kSection);
         tag.notes = text(kNotes);
         tag.type = type();
@@ -71,6 +77,8 @@ public:
         tag.is_real =
             text(kType) == "REAL" || tag.follows_display; // what the display shows in decimals is a single
         if (!tag.follows_display) tag.decimals = static_cast<std::uint8_t>(number(kDecimals, 4).value_or(0));
+        tag.decimals_known = tag.type != TagType::number || (given(kDecimals) && !tag.follows_display);
+        tag.confirmed = confirmed();
         if ((tag.decimals > 0 || tag.follows_display) && tag.type != TagType::number)
             fault(kDecimals, "only INT and REAL have decimals: leave the cell empty, or change the type.");
         tag.access = access();
@@ -129,6 +137,16 @@ private:
         return Access::unknown;
     }
 
+    bool confirmed()
+    {
+        const std::string_view word = text(kConfirmed);
+        if (!word.empty() && word != "yes" && word != "no")
+            fault(kConfirmed, "confirmed " + in_quotes(word) +
+                                  ": write yes, or no for a row that a survey has made and no person has "
+                                  "compared with the drive's manual.");
+        return word != "no";
+    }
+
     WritableWhen when()
     {
         const std::string_view word = text(kWhen);
@@ -148,6 +166,10 @@ private:
         const auto reg = number(kRegister, 0xFFFF);
         if (!reg) return;
         tag.modbus_register = static_cast<std::uint16_t>(*reg);
+        if (*reg >= ieee_area && *reg % 2 != 0)
+            fault(kRegister, "register " + in_quotes(text(kRegister)) +
+                                 " is odd: in the IEEE area (32768 and above) a tag has two registers and "
+                                 "begins at an even one, 32768 + 2 x tag.");
         const bool has_ieee_form =
             tag.type != TagType::string && (tag.type != TagType::number || tag.is_real);
         if (*reg >= ieee_area && !has_ieee_form)
@@ -166,6 +188,9 @@ private:
             fault(kMnemonic,
                   "mnemonic " + in_quotes(word) +
                       ": write two printable characters, or leave it empty for the profile's rule.");
+        if (word == kErrorMnemonic)
+            fault(kMnemonic, "mnemonic \"EE\" is the drive's last error on an EI-ASCII line, no parameter: "
+                             "write the one of the tag, or leave it empty for the profile's rule.");
         return std::string{word};
     }
 
@@ -312,6 +337,22 @@ bool same_labels(const std::vector<Label>& left, const std::vector<Label>& right
 
 } // namespace
 
+std::string_view nearly_a_column(std::string_view name)
+{
+    static const std::vector<std::string> names{kColumnNames.begin(), kColumnNames.end()};
+    if (std::find(names.begin(), names.end(), name) != names.end()) return {};
+    std::string letters;
+    for (const char c : name) {
+        const bool is_large = c >= 'A' && c <= 'Z';
+        if (is_large || (c >= 'a' && c <= 'z')) letters += static_cast<char>(is_large ? c - 'A' + 'a' : c);
+    }
+    for (const std::string& legal : names) { // "decimal places", "mnemonics"
+        const std::string_view stem{legal.data(), legal.size() - (legal.back() == 's' ? 1 : 0)};
+        if (stem.size() >= 6 && letters.starts_with(stem)) return legal;
+    }
+    return nearest(letters, names, letters.size() > 5 ? 2 : letters.size() > 2 ? 1 : 0);
+}
+
 std::string_view Columns::text(const Row& row, Column column) const
 {
     const std::size_t cell = index[column];
@@ -331,8 +372,8 @@ std::optional<Tag> read_tag(const Row& row, const Columns& columns, const std::s
 
 bool is_name_only(const Row& row, const Columns& columns)
 {
-    constexpr std::array says_more{kType, kDecimals, kMin,      kMax,   kAccess,
-                                   kWhen, kMnemonic, kRegister, kValues};
+    constexpr std::array says_more{kType, kDecimals, kMin,      kMax,    kAccess,
+                                   kWhen, kMnemonic, kRegister, kValues, kConfirmed};
     return std::all_of(says_more.begin(), says_more.end(),
                        [&](Column column) { return columns.text(row, column).empty(); });
 }
@@ -345,6 +386,7 @@ std::optional<Column> contradiction(const Tag& known, const Tag& tag, const Row&
         return kDecimals;
     if (given(kMin) && known.min != tag.min) return kMin;
     if (given(kMax) && known.max != tag.max) return kMax;
+    if (given(kConfirmed) && known.confirmed != tag.confirmed) return kConfirmed;
     if (given(kAccess) && known.access != tag.access) return kAccess;
     if (given(kWhen) && known.when != tag.when) return kWhen;
     if (given(kMnemonic) && known.mnemonic != tag.mnemonic) return kMnemonic;

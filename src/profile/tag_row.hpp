@@ -28,11 +28,16 @@ enum Column : std::size_t {
     kValues,
     kSection,
     kNotes,
+    kConfirmed,
     kColumns,
 };
 constexpr std::array<std::string_view, kColumns> kColumnNames{
-    "tag",  "name",     "type",     "decimals", "min",     "max",  "access",
-    "when", "mnemonic", "register", "values",   "section", "notes"};
+    "tag",  "name",     "type",     "decimals", "min",     "max",   "access",
+    "when", "mnemonic", "register", "values",   "section", "notes", "confirmed"};
+
+/// The column that `name` nearly is: other letters large or small, other signs between them, a letter wrong
+/// ("Decimals", "min.", "decimal"). Empty: it is one, or none is near.
+std::string_view nearly_a_column(std::string_view name);
 
 /// Which cell of a row is which column.
 struct Columns {

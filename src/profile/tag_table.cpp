@@ -29,9 +29,11 @@ public:
             fault(0, 0, "the table is empty: its first line names the columns, tag at least.");
             return Failure{faults_};
         }
-        if (rows.front().good && header(rows.front()))
+        if (rows.front().good && header(rows.front())) {
             for (std::size_t i = 1; i < rows.size() && faults_.size() <= kMaxFaults; ++i)
                 if (rows[i].good) add(rows[i]);
+            refuse_shared_mnemonics();
+        }
         if (!faults_.empty()) {
             std::stable_sort(faults_.begin(), faults_.end(), [](const Fault& left, const Fault& right) {
                 return std::pair{left.line, left.column} < std::pair{right.line, right.column};
@@ -58,7 +60,14 @@ private:
             const Cell& cell = row.cells[i];
             names.push_back(cell.text);
             const auto column = std::find(kColumnNames.begin(), kColumnNames.end(), cell.text);
-            if (column == kColumnNames.end()) continue;
+            if (column == kColumnNames.end()) {
+                if (const auto meant = nearly_a_column(cell.text); !meant.empty())
+                    fault(cell.line, cell.column,
+                          "column " + in_quotes(cell.text) + " is nearly " + in_quotes(meant) +
+                              " and would not be read: write " + in_quotes(meant) +
+                              ", or give the column a name that is not so near.");
+                continue;
+            }
             std::size_t& index = columns_.index[static_cast<std::size_t>(column - kColumnNames.begin())];
             if (index == Columns::kAbsent)
                 index = i;
@@ -126,6 +135,23 @@ private:
         } else if (!tag.name.empty() && tag.name != first.name &&
                    aliases_.emplace(tag.number, tag.name).second) {
             first.aliases.push_back(tag.name);
+        }
+    }
+
+    /// Two tags that one mnemonic reaches are one parameter under two scales.
+    void refuse_shared_mnemonics()
+    {
+        std::map<std::string, const Tag*> known;
+        for (const Tag& tag : tags_) {
+            if (tag.mnemonic.empty()) continue;
+            const auto [first, is_new] = known.try_emplace(tag.mnemonic, &tag);
+            if (is_new) continue;
+            fault(
+                firsts_.at(tag.number).line, 0,
+                "mnemonic " + in_quotes(tag.mnemonic) + " of tag " + std::to_string(tag.number) +
+                    " is that of tag " + std::to_string(first->second->number) + " on line " +
+                    std::to_string(firsts_.at(first->second->number).line) +
+                    ": one of the two is wrong, correct it or leave its cell empty for the profile's rule.");
         }
     }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpslave/profile/wording.hpp"
 
+#include "dpslave/base/printable.hpp"
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -13,12 +15,28 @@ std::string in_quotes(std::string_view text)
     return '"' + std::string{text} + '"';
 }
 
+bool has_control_characters(std::string_view text)
+{
+    while (!text.empty()) {
+        const std::size_t length =
+            std::max<std::size_t>(1, character_length(text)); // what is no UTF-8 was refused when it was read
+        if (is_control(text.substr(0, length))) return true;
+        text.remove_prefix(length);
+    }
+    return false;
+}
+
 std::string_view nearest(std::string_view wrong, std::span<const std::string> legal)
+{
+    return nearest(wrong, legal, std::max<std::size_t>(2, wrong.size() / 3));
+}
+
+std::string_view nearest(std::string_view wrong, std::span<const std::string> legal, std::size_t most)
 {
     constexpr std::size_t longest = 64; // no key and no name of ours has so many octets
     if (wrong.size() > longest) return {};
     std::string_view best;
-    std::size_t best_distance = std::max<std::size_t>(2, wrong.size() / 3) + 1;
+    std::size_t best_distance = most + 1;
     for (const std::string& candidate : legal) {
         // Levenshtein's distance, row by row.
         std::vector<std::size_t> row(candidate.size() + 1);

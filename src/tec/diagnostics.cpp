@@ -63,7 +63,9 @@ constexpr std::uint16_t code_of(AccessError error)
         case AccessError::not_stopped: return 3;
         case AccessError::not_config_mode: return 4;
         case AccessError::unsupported_type:
-        case AccessError::value_not_encoded: return 5;
+        case AccessError::value_not_encoded:
+        case AccessError::no_scale:
+        case AccessError::contradicted: return 5;
         case AccessError::invalid_tag: return 6;
     }
     return 0;
@@ -93,6 +95,7 @@ NetworkState network_state(OptionFault fault, const Hardware& hardware, const dp
         case dp::State::wait_prm: return NetworkState::wait_param;
         case dp::State::wait_cfg: return NetworkState::wait_config;
         case dp::State::data_exch:
+            if (bus.holds) return NetworkState::wait_config; // the exchange has not begun
             return parameter_fails(bus, drive) ? NetworkState::data_ex_error : NetworkState::data_exchange;
     }
     return NetworkState::baud_search;

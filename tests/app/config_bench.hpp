@@ -56,7 +56,7 @@ protected:
             folder_.write("profiles/" + file.path().filename().string(), content_of(file.path()));
         for (const auto& file : std::filesystem::directory_iterator{kSource / "config/tags"})
             folder_.write("tags/" + file.path().filename().string(), content_of(file.path()));
-        folder_.write("tags/example.csv", "tag,name,type\n55,SPEED,INT\n1200,MOTTO,STRING\n");
+        folder_.write("tags/empty.csv", "tag,name,type,decimals\n55,SPEED,INT,0\n1200,MOTTO,STRING,\n");
     }
 
     Result<app::Config, profile::Faults> load(std::string_view content) const

@@ -128,7 +128,7 @@ TEST_F(TecKeys, left_out_mean_the_defaults_of_the_manual)
     ASSERT_TRUE(station.tec);
     EXPECT_EQ(station.tec->start, (tec::Settings{.address = 5})) << "the address is that of the station";
     EXPECT_EQ(station.tec->start.type, tec::kProfibusDp);
-    EXPECT_EQ(station.tec->trip_tag, 0);
+    EXPECT_EQ(station.tec->trip, profile::TripSource{});
     EXPECT_EQ(station.tec->ext_diagnostic_tag, 0);
     EXPECT_EQ(station.tec->health, station.profile->health);
     EXPECT_EQ(station.tec->run, station.profile->run);
@@ -156,7 +156,8 @@ run = "!272.4"
                                                  .int_diag_select = 100,
                                                  .ride_through = 5,
                                                  .unused_1 = 7}));
-    EXPECT_EQ(station.tec->trip_tag, 4);
+    EXPECT_EQ(station.tec->trip.bit.tag, 4);
+    EXPECT_TRUE(station.tec->trip.is_code);
     EXPECT_EQ(station.tec->ext_diagnostic_tag, 31);
     EXPECT_EQ(station.tec->health, (profile::MirroredLamp{.tag = 272, .mask = 0x0008, .inverted = false}));
     EXPECT_EQ(station.tec->run, (profile::MirroredLamp{.tag = 272, .mask = 0x0010, .inverted = true}));
@@ -172,24 +173,46 @@ TEST_F(TecKeys, of_a_590plus_name_its_trip_by_a_bit_or_its_contrary)
     };
 
     const StationConfig not_healthy = trip("\"!537.11\"");
-    EXPECT_EQ(not_healthy.tec->trip_tag, 537);
-    EXPECT_EQ(not_healthy.tec->trip_mask, 0x0800);
-    EXPECT_TRUE(not_healthy.tec->trip_inverted);
+    EXPECT_EQ(not_healthy.tec->trip.bit,
+              (profile::MirroredLamp{.tag = 537, .mask = 0x0800, .inverted = true}));
+    EXPECT_FALSE(not_healthy.tec->trip.is_code);
     EXPECT_THAT(not_healthy.watched, ElementsAre(537));
-    EXPECT_EQ(trip("\"!12\"").tec->trip_mask, 0xFFFF);
-    EXPECT_TRUE(trip("\"!12\"").tec->trip_inverted);
-    EXPECT_EQ(trip("12").tec->trip_tag, 12);
-    EXPECT_FALSE(trip("12").tec->trip_inverted) << "any bit is a trip";
+    EXPECT_EQ(trip("\"!12\"").tec->trip.bit, (profile::MirroredLamp{.tag = 12, .inverted = true}));
+    EXPECT_EQ(trip("12").tec->trip.bit, profile::MirroredLamp{.tag = 12}) << "any bit is a trip";
     EXPECT_THAT(trip("\"none\"").watched, IsEmpty());
     EXPECT_THAT(trip("0").watched, IsEmpty());
     EXPECT_THAT(short_forms(bad(dc + "[station.tec]\ntrip_tag = \"537.16\"\n")),
-                ElementsAre(AllOf(StartsWith("22:12: "), HasSubstr("as in \"537.11\""))));
+                ElementsAre(AllOf(StartsWith("22:12: "), HasSubstr("as in \"272.3\""))));
 }
 
-TEST_F(TecKeys, of_a_device_with_trip_codes_take_no_bit_for_the_trip)
+TEST_F(TecKeys, of_every_box_may_name_the_trip_by_a_bit)
 {
-    EXPECT_THAT(short_forms(bad(kBox + "[station.tec]\ntrip_tag = \"!12\"\n")),
-                ElementsAre(AllOf(StartsWith("21:12: "), HasSubstr("low octet"), HasSubstr("as a number"))));
+    const StationConfig station = box("[station.tec]\ntrip_tag = \"272.3\"\n");
+    EXPECT_EQ(station.tec->trip.bit, (profile::MirroredLamp{.tag = 272, .mask = 0x0008}));
+    EXPECT_FALSE(station.tec->trip.is_code);
+}
+
+TEST_F(TecKeys, of_a_690plus_and_a_590plus_have_their_trip_from_the_profile)
+{
+    const std::string ac = with(with(kBox, "605", "690plus"), "line = ", "ident = 0x0A0B\nline = ");
+    const std::string dc = with(with(kBox, "605", "590plus"), "line = ", "ident = 0x0A0B\nline = ");
+    const profile::TripSource tripped{{.tag = 272, .mask = 0x0008, .inverted = false}, false};
+    const profile::TripSource not_healthy{{.tag = 537, .mask = 0x0800, .inverted = true}, false};
+
+    EXPECT_EQ(good(ac).stations.at(0).tec->trip, tripped);
+    EXPECT_EQ(good(dc).stations.at(0).tec->trip, not_healthy);
+    EXPECT_EQ(good(ac + "[station.tec]\ntrip_tag = 0\n").stations.at(0).tec->trip, profile::TripSource{});
+}
+
+TEST_F(TecKeys, that_name_no_trip_are_warned_of_at_the_start)
+{
+    const auto says_so = testing::Contains(HasSubstr("trips of station \"unwinder\" are not known"));
+    const std::string ac = with(with(kBox, "605", "690plus"), "line = ", "ident = 0x0A0B\nline = ");
+
+    EXPECT_THAT(short_forms(good(kBox).warnings), says_so);
+    EXPECT_THAT(short_forms(good(kBox + "[station.tec]\ntrip_tag = 4\n").warnings), Not(says_so));
+    EXPECT_THAT(short_forms(good(ac).warnings), Not(says_so));
+    EXPECT_THAT(short_forms(good(ac + "[station.tec]\ntrip_tag = 0\n").warnings), says_so);
 }
 
 TEST_F(TecKeys, of_the_lamps_of_a_box_that_has_none_say_so)
@@ -200,7 +223,7 @@ TEST_F(TecKeys, of_the_lamps_of_a_box_that_has_none_say_so)
     EXPECT_EQ(mirrors.tec->health, (profile::MirroredLamp{.tag = 272, .mask = 0x0008, .inverted = true}));
     EXPECT_THAT(mirrors.watched, ElementsAre(272));
     const StationConfig none =
-        good(frame_c + "[station.tec]\nhealth = \"none\"\nrun = \"none\"\n").stations.at(0);
+        good(frame_c + "[station.tec]\nhealth = \"none\"\nrun = \"none\"\ntrip_tag = 0\n").stations.at(0);
     EXPECT_EQ(none.tec->health, profile::MirroredLamp{});
     EXPECT_EQ(none.tec->run, profile::MirroredLamp{});
     EXPECT_THAT(none.watched, testing::IsEmpty()) << "nothing is polled for them";

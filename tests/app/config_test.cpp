@@ -74,7 +74,7 @@ TEST_F(ConfigFile, a_station_has_the_personality_and_the_tags_of_its_profile)
     EXPECT_EQ(station.personality->max_tsdr, station.profile->personality.max_tsdr);
     EXPECT_EQ(station.personality->demand_error_base, 0);
     EXPECT_EQ(station.tags->find(55)->name, "SPEED");
-    EXPECT_THAT(station.tag_file, EndsWith("tags/example.csv"));
+    EXPECT_THAT(station.tag_file, EndsWith("tags/empty.csv"));
     EXPECT_EQ(station.line, 0U);
     EXPECT_EQ(station.unit, (drive::UnitAddress{0, 0}));
     EXPECT_EQ(station.unit_text, "00");
@@ -562,7 +562,7 @@ TEST_F(ConfigFile, an_error_base_without_demand_data_is_a_fault)
 TEST_F(ConfigFile, all_faults_of_configuration_profiles_and_tables_are_told_in_one_run)
 {
     change_profile("broken", "ident = 0x0533", "ident = \"x\"");
-    folder_.write("tags/example.csv", "tag\nx\n");
+    folder_.write("tags/empty.csv", "tag\nx\n");
     folder_.write("etc/own.csv", "tag\n1\n70000\n");
     std::string text = with(with(kGood, "baud = 187500", "baud = \"atuo\""), "direction", "directoin");
     text = with(with(text, "\"590\"", "\"broken\""), "unit = \"00\"", "unit = \"xx\"\ntags = \"own.csv\"");
@@ -581,12 +581,12 @@ TEST_F(ConfigFile, all_faults_of_configuration_profiles_and_tables_are_told_in_o
                     AllOf(StartsWith("dpslaved.toml:19:8: "), HasSubstr("two hexadecimal digits")),
                     AllOf(StartsWith("dpslaved.toml:24:11: "), HasSubstr("address 5 stands on line 16")),
                     AllOf(StartsWith("broken.toml:"), HasSubstr("'ident' must be a whole number")),
-                    StartsWith("example.csv:2:1: "), StartsWith("own.csv:3:1: ")));
+                    StartsWith("empty.csv:2:1: "), StartsWith("own.csv:3:1: ")));
 }
 
 TEST_F(ConfigFile, a_table_of_two_profiles_tells_its_faults_once)
 {
-    folder_.write("tags/example.csv", "tag\nx\n");
+    folder_.write("tags/empty.csv", "tag\nx\n");
 
     EXPECT_THAT(short_forms(bad(std::string{kGood} + kSecondStation)), ElementsAre(StartsWith("2:1: ")));
 }
@@ -631,25 +631,136 @@ TEST_F(ConfigWarning, a_max_tsdr_above_1000_is_more_than_many_masters_wait)
 TEST_F(ConfigWarning, tags_without_mnemonic_are_named_once_a_table)
 {
     change_profile("plain", R"(mnemonic_rule = "590plus")", R"(mnemonic_rule = "none")");
-    folder_.write("tags/example.csv", "tag,type,mnemonic\n1,INT,aa\n2,INT,\n3,STRING,\n4,WORD,\n");
+    folder_.write("tags/empty.csv",
+                  "tag,type,decimals,mnemonic\n1,INT,0,aa\n2,INT,0,\n3,STRING,,\n4,WORD,,\n");
     const std::string second = with(kSecondStation, "\"620\"", "\"plain\"");
 
     const Config config = good(with(kGood, "\"590\"", "\"plain\"") + second);
 
     ASSERT_EQ(config.warnings.size(), 1U);
-    EXPECT_THAT(config.warnings[0].file, EndsWith("tags/example.csv"));
-    EXPECT_THAT(config.warnings[0].what, StartsWith("no mnemonic for tag 2, 4: they read as invalid tag"));
+    EXPECT_THAT(config.warnings[0].file, EndsWith("tags/empty.csv"));
+    EXPECT_THAT(config.warnings[0].what, StartsWith("no mnemonic for tags 2, 4: they read as invalid tag"));
 }
 
-TEST_F(ConfigWarning, of_many_tags_without_mnemonic_the_first_eight_are_named)
+TEST_F(ConfigWarning, of_many_tags_without_mnemonic_the_first_sixteen_are_named)
 {
     change_profile("plain", R"(mnemonic_rule = "590plus")", R"(mnemonic_rule = "none")");
-    std::string table = "tag\n";
-    for (int tag = 1; tag <= 11; ++tag) table += std::to_string(tag) + "\n";
-    folder_.write("tags/example.csv", table);
+    std::string table = "tag,decimals\n";
+    for (int tag = 1; tag <= 19; ++tag) table += std::to_string(tag) + ",0\n";
+    folder_.write("tags/empty.csv", table);
 
     EXPECT_THAT(short_forms(good(with(kGood, "\"590\"", "\"plain\"")).warnings),
-                ElementsAre(HasSubstr("7, 8 and 3 more")));
+                ElementsAre(HasSubstr("15, 16 and 3 more")));
+}
+
+TEST_F(ConfigWarning, numbers_without_decimals_are_named_once_a_table)
+{
+    folder_.write("tags/empty.csv", "tag,type,decimals\n1,INT,\n2,,\n3,WORD,\n4,REAL,0\n");
+
+    const Config config = good(std::string{kGood} + kSecondStation);
+
+    ASSERT_EQ(config.warnings.size(), 1U);
+    EXPECT_THAT(config.warnings[0].file, EndsWith("tags/empty.csv"));
+    EXPECT_THAT(config.warnings[0].what, StartsWith("tags 1, 2 are numbers without decimals"));
+}
+
+TEST_F(ConfigWarning, of_the_650v_sixteen_numbers_without_decimals_are_named)
+{
+    const Config config = good(std::string{kGood} + "tags = \"../tags/650v.csv\"\n");
+
+    EXPECT_THAT(
+        short_forms(config.warnings),
+        Contains(HasSubstr("tags 64, 66, 67, 83, 84, 124, 247, 251, 258, 259, 265, 269, 299, 1158, 1159, "
+                           "1160 are numbers without decimals")));
+}
+
+TEST_F(ConfigWarning, rows_that_wait_for_confirmation_are_named)
+{
+    folder_.write("tags/empty.csv",
+                  "tag,type,decimals,confirmed\n1,INT,1,no\n2,INT,1,yes\n3,INT,1,\n4,WORD,,no\n");
+
+    EXPECT_THAT(short_forms(good(kGood).warnings), ElementsAre(HasSubstr("tags 1, 4 wait for confirmation")));
+}
+
+TEST_F(ConfigWarning, a_station_without_a_tag_table_is_named)
+{
+    folder_.write("tags/empty.csv", "tag\n");
+
+    EXPECT_THAT(short_forms(good(kGood).warnings),
+                ElementsAre(AllOf(HasSubstr("station \"unwinder\" has no tag table"),
+                                  HasSubstr("the exchange does not begin"))));
+    EXPECT_THAT(short_forms(good(std::string{kGood} + "unlisted_decimals = 2\n").warnings),
+                ElementsAre(HasSubstr("taken with 2 decimals")));
+}
+
+TEST_F(ConfigFile, what_becomes_of_tags_without_a_scale_is_read)
+{
+    const Config plain = good(kGood);
+    EXPECT_EQ(plain.stations[0].unlisted_decimals, std::nullopt);
+    EXPECT_TRUE(plain.stations[0].unscaled_holds);
+    const Config zero = good(std::string{kGood} + "unlisted_decimals = 0\nunscaled_tags = \"zero\"\n");
+    EXPECT_EQ(zero.stations[0].unlisted_decimals, 0);
+    EXPECT_FALSE(zero.stations[0].unscaled_holds);
+    EXPECT_THAT(short_forms(bad(std::string{kGood} + "unlisted_decimals = 5\n")),
+                ElementsAre(HasSubstr("from 0 to 4")));
+    EXPECT_THAT(short_forms(bad(std::string{kGood} + "unscaled_tags = \"hold\"\n")),
+                ElementsAre(HasSubstr("\"refuse\"")));
+}
+
+TEST_F(ConfigFile, a_mnemonic_of_the_table_that_the_rule_gives_to_another_tag_is_refused)
+{
+    folder_.write("tags/empty.csv", "tag,type,mnemonic\n536,WORD,\n9,WORD,ow\n");
+
+    EXPECT_THAT(short_forms(bad(kGood)),
+                ElementsAre(AllOf(HasSubstr("tags 9 and 536"), HasSubstr("\"ow\""))));
+}
+
+TEST_F(ConfigFile, a_station_name_that_is_a_number_is_refused)
+{
+    for (const char* name : {"\"5\"", "\"0x1F\"", "\"-12\"", "\"1.5\""})
+        EXPECT_THAT(short_forms(bad(with(kGood, "\"unwinder\"", name))),
+                    ElementsAre(AllOf(StartsWith("15:8: "), HasSubstr("is a number"))))
+            << name;
+    EXPECT_EQ(good(with(kGood, "\"unwinder\"", "\"winder 5\"")).stations[0].name, "winder 5");
+}
+
+TEST_F(ConfigFile, a_control_character_in_a_name_is_refused)
+{
+    for (const char* name : {"\"a\\u001bb\"", "\"a\\u009bb\"", "\"a\\tb\""})
+        EXPECT_THAT(short_forms(bad(with(kGood, "\"unwinder\"", name))),
+                    ElementsAre(AllOf(StartsWith("15:8: "), HasSubstr("control character"))))
+            << name;
+    EXPECT_EQ(good(with(kGood, "\"unwinder\"", "\"Abwickler \u00fc\"")).stations[0].name, "Abwickler \u00fc");
+}
+
+/// A machine whose chip of 32 lines begins at 512 in sysfs.
+class LampNames : public ConfigFile {
+protected:
+    LampNames()
+    {
+        folder_.write("sys/class/gpio/gpiochip512/base", "512\n");
+        folder_.write("sys/class/gpio/gpiochip512/ngpio", "32\n");
+        folder_.write("sys/class/gpio/gpiochip512/label", "lamps\n");
+        folder_.write("sys/class/gpio/gpiochip512/device/gpiochip3/dev", "254:3\n");
+    }
+    std::string lamps(const std::string& red, const std::string& green) const
+    {
+        return std::string{kGood} + "[station.leds]\nred = \"" + red + "\"\ngreen = \"" + green +
+               "\"\n[leds]\nsysfs = \"" + (folder_.path() / "sys").string() + "\"\n";
+    }
+};
+
+TEST_F(LampNames, two_names_of_one_lamp_are_refused)
+{
+    for (const char* other : {"gpio:523", "gpio:0523", "gpio:lamps:11", "line:/dev/gpiochip3:11",
+                              "line:gpiochip3:11", "line:lamps:11", "line:/dev/../dev/gpiochip3:11"})
+        EXPECT_THAT(short_forms(bad(lamps("line:/dev/gpiochip3:11", other))),
+                    ElementsAre(HasSubstr("stands on line 21 already")))
+            << other;
+    EXPECT_TRUE(load(lamps("line:/dev/gpiochip3:11", "gpio:524")));
+    EXPECT_TRUE(load(lamps("line:/dev/gpiochip3:11", "line:/dev/gpiochip4:11")));
+    EXPECT_THAT(short_forms(bad(lamps("led:x", "led:x"))),
+                ElementsAre(HasSubstr("stands on line 21 already")));
 }
 
 class ShippedSample : public ConfigFile {
@@ -743,7 +854,7 @@ ident = 1
 
     ASSERT_TRUE(shown.stations.at(1).tec && left_out.stations.at(1).tec);
     EXPECT_EQ(shown.stations[1].tec->start, left_out.stations[1].tec->start);
-    EXPECT_EQ(shown.stations[1].tec->trip_tag, left_out.stations[1].tec->trip_tag);
+    EXPECT_EQ(shown.stations[1].tec->trip, left_out.stations[1].tec->trip);
     EXPECT_EQ(shown.stations[1].tec->ext_diagnostic_tag, left_out.stations[1].tec->ext_diagnostic_tag);
     EXPECT_EQ(shown.stations[1].zero_after, left_out.stations[1].zero_after);
     for (const std::size_t station : {1U, 2U}) {

@@ -41,7 +41,7 @@ public:
         profile_->leds = led::Language::technology_box;
         app::TecConfig tec;
         tec.start.address = 5;
-        tec.trip_tag = 4;
+        tec.trip.bit.tag = 4;
         tec.health = {.tag = 272, .mask = 0x0008, .inverted = false};
         tec.run = {.tag = 272, .mask = 0x0010, .inverted = true};
         station.tec = tec;

@@ -17,6 +17,7 @@ using testing::Field;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
+using testing::StartsWith;
 
 auto says(const char* text)
 {
@@ -78,8 +79,8 @@ TEST_F(Box, Of590PlusTellsATripWithoutItsReason)
 TEST_F(Box, Of590PlusIsTrippedWhileItIsNotHealthy)
 {
     bench.is_a_box(profile::DiagForm::tripped);
-    bench.station.tec->trip_mask = 0x0800; // "!4.11"
-    bench.station.tec->trip_inverted = true;
+    bench.station.tec->trip.bit.mask = 0x0800; // "!4.11"
+    bench.station.tec->trip.bit.inverted = true;
     EXPECT_THAT(block(), ElementsAre(0x04, 0x00, 0x00, 0x00)) << "a bit that was never read is no trip";
     EXPECT_EQ(device->tripped(), std::nullopt);
 
@@ -89,6 +90,24 @@ TEST_F(Box, Of590PlusIsTrippedWhileItIsNotHealthy)
     bench.drive_reads({0x1000, 0});
     EXPECT_THAT(block(), ElementsAre(0x04, 31, 0x00, 0x00));
     EXPECT_EQ(device->tripped(), true);
+}
+
+TEST_F(Box, OfAnyDeviceTellsABitOfATripAs31)
+{
+    bench.station.tec->trip = {{.tag = 4, .mask = 0x0008}, false}; // "4.3"
+    bench.drive_reads({0x0008, 0});
+    EXPECT_THAT(block(), ElementsAre(0x04, 31, 0x00, 0x00));
+    EXPECT_EQ(device->trip(), "31: TRIPPED");
+    bench.drive_reads({0x0001, 0}); // as a code it would be LINK OVERVOLTS
+    EXPECT_THAT(block(), ElementsAre(0x04, 0x00, 0x00, 0x00));
+}
+
+TEST_F(Box, SaysThatTripsAreNotKnownWhereNoTagTellsThem)
+{
+    bench.station.tec->trip = {};
+    EXPECT_THAT(*looked().trip(), StartsWith("not known"));
+    EXPECT_EQ(device->tripped(), std::nullopt);
+    EXPECT_THAT(block(), ElementsAre(0x04, 0x00, 0x00, 0x00));
 }
 
 TEST_F(Box, DoesNotKnowTheTripBeforeItsTagWasRead)

@@ -122,7 +122,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_F(ReloadPlan, SeesAProfileOrATagTableThatIsAnotherOneUnderTheSameName)
 {
     const Config present = good(two);
-    folder_.write("tags/example.csv", "tag,name,type\n55,SPEED,INT\n56,SETPOINT,INT\n");
+    folder_.write("tags/empty.csv", "tag,name,type\n55,SPEED,INT\n56,SETPOINT,INT\n");
     const Plan other_tags = app::plan_reload(present, addresses_of(present), good(two));
     EXPECT_THAT(stays(other_tags), ElementsAre(std::nullopt, std::nullopt));
 

@@ -23,6 +23,7 @@ inline constexpr std::array kRefusals{
     Refusal{AccessError::not_config_mode, WordState::refused},
     Refusal{AccessError::unsupported_type, WordState::refused},
     Refusal{AccessError::not_understood, WordState::refused},
+    Refusal{AccessError::no_scale, WordState::unscaled},
 };
 
 inline bool is_consistent(WordState state, AccessError error)
@@ -35,6 +36,7 @@ inline bool is_consistent(WordState state, AccessError error)
         case WordState::read_only:
         case WordState::out_of_range:
         case WordState::refused: break;
+        case WordState::unscaled: return error == AccessError::no_scale || error == AccessError::contradicted;
     }
     return std::any_of(kRefusals.begin(), kRefusals.end(), [state, error](const Refusal& one) {
         return one.error == error && one.state == state;

@@ -323,9 +323,10 @@ TEST_F(EiClient, SaysSoWhenTheLineIsUnplugged)
 TEST_F(EiClient, RefusesMoreDecimalsThanTheTableHasAndSaysWhich)
 {
     dc.parameters["i0"].text = "12.345";
-    EXPECT_EQ(read(kDc, demand), AccessError::unsupported_type);
+    EXPECT_EQ(read(kDc, demand), AccessError::contradicted);
     EXPECT_EQ(client.last_trouble(),
-              "tag 288 (INT, 1 decimals) answers '12.345': it has more decimals than the tag table gives");
+              "tag 288 answers '12.345', but its row says INT, 1 decimal: it has more decimals than the tag "
+              "table gives; the tag is refused until the table is corrected and loaded again");
 }
 
 TEST_F(EiClient, ReportsAValueThatDoesNotFitInsteadOfClampingIt)
@@ -363,17 +364,71 @@ TEST_F(EiClient, ReadsAnUnlistedTagBeforeItWritesItForTheFirstTime)
 
 TEST_F(EiClient, NeverWritesAnUnlistedNumberAndSaysWhatTheTableNeeds)
 {
-    EXPECT_EQ(write(kDc, unlisted_tag(288), 1), AccessError::invalid_tag);
+    EXPECT_EQ(write(kDc, unlisted_tag(288), 1), AccessError::no_scale);
     EXPECT_EQ(dc.parameters["i0"].writes, 0u);
-    EXPECT_EQ(read(kDc, unlisted_tag(288)), AccessError::invalid_tag);
-    EXPECT_THAT(client.last_trouble(), HasSubstr("the table needs a line with tag=288"));
+    EXPECT_EQ(read(kDc, unlisted_tag(288)), AccessError::no_scale);
+    EXPECT_THAT(client.last_trouble(), HasSubstr("add a row with tag=288"));
     EXPECT_THAT(client.last_trouble(), HasSubstr("'12.5'"));
+    EXPECT_EQ(client.last_answer(), "12.5");
 }
 
 TEST_F(EiClient, TakesALongTextOfAnUnlistedTagForNoWord)
 {
     dc.parameters["i0"].text = std::string(40, 'A');
-    EXPECT_EQ(read(kDc, unlisted_tag(288)), AccessError::invalid_tag);
+    EXPECT_EQ(read(kDc, unlisted_tag(288)), AccessError::unsupported_type);
+}
+
+TEST_F(EiClient, NeverTakesANumberWhoseRowHasNoDecimals)
+{
+    Tag bare = demand;
+    bare.decimals_known = false;
+    EXPECT_EQ(read(kDc, bare), AccessError::no_scale);
+    EXPECT_THAT(client.last_trouble(), HasSubstr("fill in column decimals"));
+    EXPECT_EQ(write(kDc, bare, 1), AccessError::no_scale);
+    EXPECT_EQ(dc.parameters["i0"].writes, 0u);
+}
+
+TEST_F(EiClient, NeverTakesANumberWhoseRowIsNotConfirmed)
+{
+    Tag suspected = demand;
+    suspected.confirmed = false;
+    EXPECT_EQ(read(kDc, suspected), AccessError::no_scale);
+    EXPECT_THAT(client.last_trouble(), HasSubstr("set confirmed to yes"));
+    EXPECT_EQ(write(kDc, suspected, 1), AccessError::no_scale);
+    EXPECT_EQ(dc.parameters["i0"].writes, 0u);
+}
+
+TEST_F(EiClient, TakesAWordWhateverARowWithoutAScaleSays)
+{
+    Tag bare = row(536, TagType::number);
+    bare.decimals_known = false;
+    dc.parameters["ow"].text = ">12AB";
+    EXPECT_EQ(read(kDc, bare), AccessError::none);
+    EXPECT_EQ(word, 0x12AB);
+    EXPECT_EQ(write(kDc, bare, 0x0205), AccessError::none);
+    EXPECT_EQ(dc.parameters["ow"].text, ">0205");
+}
+
+TEST_F(EiClient, GivesTagsWithoutARowTheOneScaleOfTheStation)
+{
+    EXPECT_EQ(read(kDc, unlisted_tag(288, 2)), AccessError::none);
+    EXPECT_EQ(word, 1250);
+    EXPECT_EQ(write(kDc, unlisted_tag(288, 2), 575), AccessError::none);
+    EXPECT_EQ(dc.parameters["i0"].text, "5.75");
+    EXPECT_EQ(read(kDc, unlisted_tag(537, 2)), AccessError::none);
+    EXPECT_EQ(word, 0x1B0B) << "an answer with > is a word";
+    dc.parameters["i0"].text = "5.755";
+    EXPECT_EQ(read(kDc, unlisted_tag(288, 2)), AccessError::contradicted);
+}
+
+TEST_F(EiClient, LooksAgainBeforeItWritesToADriveThatMayBeAnotherOne)
+{
+    ASSERT_EQ(write(kDc, unlisted_tag(536), 0x0201), AccessError::none);
+    ASSERT_TRUE(client.probe(kDc)); // a lost drive is probed until it answers
+    dc.parameters["ow"] = {.text = "7.5"};
+
+    EXPECT_EQ(write(kDc, unlisted_tag(536), 0x0203), AccessError::no_scale);
+    EXPECT_EQ(dc.parameters["ow"].writes, 0u);
 }
 
 TEST_F(EiClient, TakesTheWireTimeOfTheReference)

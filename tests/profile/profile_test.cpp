@@ -131,7 +131,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadChange{"protocols = [\"ei-ascii\"]", "protocols = []", "one at least", 13},
         BadChange{"mnemonic_rule = \"590plus\"", "mnemonic_rule = \"590\"", "\"590plus\", \"ac\" or \"none\"",
                   17},
-        BadChange{"tag_table = \"example.csv\"", "tag_table = \"../x.csv\"", "without a folder", 13},
+        BadChange{"tag_table = \"empty.csv\"", "tag_table = \"../x.csv\"", "without a folder", 13},
         BadChange{"unlisted_tags = \"ask\"", "unlisted_tags = \"refused\"", "Did you mean \"refuse\"?", 17},
         BadChange{"output_loss = \"zero\"", "output_loss = true", "\"zero\" or \"hold\"", 15},
         BadChange{"leds = \"option_board\"", "leds = \"board\"", "\"option_board_620\"", 8},
@@ -364,20 +364,20 @@ TEST_F(OwnProfile, needs_one_rate_at_least)
 
 TEST_F(OwnProfile, faults_of_the_profile_and_of_its_table_are_told_in_one_run)
 {
-    folder_.write("tags/example.csv", "tag,type\n55,FLOAT\n");
+    folder_.write("tags/empty.csv", "tag,type\n55,FLOAT\n");
 
     const auto profile = load(with(good_, "ident = 0x0533", "ident = 0"));
 
     ASSERT_FALSE(profile);
     ASSERT_EQ(profile.error().size(), 2U);
     EXPECT_THAT(profile.error()[0].file, EndsWith("profiles/own.toml"));
-    EXPECT_THAT(profile.error()[1].file, EndsWith("tags/example.csv"));
+    EXPECT_THAT(profile.error()[1].file, EndsWith("tags/empty.csv"));
     EXPECT_THAT(test::short_form(profile.error()[1]), AllOf(StartsWith("2:4: "), HasSubstr("FLOAT")));
 }
 
 TEST_F(OwnProfile, a_table_or_a_profile_that_is_not_there_is_named)
 {
-    const auto no_table = load(with(good_, "example.csv", "absent.csv"));
+    const auto no_table = load(with(good_, "empty.csv", "absent.csv"));
     ASSERT_FALSE(no_table);
     EXPECT_THAT(to_string(no_table.error().at(0)),
                 HasSubstr("tags/absent.csv: the file cannot be read: No such file"));

@@ -111,7 +111,7 @@ TEST_P(OptionBoard, is_that_of_HA389815)
     EXPECT_THAT(profile.never_written, IsEmpty());
     EXPECT_TRUE(profile.option_software.empty());
     EXPECT_THAT(profile.protocols, ElementsAre("ei-ascii"));
-    EXPECT_EQ(profile.tag_file, kShipped.parent_path() / "tags/example.csv");
+    EXPECT_EQ(profile.tag_file, kShipped.parent_path() / "tags/empty.csv");
     EXPECT_FALSE(profile.tags.all().empty());
 }
 

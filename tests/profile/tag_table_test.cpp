@@ -90,6 +90,26 @@ TEST_F(TagTable, that_is_no_regular_file_or_too_large_is_refused_at_once)
                 HasSubstr("larger than 1 MiB"));
 }
 
+TEST_F(TagTable, knows_which_numbers_have_no_scale)
+{
+    const auto tags = good("tag,type,decimals,confirmed\n1,INT,0,\n2,INT,,\n3,,,yes\n4,WORD,,\n5,INT,1,no\n"
+                           "6,WORD,,no\n7,REAL,display,\n");
+    const auto scaled = [&](std::uint16_t tag) { return drive::has_scale(*tags.find(tag)); };
+
+    EXPECT_TRUE(scaled(1));
+    EXPECT_FALSE(scaled(2));
+    EXPECT_FALSE(scaled(3));
+    EXPECT_TRUE(scaled(4));
+    EXPECT_FALSE(scaled(5)) << "a survey made the row";
+    EXPECT_FALSE(scaled(6));
+    EXPECT_FALSE(scaled(7)) << "until display_decimals says what the display has";
+}
+
+TEST_F(TagTable, takes_a_mnemonic_that_only_looks_like_the_reserved_one)
+{
+    EXPECT_EQ(good("tag,mnemonic\n518,ee\n5,eE\n").all().size(), 2U);
+}
+
 TEST_F(TagTable, takes_every_column_in_any_order_and_leaves_unknown_ones_alone)
 {
     const auto tags =
@@ -309,7 +329,17 @@ INSTANTIATE_TEST_SUITE_P(
         BadTable{"", "0:0: ", "first line names the columns"},
         BadTable{"\n\n", "0:0: ", "first line names the columns"},
         BadTable{"name,type\nx,INT\n", "1:1: ", "no column tag"},
-        BadTable{"Tag,type\n1,INT\n", "1:1: ", "is \"Tag\" meant?"},
+        BadTable{"tag,decimal\n1,2\n", "1:5: ", "\"decimal\" is nearly \"decimals\""},
+        BadTable{"tag,min.\n1,2\n", "1:5: ", "\"min.\" is nearly \"min\""},
+        BadTable{"tag,Decimals\n1,2\n", "1:5: ", "nearly \"decimals\""},
+        BadTable{"tag,decimal places\n1,2\n", "1:5: ", "nearly \"decimals\""},
+        BadTable{"tag,regsiter\n1,2\n", "1:5: ", "nearly \"register\""},
+        BadTable{"tag,confirmed\n1,perhaps\n", "2:3: ", "write yes, or no"},
+        BadTable{"tag,confirmed\n1,yes\n1,no\n", "3:3: ", "another confirmed on line 2"},
+        BadTable{"tag,mnemonic\n1,EE\n", "2:3: ", "the drive's last error"},
+        BadTable{"tag,mnemonic\n1,aa\n2,bb\n3,aa\n", "4:0: ", "is that of tag 1 on line 2"},
+        BadTable{"tag,type,register\n1,REAL,32771\n", "2:8: ", "odd"},
+        BadTable{"tag,name\n1,\"two\nlines\"\n", "2:3: ", "line break"},
         BadTable{"tag;name;type\n1;x;INT\n", "1:1: ", "not by semicolons"},
         BadTable{"tag,name,tag\n1,x,2\n", "1:10: ", "second column \"tag\""},
         BadTable{"tag,name\n1,x\n2,y,z\n", "3:0: ", "3 cells, the first line has 2"},

@@ -168,7 +168,11 @@ std::string Gateway::config_text() const
                         "unit = \"{}\"\n"
                         "output_refresh_s = {}\n",
                         kStationNames[i], 5 + i, wiring_.profile, wiring_.units[i], wiring_.output_refresh_s);
-        if (!wiring_.table.empty()) text += "tags = \"tags.csv\"\n";
+        if (!wiring_.table.empty())
+            text += "tags = \"tags.csv\"\n";
+        else if (wiring_.protocol == "ei-ascii")
+            text += fmt::format("tags = \"{}\"\n",
+                                (kConfigFolder / "tags/example.csv").string()); // as the drive has
         text += wiring_.keys;
     }
     if (wiring_.lamps) text += "[station.leds]\nred = \"gpio:23\"\ngreen = \"led:green\"\n";

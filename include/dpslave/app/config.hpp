@@ -85,9 +85,7 @@ struct LedConfig {
 /// [station.tec]: the TEC OPTION function block at the start, and what feeds it.
 struct TecConfig {
     tec::Settings start;
-    std::uint16_t trip_tag = 0;           ///< 0 = none
-    std::uint16_t trip_mask = 0xFFFF;     ///< of DiagForm::tripped: the bits of it that are a trip ...
-    bool trip_inverted = false;           ///< ... and whether they are one while they are 0
+    profile::TripSource trip;             ///< of the drive
     std::uint16_t ext_diagnostic_tag = 0; ///< 0 = the value that is set stands
     profile::MirroredLamp health, run;
     friend bool operator==(const TecConfig&, const TecConfig&) = default;
@@ -102,7 +100,10 @@ struct StationConfig {
     /// The profile's or the station's own, with the decimals of its display and its resolution.
     std::shared_ptr<const drive::TagTable> tags;
     std::string tag_file;
-    std::size_t line = 0; ///< index into Config::lines
+    /// Over EI-ASCII: the decimals of numbers that are in no table; none = their scale is not known.
+    std::optional<std::uint8_t> unlisted_decimals;
+    bool unscaled_holds = true; ///< false: unscaled_tags = "zero"
+    std::size_t line = 0;       ///< index into Config::lines
     drive::UnitAddress unit{};
     std::string unit_text;
     std::chrono::nanoseconds output_refresh = std::chrono::seconds{1};

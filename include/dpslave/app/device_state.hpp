@@ -46,7 +46,7 @@ public:
     const tec::Settings& settings() const { return settings_; }
     std::array<tec::Row, 10> rows() const;
     /// "0: NO TRIP", "5: EXTERNAL TRIP", "unknown: ..."; while it cannot be read the last one, and why it may
-    /// be old. Nothing: no tag tells it.
+    /// be old; "not known: ..." where no tag tells it. Nothing: the device has no function block.
     std::optional<std::string> trip() const;
     /// Nothing: not known, or no tag tells it.
     std::optional<bool> tripped() const;
@@ -83,6 +83,7 @@ private:
     void say_fault();
     void say_trip();
     void say_status();
+    void say_scales(const StationView& station);
 
     const StationConfig* config_;
     tec::Settings settings_;
@@ -98,6 +99,7 @@ private:
     std::optional<NetworkState> network_said_;
     std::uint8_t trip_said_ = 0;
     std::uint16_t status_said_ = 0;
+    std::string scales_said_;
     std::vector<Sentence> news_;
 };
 

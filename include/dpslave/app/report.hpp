@@ -45,6 +45,10 @@ nlohmann::json info_json(const StationView& station, std::optional<std::uint8_t>
                          const std::vector<std::string>& notes);
 nlohmann::json io_json(const StationView& station, Instant now);
 nlohmann::json words_json(const StationView& station, Instant now);
+/// Which chosen tags have no scale, what becomes of them, and what to do; nothing: none.
+std::optional<std::string> scale_words(const StationView& station);
+/// The same as values: [{tag, direction, answer, contradicted}].
+nlohmann::json unscaled_json(const StationView& station);
 nlohmann::json diagnosis_json(const StationView& station);
 /// The whole reply of GetCounters.
 nlohmann::json counters_json(const View& view);

@@ -52,6 +52,9 @@ enum class WordState : std::uint8_t {
     invalid_tag,  ///< the drive (or the tag table) has no such tag: the input reads 0, the output is dropped
     read_only,    ///< the write was refused: read only
     out_of_range, ///< the write was refused, or the value does not fit in 16 bit
+    /// The drive answers with a number whose scale is not known, or that contradicts the tag table: the input
+    /// reads 0, the output is not written.
+    unscaled,
     /// The drive refused for another reason (not stopped, not in configuration mode, type), or does not
     /// understand the request.
     refused,
@@ -62,6 +65,9 @@ struct InputImage {
     Generation generation = 0;
     bool every_input_tried = false; ///< each reading parameter was tried once, with whatever result
     bool drive_answers = false;     ///< false: the values are held and stale
+    /// A parameter of the layout, input or output, has answered with a number of unknown scale: the exchange
+    /// must not begin. Never by silence.
+    bool scale_missing = false;
     std::array<std::uint16_t, kMaxParameters> words{};
 };
 
@@ -80,6 +86,8 @@ enum class AccessError : std::uint8_t {
     not_config_mode,   ///< only in configuration mode
     unsupported_type,  ///< for example a STRING
     value_not_encoded, ///< the drive could not read the value (EE 07C8)
+    no_scale,          ///< the drive answers with a number, and nothing says how many decimals it has (X-49)
+    contradicted,      ///< the drive has answered with more decimals than the tag table gives
 };
 
 /// One order of Demand Data for the drive side.

@@ -65,6 +65,10 @@ struct Personality {
     std::size_t max_words = 0;
     bool may_have_no_parameters = true; ///< Demand Data alone is a legal configuration
 
+    /// The drive side has to find the scales of the tags, those of outputs as well, before the exchange
+    /// begins: Stat_Diag also where no parameter is read, and nothing is written before it ends.
+    bool tries_outputs = false;
+
     PrmLayout prm;
     DemandForm demand = DemandForm::none;
     std::uint16_t demand_error_base = 0; ///< added to the error codes 0, 1, 2 (X-09)

@@ -95,6 +95,7 @@ struct Snapshot {
     bool sync = false;
     bool freeze = false;
     bool stat_diag = false;
+    bool holds = false; ///< Stat_Diag stands because a parameter has answered with a number of unknown scale
     bool diag_pending = false;
     ByteBuffer<244> diagnosis; ///< as Slave_Diag would answer now
     ByteBuffer<244> prm; ///< the last Set_Prm seen, accepted or not; those of foreign masters do not count
@@ -204,6 +205,10 @@ private:
     void tell(Event event);
     void tell_once(Event event); ///< not again when it was the last one told
 
+    /// Every parameter was tried or had its time, but one has no scale.
+    bool holds() const { return stat_diag_ && inputs_.scale_missing; }
+    /// Not every scale is known yet, or one of them never will be.
+    bool finds_scales() const { return stat_diag_ && personality_.tries_outputs; }
     bool is_foreign(std::uint8_t sa) const { return master_ != kNoMaster && sa != master_; }
 
     const Personality& personality_;

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace dpslave::drive {
 
@@ -61,6 +62,9 @@ public:
         (void)unit;
         return {};
     }
+
+    /// The text of the value behind no_scale or contradicted of the last call; valid until the next one.
+    virtual std::string_view last_answer() const { return {}; }
 };
 
 } // namespace dpslave::drive

@@ -12,9 +12,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 namespace dpslave::drive {
@@ -29,6 +28,8 @@ struct EiUnit {
     MnemonicRule mnemonics = MnemonicRule::none;
 };
 
+class EiForms;
+
 struct EiTiming {
     std::uint32_t baud = 9600; ///< bit/s; ten bits a character
     std::chrono::milliseconds timeout{
@@ -42,26 +43,26 @@ public:
     EiAsciiClient(SerialLine& line, EiTiming timing, std::vector<EiUnit> units);
     ~EiAsciiClient() override;
     /// The drives from now on.
-    void set_units(std::vector<EiUnit> units) { units_ = std::move(units); }
+    void set_units(std::vector<EiUnit> units);
 
     BlockRule block_rule() const override { return {}; }
     AccessError read(UnitAddress unit, const Tag& tag, std::span<std::uint16_t> words) override;
     AccessError write(UnitAddress unit, const Tag& tag, std::span<const std::uint16_t> words) override;
     bool probe(UnitAddress unit) override;
     std::string last_trouble() const override { return trouble_; }
+    std::string_view last_answer() const override { return answer_; }
     AnswerCounts counts(UnitAddress unit) const override;
 
 private:
     std::optional<ei::Mnemonic> mnemonic_for(UnitAddress unit, const Tag& tag);
     AccessError take_value(UnitAddress unit, const Tag& tag, const std::string& text, std::uint16_t& word);
-    AccessError take_unlisted(UnitAddress unit, const Tag& tag, const std::string& text, std::uint16_t& word);
     MnemonicRule rule_of(UnitAddress unit) const;
 
     std::unique_ptr<ei::Access> access_;
     std::vector<EiUnit> units_;
-    std::set<std::pair<std::uint16_t, std::uint16_t>>
-        words_; ///< unit and number of unlisted tags that answered with '>'
+    std::unique_ptr<EiForms> forms_;
     std::string trouble_;
+    std::string answer_; ///< behind the last no_scale or contradicted
 };
 
 } // namespace dpslave::drive

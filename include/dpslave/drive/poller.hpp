@@ -7,11 +7,13 @@
 #include "dpslave/drive/backend.hpp"
 #include "dpslave/drive/tag.hpp"
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace dpslave::drive {
@@ -23,11 +25,20 @@ inline constexpr std::size_t kMaxWatched = 8;
 /// stops; none = writing stops and nothing is zeroed (X-46; RIDE THROUGH of HA463561U002).
 using ZeroAfter = std::optional<std::chrono::nanoseconds>;
 
+/// What a drive has answered, as far as it is shown; ends with NUL.
+using AnswerText = std::array<char, 12>;
+AnswerText answer_text(std::string_view text);
+
 /// One drive of the line, as the poller knows it.
 struct UnitSettings {
     UnitAddress address{};
-    const TagTable* tags = nullptr;                                    ///< outlives the poller
-    bool tags_only_from_table = false;                                 ///< unlisted_tags = "refuse"
+    const TagTable* tags = nullptr;    ///< outlives the poller
+    bool tags_only_from_table = false; ///< unlisted_tags = "refuse"
+    /// Numbers come as text that does not show their decimals (EI-ASCII): what the table does not say has to
+    /// be found out, outputs included, before the exchange begins.
+    bool scale_from_table = false;
+    std::optional<std::uint8_t> unlisted_decimals; ///< with scale_from_table: of numbers that are in no table
+    bool unscaled_holds = true; ///< false: unscaled_tags = "zero", the exchange begins all the same
     std::chrono::nanoseconds output_refresh = std::chrono::seconds{1}; ///< 0 = every cycle
     ZeroAfter zero_after = std::chrono::nanoseconds{0};
     /// Each output is also read cyclically, unless its tag is write-only, and a standing word is written
@@ -63,6 +74,7 @@ struct Transaction {
 struct Outcome {
     AccessError error = AccessError::none;
     std::span<const std::uint16_t> words;
+    std::string_view answer{}; ///< with no_scale and contradicted: what the drive has answered
 };
 
 /// A watched tag as it was read last. untried: not yet.
@@ -80,10 +92,11 @@ struct UnitSnapshot {
     Generation generation = 0;
     std::array<std::uint16_t, kMaxParameters> words{}; ///< inputs as read, outputs as last written
     std::array<WordState, kMaxParameters> states{};
-    std::array<AccessError, kMaxParameters> errors{}; ///< why, of the last access; none where it worked
-    std::array<Watched, kMaxWatched> watched{};       ///< in the order of UnitSettings::watched
-    std::array<Instant, kMaxParameters> updated_at{}; ///< last success; default = never
-    std::chrono::nanoseconds cycle{};                 ///< the last whole round over this unit's parameters
+    std::array<AccessError, kMaxParameters> errors{};      ///< why, of the last access; none where it worked
+    std::array<Watched, kMaxWatched> watched{};            ///< in the order of UnitSettings::watched
+    std::array<AnswerText, kMaxParameters> answer_texts{}; ///< behind the errors no_scale and contradicted
+    std::array<Instant, kMaxParameters> updated_at{};      ///< last success; default = never
+    std::chrono::nanoseconds cycle{}; ///< the last whole round over this unit's parameters
     std::uint64_t reads = 0, writes = 0, silences = 0, refusals = 0, losses = 0;
     /// Writes of Demand Data that were never made: too many waited, or they no longer stood when the drive
     /// was lost or did not understand them.

@@ -53,6 +53,8 @@ struct Tag {
     /// a whole number or a time, which are no singles there (2000 series; EI-ASCII reference, section 5).
     bool is_real = false;
     std::uint8_t decimals = 0;    ///< 0..4, of a number
+    bool decimals_known = true;   ///< false: a number, and the table does not say its decimals
+    bool confirmed = true;        ///< false: a survey made the row, and no person has confirmed it
     bool follows_display = false; ///< `decimals` are those of the instrument's display (column: "display")
     bool is_unsigned = false;
     std::optional<std::int32_t> min; ///< in counts: displayed value x 10^decimals
@@ -66,8 +68,9 @@ struct Tag {
     std::string section;
     std::string notes;
     std::vector<std::string> aliases; ///< further names of the same tag
-    bool listed = true;               ///< false: in no table; its type is what the drive's answer shows
-    std::size_t position = 0;         ///< of its row in the table, from 0
+    /// False: in no table. Over EI-ASCII its type is what the drive's answer shows.
+    bool listed = true;
+    std::size_t position = 0; ///< of its row in the table, from 0
     friend bool operator==(const Tag&, const Tag&) = default;
 };
 
@@ -76,8 +79,14 @@ std::string_view type_name(const Tag& tag) noexcept;
 /// "stopped", "configuration"; empty where nothing is said.
 std::string_view text(WritableWhen when) noexcept;
 
-/// The row of a tag that is in no table: a WORD without a name.
+/// The row of a tag that is in no table: a WORD without a name. With `decimals`: over EI-ASCII an answer that
+/// is a number has this scale (unlisted_decimals).
 Tag unlisted_tag(std::uint16_t number);
+Tag unlisted_tag(std::uint16_t number, std::uint8_t decimals);
+
+/// False: an answer of the drive that is a number has no scale by this row - in no table, without decimals,
+/// or not confirmed. Of a protocol that transports 16 bits (Modbus) nobody needs to ask.
+bool has_scale(const Tag& tag) noexcept;
 
 /// Displayed form of the 16 bits: "-327.68", ">1A2B", "1 (Running)" where a label is known, ">0101 (ready,
 /// running)" where labels of bits that are set are known.

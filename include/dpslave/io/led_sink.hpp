@@ -49,4 +49,8 @@ std::optional<std::string> judge_led_sink(const std::string& sink);
 /// The line that a sink of the kind "line:" asks for; nothing: another kind, or its form is wrong.
 std::optional<GpioRequest> line_of_led_sink(const std::string& sink);
 
+/// What `sink` shines on, the same for each of its names as far as <sysfs> tells: two spellings of a path,
+/// "gpio:N" and "line:CHIP:LINE" of one line. For comparison only. Opens no device.
+std::string led_sink_target(const std::string& sink, const std::filesystem::path& sysfs);
+
 } // namespace dpslave::io

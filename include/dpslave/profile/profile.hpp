@@ -37,6 +37,14 @@ struct MirroredLamp {
 /// Nothing: the text is no such lamp.
 std::optional<MirroredLamp> parse_lamp(std::string_view text);
 
+/// Where a drive tells its trip: a tag whose low octet is the code, or a bit that is set while it has tripped
+/// ("272.3", "!537.11"), which is told as 31.
+struct TripSource {
+    MirroredLamp bit; ///< tag 0 = not known
+    bool is_code = true;
+    friend bool operator==(const TripSource&, const TripSource&) = default;
+};
+
 /// What a GSD says beyond the personality, key by key.
 struct GsdFacts {
     std::string vendor;                    ///< Vendor_Name
@@ -74,6 +82,7 @@ struct Profile {
     drive::ZeroAfter zero_after = std::chrono::nanoseconds{0}; ///< with a TEC OPTION block RIDE THROUGH rules
     bool has_tec = false;                                      ///< the device has a TEC OPTION function block
     MirroredLamp health, run; ///< of a TEC OPTION block; a station may say otherwise
+    TripSource trip;          ///< likewise
     DiagForm diagnosis = DiagForm::none;
     std::uint16_t status_tag = 0;             ///< of DiagForm::status_word
     std::uint16_t fault_mask = 0;             ///< bits of the status word that are faults (Ext_Diag, X-15)

@@ -55,7 +55,8 @@ std::vector<std::string_view> inputs_out_of_range(const Settings& settings);
 std::optional<std::chrono::nanoseconds> zero_after(const Settings& settings);
 
 /// DISABLED with any fault; else where the bus is (B-051, B-055). DATA EX ERROR: the drive is lost, or a
-/// parameter of this layout is refused, invalid, out of range, read only or stale (B-052).
+/// parameter of this layout is refused, invalid, unscaled, out of range, read only or stale (B-052). WAIT
+/// CONFIG also while a parameter without a scale holds the start.
 NetworkState network_state(OptionFault fault, const Hardware& hardware, const dp::Snapshot& bus,
                            const drive::UnitSnapshot& drive);
 

@@ -33,7 +33,7 @@ CONFIG
 }
 # station NAME ADDRESS UNIT
 station() {
-    printf '[[station]]\nname = "%s"\naddress = %s\nprofile = "590"\nline = "p3"\nunit = "%s"\n' "$@"
+    printf '[[station]]\nname = "%s"\naddress = %s\nprofile = "590"\nline = "p3"\nunit = "%s"\ntags = "/usr/share/dpslaved/tags/example.csv"\n' "$@"
 }
 two_stations() {
     bus_and_line 1

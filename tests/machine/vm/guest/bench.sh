@@ -26,7 +26,7 @@ configure() { # KEY=VALUE...
         printf 'max_tsdr = 65535\n'
         for setting in "$@"; do printf '%s\n' "$setting"; done
         printf '\n[[line]]\nname = "p3"\nport = "%s"\nprotocol = "ei-ascii"\nbaud = 9600\ntimeout_ms = 1000\n' "$drive_port"
-        printf '\n[[station]]\nname = "unwinder"\naddress = 5\nprofile = "590"\nline = "p3"\nunit = "00"\n'
+        printf '\n[[station]]\nname = "unwinder"\naddress = 5\nprofile = "590"\nline = "p3"\nunit = "00"\ntags = "/usr/share/dpslaved/tags/example.csv"\n'
         [ -t 0 ] || cat
     } >"$conf"
 }
