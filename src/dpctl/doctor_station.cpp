@@ -27,6 +27,23 @@ constexpr std::array kTagSteps = std::to_array<std::string_view>({
     "Check the tag numbers in the master's project: dpctl tag NUMBER, dpctl io.",
     "Add what the tag table lacks: a line with number, type and decimals from the drive's product manual.",
 });
+constexpr std::array kScaleSteps = std::to_array<std::string_view>({
+    "dpctl io names each tag and what the drive has answered.",
+    "Give each tag a row with type and decimals, from the drive's product manual; where a survey made the "
+    "row, compare it "
+    "and set confirmed to yes.",
+    "Or set unlisted_decimals of the station, if all tags without a row have the same decimals.",
+    "dpctl reload",
+});
+constexpr std::array kNoTableSteps = std::to_array<std::string_view>({
+    "Write a tag table from the drive's product manual and name it with 'tags' in [[station]]; then dpctl "
+    "reload.",
+});
+constexpr std::array kNoTripSteps = std::to_array<std::string_view>({
+    "Set trip_tag in [station.tec] to the tag of the trip code, or to a bit that is set while the drive has "
+    "tripped "
+    "(\"272.3\").",
+});
 constexpr std::array kPendingSteps = std::to_array<std::string_view>({
     "The changed address takes effect at the next start: systemctl restart dpslaved",
 });
@@ -48,6 +65,25 @@ std::string seen_drive(const Facts& f)
 std::string seen_tags(const Facts& f)
 {
     return f.family == Family::technology_box ? std::string{} : tag_trouble(f);
+}
+std::string seen_unscaled(const Facts& f)
+{
+    std::string tags;
+    for (const Json& one : list(f.diagnosis, "unscaled"))
+        tags += fmt::format("{}tag {} answers '{}'{}", tags.empty() ? "" : ", ", number(one, "tag"),
+                            text(one, "answer"),
+                            flag(one, "contradicted") ? ", more decimals than its row has" : "");
+    if (tags.empty()) return {};
+    return flag(f.diagnosis, "held") ? tags + "; the master is held at the start" : tags;
+}
+std::string seen_no_table(const Facts& f)
+{
+    const auto rows = integer(f.info, "tags_in_table");
+    return rows && *rows == 0 ? text(f.info, "tag_table") + " holds no row" : std::string{};
+}
+std::string seen_no_trip(const Facts& f)
+{
+    return text(f.tec, "trip", "").starts_with("not known") ? "trip: " + text(f.tec, "trip") : std::string{};
 }
 std::string seen_pending(const Facts& f)
 {
@@ -75,6 +111,14 @@ constexpr std::array kRules = std::to_array<Rule>({
      "The link to the drive has failed", kDriveSteps, kGateway, seen_drive},
     {"station.tags", Scope::station, false, "a tag is refused, or is in no table", "A tag number is wrong",
      kTagSteps, kBox, seen_tags},
+    {"station.unscaled", Scope::station, false, "a chosen tag answers with a number whose scale is not known",
+     "The tag table does not say the decimals of a tag, or says too few", kScaleSteps, kGateway,
+     seen_unscaled},
+    {"station.no_table", Scope::station, true, "the station has no tag table",
+     "The scale of the drive's numbers is not known", kNoTableSteps, kGateway, seen_no_table},
+    {"station.no_trip", Scope::station, true, "no tag tells the trip of the drive",
+     "Trips are not known: the diagnosis says no trip whatever the drive does", kNoTripSteps,
+     "HA463561U002, PROFIBUS Diagnostics", seen_no_trip},
     {"station.restless", Scope::station, false, "data exchange is left more than once in an hour",
      "Intermittent failure", kRestlessSteps, kBox, seen_restless},
     {"station.left", Scope::station, true, "data exchange was left",

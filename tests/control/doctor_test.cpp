@@ -322,5 +322,33 @@ TEST_F(Doctor, RemindsOfAPendingAddressAndOfTheAddressesOfMasters)
     EXPECT_EQ(evidence("station.address_pending"), "address 5 is active, the configuration file has 7");
 }
 
+// ---------------------------------------------------------------- what no table knows
+
+TEST_F(Doctor, NamesTheTagsWithoutAScaleAndTheirAnswers)
+{
+    replies.diagnosis["stations"][0]["held"] = true;
+    replies.diagnosis["stations"][0]["unscaled"] =
+        Json::array({{{"tag", 55}, {"direction", "in"}, {"answer", "12.5"}, {"contradicted", false}},
+                     {{"tag", 56}, {"direction", "in"}, {"answer", "12.34"}, {"contradicted", true}}});
+
+    EXPECT_THAT(found(), ElementsAre("station.unscaled"));
+    EXPECT_EQ(evidence("station.unscaled"), "tag 55 answers '12.5', tag 56 answers '12.34', more decimals "
+                                            "than its row has; the master is held at "
+                                            "the start");
+}
+
+TEST_F(Doctor, SaysThatAStationHasNoTagTable)
+{
+    info()["tags_in_table"] = 0;
+    EXPECT_THAT(found(true), testing::Contains("station.no_table"));
+}
+
+TEST_F(Doctor, SaysThatTripsAreNotKnown)
+{
+    is_technology_box(0, "NONE", 0);
+    replies.tec["stations"][0]["trip"] = "not known: no tag tells it";
+    EXPECT_THAT(found(true), testing::Contains("station.no_trip"));
+}
+
 } // namespace
 } // namespace dpslave::dpctl

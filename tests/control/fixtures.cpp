@@ -25,8 +25,8 @@ const char* const kStations = R"([
             "writes":0,"silences":12,"refusals":0,"losses":0,"last_trouble":"no answer"}}])";
 
 const char* const kWords = R"([
-  {"tag":7,"name":"SPEED FEEDBACK","direction":"in","octet":8,"raw":5000,"value":"50.00","state":"good","age_ms":12.0},
-  {"tag":56,"name":null,"direction":"out","octet":8,"raw":64286,"value":"-12.50","state":"read only","age_ms":null}])";
+  {"tag":7,"name":"SPEED FEEDBACK","direction":"in","octet":8,"raw":5000,"value":"50.00","state":"good","answer":null,"age_ms":12.0},
+  {"tag":56,"name":null,"direction":"out","octet":8,"raw":64286,"value":"-12.50","state":"read only","answer":null,"age_ms":null}])";
 
 const char* const kInfo = R"({"stations":[
   {"name":"unwinder","profile":"590","device":"590 with PROFIBUS-DP option board","order_code":"590 option digit 2",
@@ -46,7 +46,7 @@ const char* const kDiagnosis = R"({"stations":[
    "hex":"06 05 00 FF 05 33","bits":["Station_Not_Ready","Cfg_Fault","Prm_Req"],
    "refusal":{"telegram":"Chk_Cfg","what":"no legal identifier","octet":3,"expected":"0x50 or 0x60","got":"0x51",
               "advice":"compare the modules chosen in the master with the GSD"},
-   "last_prm":"88 01 0A 0B 05 33 00","last_cfg":"73 50 51","trouble":["tag 999 is in no table"]}]})";
+   "last_prm":"88 01 0A 0B 05 33 00","last_cfg":"73 50 51","held":false,"unscaled":[],"trouble":["tag 999 is in no table"]}]})";
 
 const char* const kLeds = R"({"stations":[{"name":"unwinder","meaning":"data exchange with the master",
   "leds":[{"name":"red","sink":"gpio:23","lit":false,"pattern":"off"},

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// X-49 on the real programs: a number whose scale is in no table holds the start, until a reload brings its
+// row.
+#include "gateway.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+namespace dpslave::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// The drive speaks 55 with two decimals and 56 likewise; the table of the daemon knows less.
+class UnknownScale : public ::testing::Test {
+protected:
+    UnknownScale()
+    {
+        table("tag,type,decimals\n56,INT,2\n");
+        write_file(gateway.config(), with_own_table());
+        gateway.start_daemon();
+    }
+    void table(const std::string& rows) { write_file(gateway.folder("own.csv"), rows); }
+    std::string with_own_table() const
+    {
+        std::string text = gateway.config_text();
+        const auto at = text.find("tags = ");
+        return text.replace(at, text.find('\n', at) - at, "tags = \"own.csv\"");
+    }
+    ::testing::AssertionResult diag_says(const std::string& words) const
+    {
+        std::string told;
+        for (int i = 0; i < 100; ++i) {
+            told = gateway.dpctl({"diag"}).out;
+            if (told.find(words) != std::string::npos) return ::testing::AssertionSuccess();
+        }
+        return ::testing::AssertionFailure() << told;
+    }
+
+    Gateway gateway{{.started = false}};
+};
+
+TEST_F(UnknownScale, OfAnInputHoldsTheStartUntilAReloadBringsItsRow)
+{
+    gateway.drive().tell("unit 00");
+    gateway.drive().tell("set 55 12.50");
+    Master master{gateway, {"--tags", "55,56w"}};
+
+    EXPECT_TRUE(master.does("try start 3s"));
+    EXPECT_TRUE(master.does("expect diag stat-diag"));
+    EXPECT_TRUE(master.does("expect diag not not-ready"));
+    EXPECT_TRUE(gateway.word_becomes(55, "state", "unscaled"));
+    EXPECT_EQ(gateway.word(55)["answer"], "12.5");
+    EXPECT_EQ(gateway.word(55)["raw"], 0);
+    EXPECT_TRUE(diag_says("The exchange does not begin: the scale of tag 55 (answers '12.5') is not known"));
+    EXPECT_TRUE(gateway.daemon().says("The exchange does not begin"));
+
+    table("tag,type,decimals\n55,INT,2\n56,INT,2\n");
+    EXPECT_EQ(gateway.dpctl({"reload"}).status, 0);
+    EXPECT_TRUE(master.does("start 30s"));
+    EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
+    EXPECT_TRUE(master.does("out 1 = 700"));
+    EXPECT_TRUE(gateway.drive().says("tag 56 written 7.00"));
+    EXPECT_TRUE(master.leaves());
+}
+
+TEST_F(UnknownScale, OfAnOutputHoldsTheStartAndNothingIsWritten)
+{
+    Master master{gateway, {"--tags", "56,57w"}};
+
+    EXPECT_TRUE(master.does("try start 3s"));
+    EXPECT_TRUE(master.does("expect diag stat-diag"));
+    EXPECT_TRUE(gateway.word_becomes(57, "state", "unscaled"));
+    EXPECT_EQ(gateway.counter("unwinder", "drive_writes"), 0U);
+}
+
+TEST_F(UnknownScale, WithOneScaleForAllUnlistedTagsTheExchangeBegins)
+{
+    write_file(gateway.config(), with_own_table() + "unlisted_decimals = 2\n");
+    EXPECT_EQ(gateway.dpctl({"reload"}).status, 0);
+    gateway.drive().tell("unit 00");
+    gateway.drive().tell("set 55 12.50");
+    Master master{gateway, {"--tags", "55,56w"}};
+
+    EXPECT_TRUE(master.does("start 30s"));
+    EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
+    EXPECT_TRUE(master.leaves());
+}
+
+} // namespace
+} // namespace dpslave::test
