@@ -265,9 +265,9 @@ TEST_F(TecKeys, make_output_loss_an_error_because_ride_through_alone_decides)
 
 TEST_F(TecKeys, warn_of_every_ride_through_but_0)
 {
-    EXPECT_THAT(good(kBox + "[station.tec]\nride_through = 0\n").warnings, IsEmpty());
+    EXPECT_THAT(good(kBox + "[station.tec]\ntrip_tag = 4\nride_through = 0\n").warnings, IsEmpty());
     for (const char* seconds : {"-1", "1", "60"}) {
-        const Config config = good(kBox + "[station.tec]\nride_through = " + seconds + "\n");
+        const Config config = good(kBox + "[station.tec]\nride_through = " + seconds + "\ntrip_tag = 4\n");
         EXPECT_THAT(short_forms(config.warnings),
                     ElementsAre(AllOf(StartsWith("21:16: "), HasSubstr(seconds),
                                       HasSubstr("anything other than 0 could compromise safety"))));

@@ -377,7 +377,7 @@ TEST_F(OwnProfile, faults_of_the_profile_and_of_its_table_are_told_in_one_run)
 
 TEST_F(OwnProfile, a_table_or_a_profile_that_is_not_there_is_named)
 {
-    const auto no_table = load(with(good_, "empty.csv", "absent.csv"));
+    const auto no_table = load(with(good_, "\"empty.csv\"", "\"absent.csv\""));
     ASSERT_FALSE(no_table);
     EXPECT_THAT(to_string(no_table.error().at(0)),
                 HasSubstr("tags/absent.csv: the file cannot be read: No such file"));
