@@ -216,16 +216,23 @@ void MainThread::push_watchers(Instant now)
     std::erase_if(watchers_, [&open](const auto& one) {
         return !std::binary_search(open.begin(), open.end(), one.first);
     });
+    struct Picture {
+        std::string seen;
+        Json reply;
+    };
+    std::map<std::optional<std::size_t>, Picture> pictures; // many watchers cost no more than a few
     for (auto& [number, watcher] : watchers_) {
         const auto station = watcher.station ? index_of(*watcher.station) : std::nullopt;
         if (watcher.station && !station) { // a reload has taken it away
             server_->end_stream(number, no_such_station(*watcher.station));
             continue;
         }
-        std::string present = fingerprint(station);
-        if (present == watcher.seen) continue;
-        watcher.seen = std::move(present);
-        server_->push(number, watch_reply(station, now));
+        Picture& picture = pictures[station];
+        if (picture.seen.empty()) picture.seen = fingerprint(station);
+        if (picture.seen == watcher.seen) continue;
+        watcher.seen = picture.seen;
+        if (picture.reply.is_null()) picture.reply = watch_reply(station, now);
+        server_->push(number, picture.reply);
     }
 }
 

@@ -20,7 +20,7 @@ case $room in
     led)     doors='base/.*'                                      outside=$nothing forbidden=$impure ;;
     drive)   doors='base/.*'                                      outside=$nothing forbidden=$impure ;;
     gsd)     doors='base/.*'                                      outside=$nothing forbidden=$impure ;;
-    profile) doors='base/.*|gsd/.*|dp/personality\.hpp|drive/(tag|poller)\.hpp|led/pattern\.hpp' outside='toml\+\+/.*' forbidden='thread|iostream' ;;
+    profile) doors='base/.*|gsd/.*|dp/personality\.hpp|drive/(tag|poller)\.hpp|led/pattern\.hpp' outside='toml\+\+/.*|fcntl\.h|sys/stat\.h|unistd\.h' forbidden='thread|iostream' ;;
     io)      doors='base/.*'                                      outside='.*' forbidden=iostream ;;
     modbus)  doors='base/.*|drive/.*|io/.*'                       outside='modbus\.h|spdlog/.*' forbidden=iostream ;;
     control) doors='base/.*'                                      outside='.*' forbidden=iostream ;;
