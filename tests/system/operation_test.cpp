@@ -103,24 +103,6 @@ TEST(Dpctl, EachWriteIsALineOfTheLogThatTellsWhoAndTheValueBefore)
     EXPECT_TRUE(gateway.daemon().ever_said(": no answer") || gateway.daemon().ever_said("does not answer"));
 }
 
-TEST(Dpctl, ManyValuesOfOneTagThatDoNotFitAreFewLinesInTheLog)
-{
-    Gateway gateway{{.keys = "tags = \"one.csv\"\n", .started = false}};
-    write_file(gateway.folder("one.csv"), "tag,name,type,decimals,access\n55,one decimal too few,INT,1,ro\n");
-    gateway.start_daemon();
-    Master master{gateway, {"--tags", "55"}};
-    ASSERT_TRUE(master.does("start 30s"));
-    for (int i = 11; i < 31; ++i) {
-        const std::string value = "12." + std::to_string(i);
-        gateway.drive().tell("set 55 " + value);
-        ASSERT_TRUE(eventually([&] {
-            return gateway.diagnosis().at("trouble").dump().find(value) != std::string::npos;
-        })) << gateway.diagnosis().at("trouble");
-    }
-    EXPECT_TRUE(gateway.daemon().ever_said("tag 55: "));
-    EXPECT_LT(gateway.daemon().how_often("tag 55: "), 10U) << "20 values, one cause";
-}
-
 TEST(Dpctl, WatchShowsChangesAsTheyCome)
 {
     Gateway gateway;
