@@ -115,6 +115,18 @@ void read_format(Table& table, LineConfig& line)
         line.format = *format;
 }
 
+void read_settle(Table& table, LineConfig& line)
+{
+    const auto settle = table.integer("settle_ms", 0, 600'000);
+    if (!settle) return;
+    line.settle = std::chrono::milliseconds{*settle};
+    if (line.settle != std::chrono::milliseconds{0} && line.settle < line.timeout)
+        table.refuse("settle_ms",
+                     "'settle_ms' is shorter than timeout_ms (" + std::to_string(line.timeout.count()) +
+                         "): an answer may come later than that. Write at least as much, or 0 for "
+                         "ten time-outs.");
+}
+
 ReadLine read_line(Table& table)
 {
     ReadLine read;
@@ -131,6 +143,12 @@ ReadLine read_line(Table& table)
     if (const auto timeout = table.integer("timeout_ms", 10, 10'000))
         line.timeout = std::chrono::milliseconds{*timeout};
     if (const auto retries = table.integer("retries", 0, 10)) line.retries = static_cast<int>(*retries);
+    read_settle(table, line);
+    using drive::EchoMode;
+    line.echo = table
+                    .choice<EchoMode>(
+                        "echo", {{"off", EchoMode::off}, {"on", EchoMode::on}, {"auto", EchoMode::automatic}})
+                    .value_or(EchoMode::off);
     return read;
 }
 

@@ -30,6 +30,8 @@ drive::UnitSettings unit_settings(const StationConfig& station, const LineConfig
     unit.never_written = station.profile->never_written;
     unit.watched = station.watched;
     unit.retries = line.retries;
+    // Ten time-outs, as the clients have it: a late answer to a probe is then over.
+    unit.probe_interval = line.settle.count() != 0 ? line.settle : 10 * line.timeout;
     return unit;
 }
 
@@ -170,7 +172,9 @@ void DriveThread::publish()
         StationLink& link = *units_[i].link;
         if (const auto inputs = poller_.take_inputs(i)) link.inputs.publish(*inputs);
         while (const auto answer = poller_.take_demand_answer(i)) link.demand_answer.publish(*answer);
-        link.drive_snapshot.publish(poller_.snapshot(i));
+        drive::UnitSnapshot snapshot = poller_.snapshot(i);
+        if (backend_) snapshot.heard = backend_->backend().counts(units_[i].config->unit);
+        link.drive_snapshot.publish(snapshot);
     }
     while (const auto answer = poller_.take_operate_answer()) link_.answers.push(*answer);
     say_link_changes();

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpslave/app/line_backend.hpp"
 
-#include "dpslave/modbus/modbus_rtu.hpp"
-
 namespace dpslave::app {
 
 namespace {
@@ -16,6 +14,7 @@ modbus::RtuSettings rtu_settings(const LineConfig& line)
     settings.parity = line.format.parity;
     settings.stop_bits = line.format.stop_bits;
     settings.timeout = line.timeout;
+    settings.rules = {.settle = line.settle, .hold_back = {}, .echo = line.echo};
     return settings;
 }
 
@@ -36,6 +35,7 @@ Result<std::unique_ptr<LineBackend>, std::string> LineBackend::open(const LineCo
     if (line.protocol == kModbusRtu) {
         auto opened = modbus::ModbusRtu::open(rtu_settings(line), is_open);
         if (!opened) return Failure{opened.error()};
+        made->modbus_ = opened->get();
         made->backend_ = std::move(*opened);
         return made;
     }
@@ -44,11 +44,14 @@ Result<std::unique_ptr<LineBackend>, std::string> LineBackend::open(const LineCo
     settings.data_bits = line.format.data_bits;
     settings.parity = line.format.parity;
     settings.stop_bits = line.format.stop_bits;
+    settings.prompt = true;
     auto port = io::Port::open(line.port, settings);
     if (!port) return Failure{port.error()};
+    const drive::LineRules rules{
+        .settle = line.settle, .hold_back = port->tty().hold_back(), .echo = line.echo};
     made->tty_ = std::make_unique<TtyLine>(*std::move(port), is_open);
     auto client = std::make_unique<drive::EiAsciiClient>(
-        *made->tty_, drive::EiTiming{.baud = line.baud, .timeout = line.timeout},
+        *made->tty_, drive::EiTiming{.baud = line.baud, .timeout = line.timeout, .rules = rules},
         std::vector<drive::EiUnit>{});
     made->ei_ascii_ = client.get();
     made->backend_ = std::move(client);
@@ -57,11 +60,17 @@ Result<std::unique_ptr<LineBackend>, std::string> LineBackend::open(const LineCo
 
 void LineBackend::set_units(const std::vector<DriveUnit>& units)
 {
-    if (ei_ascii_ == nullptr) return;
-    std::vector<drive::EiUnit> drives;
-    for (const DriveUnit& unit : units)
-        drives.push_back({.address = unit.config->unit, .mnemonics = unit.config->profile->mnemonics});
-    ei_ascii_->set_units(std::move(drives));
+    std::vector<drive::EiUnit> ei_units;
+    std::vector<modbus::ModbusUnit> modbus_units;
+    for (const DriveUnit& unit : units) {
+        const profile::Profile& profile = *unit.config->profile;
+        ei_units.push_back({.address = unit.config->unit, .mnemonics = profile.mnemonics});
+        modbus_units.push_back({.unit = unit.config->unit.unit,
+                                .reads_by_4 = profile.has_function_4,
+                                .has_loopback = profile.has_function_8});
+    }
+    if (ei_ascii_ != nullptr) ei_ascii_->set_units(std::move(ei_units));
+    if (modbus_ != nullptr) modbus_->set_units(std::move(modbus_units));
 }
 
 } // namespace dpslave::app

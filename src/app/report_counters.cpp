@@ -82,6 +82,13 @@ json station_counters(const StationView& station)
     add(c, "drive_silences", drive.silences, "transactions without answer");
     add(c, "drive_refusals", drive.refusals, "transactions that the drive refused");
     add(c, "drive_losses", drive.losses, "times the drive was given up until it answered again");
+    add(c, "drive_damaged", drive.heard.damaged, "answers with a wrong check sum, a parity fault or no form");
+    add(c, "drive_late", drive.heard.late, "answers that came after their time-out");
+    add(c, "drive_foreign", drive.heard.foreign, "frames that answered nothing that was asked");
+    add(c, "drive_delay_ms", static_cast<std::uint64_t>(drive.heard.delay / std::chrono::milliseconds{1}),
+        "of the late answers: the longest since one came in time");
+    add(c, "drive_needs_timeout_ms", static_cast<std::uint64_t>(drive::needed_timeout(drive.heard).count()),
+        "not 0: the drive is always late, and timeout_ms has to be at least this");
     add(c, "demand_orders_lost", dp.orders_lost, "Demand Data orders that the bus side had no room for");
     add(c, "drive_orders_dropped", drive.orders_dropped,
         "Demand Data writes that no longer stood when they could have been carried out");

@@ -127,6 +127,7 @@ Exchange::End Exchange::poll(UnitAddress unit, Mnemonic mnemonic)
     question.answer = form_of(mnemonic);
     question.wire_time = duration_of(kUsualAnswer);
     asked_for_ = mnemonic;
+    if (!owed_.may_ask(question, line_.now())) fall_silent(); // what is owed may have come
     if (owed_.may_ask(question, line_.now())) return ask(question, ei::poll(unit, mnemonic), WaitsFor::value);
     trouble_ = "another drive of the line still owes an answer with " + quoted(mnemonic);
     return End::not_asked;

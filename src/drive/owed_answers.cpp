@@ -11,6 +11,12 @@ constexpr std::size_t kMostHeard = 16;
 
 } // namespace
 
+std::chrono::milliseconds needed_timeout(const AnswerCounts& counts)
+{
+    if (counts.late_in_a_row < kAlwaysLate) return {};
+    return std::chrono::ceil<std::chrono::milliseconds>(counts.delay * 5 / 4);
+}
+
 bool OwedAnswers::fits(const Debt& debt, Form form)
 {
     return form != kNoForm && (debt.question.answer == form || debt.question.refusal == form);

@@ -13,6 +13,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <thread>
@@ -105,6 +106,11 @@ Result<Tty, std::string> Tty::open(const std::string& path, const TtySettings& s
     Tty tty{std::move(fd), settings, std::move(uart)};
     if (settings.prompt) tty.warnings_ = hand_on_at_once(*tty.uart_);
     return tty;
+}
+
+std::chrono::nanoseconds Tty::hold_back() const
+{
+    return io::hold_back(*uart_, std::chrono::nanoseconds{std::nano::den / std::max(settings_.baud, 1U)});
 }
 
 std::optional<std::string> Tty::set_baud(std::uint32_t baud)

@@ -203,4 +203,17 @@ std::vector<std::string> hand_on_at_once(const Uart& uart)
     return warnings;
 }
 
+std::chrono::nanoseconds hold_back(const Uart& uart, std::chrono::nanoseconds bit_time)
+{
+    constexpr std::chrono::milliseconds kUsbFrame{1};
+    const UartKind kind = uart_kind(uart.driver);
+    if (uart.folder.empty() || uart.pty) return {};
+    if (kind == UartKind::ftdi)
+        return std::chrono::milliseconds{number_in(uart.folder / "device/latency_timer").value_or(16)} +
+               kUsbFrame;
+    if (is_usb(kind)) return kUsbFrame;
+    if (number_in(uart.folder / "rx_trig_bytes") == 1) return {};
+    return idle_wait(uart) * bit_time;
+}
+
 } // namespace dpslave::io

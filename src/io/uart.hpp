@@ -3,6 +3,7 @@
 /// the wire, and how soon a received octet is handed on. Source: wire reference 11.2 and 11.5.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -42,5 +43,9 @@ std::string rate_remedy(const Uart& uart);
 /// latency timer 1 ms. Gives back what is left of delay, each a sentence without the path, with its cost in
 /// bit times.
 std::vector<std::string> hand_on_at_once(const Uart& uart);
+
+/// How long an octet may lie in the port before a read gives it, after hand_on_at_once(); 0 = not at all, or
+/// nothing is known about it. `bit_time` at the present rate.
+std::chrono::nanoseconds hold_back(const Uart& uart, std::chrono::nanoseconds bit_time);
 
 } // namespace dpslave::io

@@ -6,11 +6,6 @@
 namespace dpslave::modbus {
 namespace {
 
-constexpr std::uint8_t kReadRegisters = 3;
-constexpr std::uint8_t kWriteRegister = 6;
-constexpr std::uint8_t kWriteRegisters = 16;
-constexpr std::uint8_t kIsException = 0x80;
-
 Request head(std::uint8_t function, std::uint16_t first, std::uint16_t second)
 {
     Request request;
@@ -39,9 +34,14 @@ const char* meaning(std::uint8_t code)
 
 } // namespace
 
-Request read_registers(std::uint16_t first, std::uint16_t count)
+Request read_registers(std::uint16_t first, std::uint16_t count, std::uint8_t function)
 {
-    return head(kReadRegisters, first, count);
+    return head(function, first, count);
+}
+
+Request loopback(std::uint16_t token)
+{
+    return head(kLoopback, 0, token);
 }
 
 Request write_register(std::uint16_t reg, std::uint16_t word)
@@ -59,7 +59,8 @@ Request write_registers(std::uint16_t first, std::span<const std::uint16_t> word
 
 std::size_t longest_answer(Bytes request)
 {
-    return request[0] == kReadRegisters ? 2u + 2u * be16(request, 3) : 5u;
+    return request[0] == kReadRegisters || request[0] == kReadInputRegisters ? 2u + 2u * be16(request, 3)
+                                                                             : 5u;
 }
 
 bool answers(Bytes request, Bytes answer)
@@ -68,8 +69,10 @@ bool answers(Bytes request, Bytes answer)
     if (answer[0] == (request[0] | kIsException)) return answer.size() == 2;
     if (answer[0] != request[0] || answer.size() != longest_answer(request)) return false;
     switch (request[0]) {
-        case kReadRegisters: return answer[1] == 2 * be16(request, 3);
+        case kReadRegisters:
+        case kReadInputRegisters: return answer[1] == 2 * be16(request, 3);
         case kWriteRegister: return be16(answer, 1) == be16(request, 1);
+        case kLoopback: return std::ranges::equal(answer, request);
         case kWriteRegisters: return std::ranges::equal(answer, request.first(5));
         default: return false;
     }
@@ -78,6 +81,11 @@ bool answers(Bytes request, Bytes answer)
 std::uint8_t exception_of(Bytes answer)
 {
     return (answer[0] & kIsException) != 0 ? answer[1] : std::uint8_t{0};
+}
+
+bool is_of_gateway(std::uint8_t code)
+{
+    return code == 10 || code == 11;
 }
 
 std::string exception_text(std::uint8_t code)

@@ -18,7 +18,21 @@ inline constexpr std::uint16_t kMostRegisters = 123;
 
 using Request = ByteBuffer<6 + 2 * kMostRegisters>;
 
-Request read_registers(std::uint16_t first, std::uint16_t count);                   ///< function 3
+inline constexpr std::size_t kLongestFrame = 256; ///< unit and check sum included
+inline constexpr std::uint8_t kLowestUnit = 1;
+inline constexpr std::uint8_t kHighestUnit = 247;
+
+inline constexpr std::uint8_t kReadRegisters = 3;
+inline constexpr std::uint8_t kReadInputRegisters = 4;
+inline constexpr std::uint8_t kWriteRegister = 6;
+inline constexpr std::uint8_t kLoopback = 8;
+inline constexpr std::uint8_t kWriteRegisters = 16;
+inline constexpr std::uint8_t kIsException = 0x80;
+
+/// Function 3, or 4.
+Request read_registers(std::uint16_t first, std::uint16_t count, std::uint8_t function = kReadRegisters);
+/// Function 8, sub code 0: is answered by itself.
+Request loopback(std::uint16_t token);
 Request write_register(std::uint16_t reg, std::uint16_t word);                      ///< function 6
 Request write_registers(std::uint16_t first, std::span<const std::uint16_t> words); ///< function 16
 
@@ -31,6 +45,9 @@ bool answers(Bytes request, Bytes answer);
 
 /// Of an answer that fits: its exception code; 0 = it is none.
 std::uint8_t exception_of(Bytes answer);
+
+/// Exceptions 10 and 11: it is the gateway that speaks, not the unit.
+bool is_of_gateway(std::uint8_t code);
 
 /// "exception 2 (illegal data address)"
 std::string exception_text(std::uint8_t code);

@@ -176,6 +176,8 @@ private:
         for (const std::int64_t tag :
              root_.integers("never_written", 1, 0xFFFF).value_or(std::vector<std::int64_t>{}))
             profile_.never_written.push_back(static_cast<std::uint16_t>(tag));
+        profile_.has_function_4 = root_.boolean("function_4").value_or(false);
+        profile_.has_function_8 = root_.boolean("function_8").value_or(false);
     }
 
     void output_loss()

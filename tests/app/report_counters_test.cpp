@@ -75,5 +75,32 @@ TEST(CountersReport, TellsWhatTheEdgeCounted)
     EXPECT_EQ(counter(reply, "page_faults"), 7u);
 }
 
+TEST(CountersReport, TellsTheDelayOfADriveThatIsAlwaysLateAndTheTimeOutThatItNeeds)
+{
+    StationConfig config;
+    config.name = "unwinder";
+    View view;
+    StationView station{};
+    station.config = &config;
+    station.drive.heard = {.damaged = 1,
+                           .late = 2,
+                           .foreign = 3,
+                           .late_in_a_row = drive::kAlwaysLate,
+                           .delay = std::chrono::milliseconds{420}};
+    view.stations.push_back(station);
+    const json group = counters_json(view).at("groups").at(1);
+    const auto value = [&](const std::string& name) {
+        for (const json& one : group.at("counters"))
+            if (one.at("name") == name) return one.at("value").get<int>();
+        return -1;
+    };
+
+    EXPECT_EQ(value("drive_damaged"), 1);
+    EXPECT_EQ(value("drive_late"), 2);
+    EXPECT_EQ(value("drive_foreign"), 3);
+    EXPECT_EQ(value("drive_delay_ms"), 420);
+    EXPECT_EQ(value("drive_needs_timeout_ms"), 525) << "a quarter more";
+}
+
 } // namespace
 } // namespace dpslave::app

@@ -212,7 +212,8 @@ public:
     std::vector<FakeDrive*> drives;
     Instant time{};
     bool unplugged = false;
-    std::string sent; ///< octets of all requests
+    bool echoes = false; ///< the transceiver hears what it sends
+    std::string sent;    ///< octets of all requests
 
     std::chrono::nanoseconds character() const { return character_; }
     void comes_by_itself(const std::string& octets, std::chrono::nanoseconds after = 0ns)
@@ -237,6 +238,7 @@ public:
         for (const std::uint8_t octet : octets) {
             at += character_;
             sent += static_cast<char>(octet);
+            if (echoes) arrives(std::string(1, static_cast<char>(octet)), at - character_);
             for (FakeDrive* drive : drives) {
                 const std::string answer = drive->on_octet(static_cast<char>(octet));
                 if (!answer.empty()) arrives(answer, at + drive->turnaround);

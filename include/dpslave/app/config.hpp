@@ -5,6 +5,7 @@
 #include "dpslave/base/result.hpp"
 #include "dpslave/base/units.hpp"
 #include "dpslave/drive/backend.hpp"
+#include "dpslave/drive/line_rules.hpp"
 #include "dpslave/drive/poller.hpp"
 #include "dpslave/fdl/echo.hpp"
 #include "dpslave/io/driver_enable.hpp"
@@ -71,6 +72,8 @@ struct LineConfig {
     LineFormat format; ///< where the file names none: 7E1, of Modbus RTU 8N1
     std::chrono::milliseconds timeout = kEiAsciiTimeout; ///< kModbusTimeout with Modbus RTU
     int retries = 2;
+    std::chrono::milliseconds settle{0}; ///< how late an answer may come; 0 = ten time-outs
+    drive::EchoMode echo = drive::EchoMode::off;
     unsigned port_line = 0;
     friend bool operator==(const LineConfig&, const LineConfig&) = default;
 };

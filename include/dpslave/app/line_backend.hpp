@@ -7,6 +7,7 @@
 #include "dpslave/base/result.hpp"
 #include "dpslave/drive/backend.hpp"
 #include "dpslave/drive/ei_ascii_client.hpp"
+#include "dpslave/modbus/modbus_rtu.hpp"
 
 #include <atomic>
 #include <memory>
@@ -32,6 +33,7 @@ public:
 private:
     std::unique_ptr<TtyLine> tty_;             ///< of EI-ASCII; a Modbus back-end has its port itself
     drive::EiAsciiClient* ei_ascii_ = nullptr; ///< the back-end, if it is one
+    modbus::ModbusRtu* modbus_ = nullptr;      ///< the same
     std::unique_ptr<drive::Backend> backend_;
 };
 

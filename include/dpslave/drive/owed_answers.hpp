@@ -44,6 +44,9 @@ struct AnswerCounts {
 /// So many late answers in a row, none in time: the drive is always late, and timeout_ms is too short for it.
 inline constexpr std::uint32_t kAlwaysLate = 3;
 
+/// The timeout_ms that a drive needs which is always late: its delay and a quarter. 0: it is not.
+std::chrono::milliseconds needed_timeout(const AnswerCounts& counts);
+
 class OwedAnswers {
 public:
     /// What an answer names, beside its form. tag (EI-ASCII): the same drive may be asked again for what it

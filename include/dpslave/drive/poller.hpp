@@ -101,6 +101,7 @@ struct UnitSnapshot {
     /// Writes of Demand Data that were never made: too many waited, or they no longer stood when the drive
     /// was lost or did not understand them.
     std::uint64_t orders_dropped = 0;
+    AnswerCounts heard; ///< filled in by the owner of the back-end
 };
 
 /// An order of `dpctl` for one drive: read or write one tag now.

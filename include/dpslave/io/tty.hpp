@@ -64,6 +64,9 @@ public:
     int fd() const { return fd_.get(); }
     /// What `prompt` did not reach, and what that costs: sentences without the path, for the log.
     const std::vector<std::string>& warnings() const { return warnings_; }
+    /// How long a received octet may lie in the port before read() gives it, as far as is known; a USB
+    /// adapter keeps it for up to 16 ms unless it lets itself be told otherwise.
+    std::chrono::nanoseconds hold_back() const;
 
     /// Another rate from now on. What was not sent or read yet is thrown away, and so is what comes within
     /// two characters, which it waits for: the one under way is half of each rate. The error is a sentence

@@ -12,7 +12,10 @@
 
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -62,11 +65,43 @@ public:
     /// Any valid frame of this unit counts, an exception as well.
     bool probe(drive::UnitAddress unit) override;
 
-    std::string last_trouble() const override; ///< "exception 2 (illegal data address)"
+    std::string last_trouble() const override { return trouble_; } ///< "exception 2 (illegal data address)"
+
+    drive::AnswerCounts counts(drive::UnitAddress unit) const override;
 
 private:
     class Exchange;
+    /// Registers from the first on, which a unit is asked for at once.
+    struct Block {
+        std::uint8_t unit = 0;
+        std::uint16_t first = 0;
+        std::uint16_t count = 1;
+        friend auto operator<=>(const Block&, const Block&) = default;
+    };
+    /// What became of a question; `answer` is empty unless there is one without exception.
+    struct Reply {
+        AccessError error = AccessError::none; ///< no_answer, deferred; none: there is an answer
+        std::uint8_t exception = 0;
+        Bytes answer;
+    };
+
+    bool has_address(std::uint8_t unit);
+    Reply ask(std::uint8_t unit, Bytes request);
+    Reply ask_for(const Block& block);
+    Reply ask_to_write(std::uint8_t unit, Bytes request);
+    std::optional<std::uint8_t> function_for(const Block& block);
+    AccessError clear(std::uint8_t unit);
+    AccessError loop_back(std::uint8_t unit);
+    AccessError read_ieee(std::uint8_t unit, const drive::Tag& tag, std::uint16_t& word);
+    AccessError write_single(std::uint8_t unit, const drive::Tag& tag, std::uint16_t word);
+    ModbusUnit functions_of(std::uint8_t unit) const;
+
+    ClientSettings settings_;
     std::unique_ptr<Exchange> exchange_;
+    std::set<Block> gave_data_;                    ///< and were not refused since
+    std::map<std::uint8_t, int> silent_loopbacks_; ///< in a row
+    std::uint16_t token_ = 0;
+    std::string trouble_;
 };
 
 } // namespace dpslave::modbus

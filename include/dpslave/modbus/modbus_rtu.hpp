@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Drives that speak Modbus RTU, all on one serial line. Tag = register, no offset (rows C-128), unless
-/// its row names another register; words travel as the drive has them, only those of the IEEE area are
-/// converted. Source: EI-ASCII and Modbus reference, sections 4 to 6; MODBUS Application Protocol V1.1b3.
+/// Drives that speak Modbus RTU, all on one serial port.
 #pragma once
 
 #include "dpslave/base/result.hpp"
-#include "dpslave/drive/backend.hpp"
+#include "dpslave/modbus/modbus_client.hpp"
 
 #include <atomic>
 #include <chrono>
@@ -13,6 +11,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace dpslave::modbus {
 
@@ -23,18 +22,16 @@ struct RtuSettings {
     char parity = 'N'; ///< 'N', 'E', 'O'
     int stop_bits = 1;
     /// From the end of a request until its answer has to be there, the time of its characters on the line not
-    /// counted. Has to be longer than the slowest answer of the drive; one up to twice as late is still known
-    /// as late.
+    /// counted. Has to be longer than the slowest answer of the drive.
     std::chrono::milliseconds timeout{600};
+    drive::LineRules rules{}; ///< hold_back: that of the port comes on top
     /// Until the first attempt to open a port that vanished; later ones wait longer (io::Port).
     std::chrono::milliseconds reopen_after{500};
 };
 
 class RtuLine;
 
-/// A call is one exchange and takes at most one response time-out and the time of its characters. After a
-/// call without an answer the next one to the same unit first waits until the late answer has passed, one
-/// further time-out at most: Modbus has nothing in an answer that tells which request it belongs to.
+/// The port and the client on it.
 class ModbusRtu final : public drive::Backend {
 public:
     /// Opens the port. The error is a sentence for the log with path, reason and what to do. `is_open`
@@ -42,37 +39,29 @@ public:
     static Result<std::unique_ptr<ModbusRtu>, std::string> open(const RtuSettings& settings,
                                                                 std::atomic<bool>& is_open);
     ~ModbusRtu() override;
+    /// The drives from now on.
+    void set_units(std::vector<ModbusUnit> units) { client_->set_units(std::move(units)); }
 
-    /// As many registers as every frame of 256 octets holds, and gaps as long as reading over them is cheaper
-    /// than a request of its own at this rate.
     static drive::BlockRule block_rule(const RtuSettings& settings);
-    drive::BlockRule block_rule() const override { return block_rule(settings_); }
-
-    /// Function 3. A number of the IEEE area is scaled by the row's decimals and rounded to nearest, ties
-    /// away from zero.
-    AccessError read(drive::UnitAddress unit, const drive::Tag& tag, std::span<std::uint16_t> words) override;
-
-    /// One word: function 6, whose answer is sure. Several words and the IEEE area, which refuses function 6:
-    /// function 16; there the drive may accept a register that it does not have, and drop the value in
-    /// silence.
+    drive::BlockRule block_rule() const override { return client_->block_rule(); }
+    AccessError read(drive::UnitAddress unit, const drive::Tag& tag, std::span<std::uint16_t> words) override
+    {
+        return client_->read(unit, tag, words);
+    }
     AccessError write(drive::UnitAddress unit, const drive::Tag& tag,
-                      std::span<const std::uint16_t> words) override;
-
-    /// Reads register 1; an exception is an answer as well.
-    bool probe(drive::UnitAddress unit) override;
-
-    std::string last_trouble() const override { return trouble_; } ///< "exception 2 (illegal data address)"
+                      std::span<const std::uint16_t> words) override
+    {
+        return client_->write(unit, tag, words);
+    }
+    bool probe(drive::UnitAddress unit) override { return client_->probe(unit); }
+    std::string last_trouble() const override; ///< also: "/dev/ttyS2 has gone"
+    drive::AnswerCounts counts(drive::UnitAddress unit) const override { return client_->counts(unit); }
 
 private:
     ModbusRtu(const RtuSettings& settings, std::unique_ptr<RtuLine> line);
-    struct Reply;
-    Reply ask(drive::UnitAddress unit, std::span<const std::uint8_t> request);
-    AccessError read_ieee(drive::UnitAddress unit, const drive::Tag& tag, std::uint16_t& word);
-    AccessError write_single(drive::UnitAddress unit, const drive::Tag& tag, std::uint16_t word);
 
-    RtuSettings settings_;
     std::unique_ptr<RtuLine> line_;
-    std::string trouble_;
+    std::unique_ptr<ModbusClient> client_;
 };
 
 } // namespace dpslave::modbus

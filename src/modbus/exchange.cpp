@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exchange.hpp"
+
+#include "pdu.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace dpslave::modbus {
+namespace {
+
+using namespace std::chrono_literals;
+using drive::EchoMode;
+using drive::Form;
+using Verdict = drive::OwedAnswers::Verdict;
+
+/// Octets around the part from the function code on: unit address before it, check sum behind it.
+constexpr std::size_t kFrame = 3;
+
+/// Unit, function, and what else an answer shows: its length, of function 8 the two octets of our choice.
+Form form_of(std::uint8_t unit, std::uint8_t function, std::size_t rest)
+{
+    return static_cast<Form>(unit) << 24 | static_cast<Form>(function) << 16 | static_cast<Form>(rest);
+}
+
+Form form_of_answer(std::uint8_t unit, Bytes pdu)
+{
+    if (pdu[0] == kLoopback && pdu.size() == 5) return form_of(unit, pdu[0], be16(pdu, 3));
+    return form_of(unit, pdu[0], pdu.size());
+}
+
+std::chrono::nanoseconds settle_of(const ClientSettings& settings)
+{
+    const auto settle = settings.rules.settle;
+    return (settle.count() != 0 ? settle : 10 * std::chrono::nanoseconds{settings.timeout}) +
+           settings.rules.hold_back;
+}
+
+} // namespace
+
+ModbusClient::Exchange::Exchange(FrameLine& line, ClientSettings settings)
+    : line_(line),
+      settings_(std::move(settings)),
+      owed_(drive::OwedAnswers::Names::drive, settle_of(settings_)),
+      echo_(settings_.rules.echo == EchoMode::off  ? Echo::none
+            : settings_.rules.echo == EchoMode::on ? Echo::heard
+                                                   : Echo::unknown)
+{
+    settings_.baud = std::max<std::uint32_t>(settings_.baud, 1);
+}
+
+std::chrono::nanoseconds ModbusClient::Exchange::duration_of(std::size_t characters) const
+{
+    return std::chrono::nanoseconds{static_cast<std::int64_t>(characters) * settings_.bits_of_a_character *
+                                    std::nano::den / settings_.baud};
+}
+
+/// 3.5 characters, beyond 19200 bit/s a fixed time (MODBUS over Serial Line V1.02, 2.5.1.1); and what the
+/// port may still hold back.
+std::chrono::nanoseconds ModbusClient::Exchange::pause() const
+{
+    const auto between = settings_.baud > 19'200 ? std::chrono::nanoseconds{1'750us} : duration_of(7) / 2;
+    return std::max(between, settings_.rules.hold_back);
+}
+
+drive::Question ModbusClient::Exchange::question_of(std::uint8_t unit, Bytes request) const
+{
+    drive::Question question;
+    question.drive = unit;
+    question.answer = request[0] == kLoopback ? form_of_answer(unit, request)
+                                              : form_of(unit, request[0], longest_answer(request));
+    question.refusal = form_of(unit, request[0] | kIsException, 2);
+    question.wire_time = duration_of(longest_answer(request) + kFrame);
+    return question;
+}
+
+/// Until it is known whether there is an echo, nothing is asked whose answer looks like its request.
+bool ModbusClient::Exchange::is_told_from_echo(Bytes request) const
+{
+    return echo_ != Echo::unknown || (request[0] != kWriteRegister && request[0] != kLoopback);
+}
+
+bool ModbusClient::Exchange::may_ask(std::uint8_t unit, Bytes request, bool gave_data)
+{
+    const drive::Question question = question_of(unit, request);
+    return is_told_from_echo(request) && owed_.may_ask(question, line_.now()) &&
+           (gave_data || !owed_.owes(unit, question.refusal));
+}
+
+ModbusClient::Exchange::End ModbusClient::Exchange::ask(std::uint8_t unit, Bytes request)
+{
+    trouble_.clear();
+    unit_ = unit;
+    heard_unit_ = false;
+    if (!fall_silent()) return End::damaged;
+    const drive::Question question = question_of(unit, request);
+    if (!owed_.may_ask(question, line_.now())) {
+        trouble_ = "an answer to an earlier request of this form is still owed";
+        return End::not_asked;
+    }
+    if (!line_.send(unit, request)) {
+        trouble_ = "the line does not take the request";
+        return End::silence;
+    }
+    const Instant sent_at = line_.now() + duration_of(request.size() + kFrame); // send() need not wait
+    owed_.asked(question, sent_at);
+    echo_due_ = echo_ != Echo::none;
+    const End end = wait(request, sent_at + settings_.timeout + question.wire_time);
+    owed_.wait_is_over();
+    return end;
+}
+
+/// Without a pause a slave does not take what follows for the beginning of a request. What is heard meanwhile
+/// is judged. False: the line babbles on for longer than two of the longest frames.
+bool ModbusClient::Exchange::fall_silent()
+{
+    const Instant end = line_.now() + duration_of(2 * kLongestFrame) + 2 * pause();
+    for (Instant now = line_.now(); now <= end; now = line_.now()) {
+        switch (line_.receive(std::max(now, heard_at_ + pause()))) {
+            case FrameLine::Heard::frame:
+                heard_at_ = line_.now();
+                judge({}, line_.frame());
+                break;
+            case FrameLine::Heard::broken:
+                heard_at_ = line_.now();
+                owed_.damaged(unit_);
+                break;
+            case FrameLine::Heard::silence:
+            case FrameLine::Heard::gone: return true;
+        }
+    }
+    trouble_ = "noise and no answer: the line is never silent";
+    return false;
+}
+
+ModbusClient::Exchange::End ModbusClient::Exchange::wait(Bytes request, Instant until)
+{
+    trouble_ = "no answer";
+    for (Instant now = line_.now(); now < until; now = line_.now()) {
+        switch (line_.receive(until)) {
+            case FrameLine::Heard::frame:
+                heard_at_ = line_.now();
+                if (!take_frame(request)) break;
+                trouble_.clear();
+                return End::answer;
+            case FrameLine::Heard::broken:
+                heard_at_ = line_.now();
+                owed_.damaged(unit_);
+                trouble_ = "an answer with a wrong check sum or parity, or one that broke off";
+                if (std::exchange(echo_due_, false)) break; // the echo: the drive may have heard better
+                return End::damaged;
+            case FrameLine::Heard::silence: return End::silence;
+            case FrameLine::Heard::gone: trouble_ = "the port has gone"; return End::silence;
+        }
+    }
+    return End::silence;
+}
+
+/// The first copy of a request is its echo, a second one the answer (function 6, 8).
+bool ModbusClient::Exchange::take_echo(Bytes request, Bytes frame)
+{
+    const bool is_copy = frame[0] == unit_ && std::ranges::equal(frame.subspan(1), request);
+    if (is_copy && echo_ == Echo::unknown) echo_ = Echo::heard;
+    if (is_copy && echo_ == Echo::none && longest_answer(request) != request.size())
+        trouble_ = "the line hears its own request: set echo = \"on\" for it";
+    if (!is_copy || !echo_due_) return false;
+    echo_due_ = false;
+    return true;
+}
+
+bool ModbusClient::Exchange::take_frame(Bytes request)
+{
+    const Bytes frame = line_.frame();
+    if (frame.size() < 2 || take_echo(request, frame)) return false;
+    const Bytes pdu = frame.subspan(1);
+    const Verdict verdict = judge(request, frame);
+    if (verdict == Verdict::answer) {
+        if (echo_ == Echo::unknown) echo_ = Echo::none;
+        answer_.assign(pdu.begin(), pdu.end());
+        return true;
+    }
+    if (verdict == Verdict::foreign && trouble_ == "no answer")
+        trouble_ = frame[0] == unit_ ? "an answer that does not fit the request: " +
+                                           hex(pdu.first(std::min<std::size_t>(pdu.size(), 5)))
+                                     : "an answer of unit " + std::to_string(frame[0]);
+    return false;
+}
+
+/// Of a frame that has the form of an answer to `request` the rest has to fit, too.
+Verdict ModbusClient::Exchange::judge(Bytes request, Bytes frame)
+{
+    if (frame.size() < 2) return Verdict::foreign;
+    const Bytes pdu = frame.subspan(1);
+    const Form form = form_of_answer(frame[0], pdu);
+    const bool gateway = (pdu[0] & kIsException) != 0 && pdu.size() == 2 && is_of_gateway(pdu[1]);
+    const bool has_form = !request.empty() && frame[0] == unit_ && form == question_of(unit_, request).answer;
+    const Verdict verdict =
+        has_form && !answers(request, pdu) ? Verdict::foreign : owed_.heard(form, frame, line_.now());
+    if (verdict == Verdict::foreign) owed_.foreign(unit_);
+    if (frame[0] == unit_ && !gateway && verdict != Verdict::foreign) heard_unit_ = true;
+    return verdict;
+}
+
+} // namespace dpslave::modbus

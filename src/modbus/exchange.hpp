@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+/// One question on a Modbus line and what is heard until its wait is over: takes the echo away and lets
+/// OwedAnswers say whose a frame is. Pure.
+#pragma once
+
+#include "dpslave/drive/owed_answers.hpp"
+#include "dpslave/modbus/modbus_client.hpp"
+
+#include <string>
+#include <vector>
+
+namespace dpslave::modbus {
+
+class ModbusClient::Exchange {
+public:
+    Exchange(FrameLine& line, ClientSettings settings);
+
+    /// How the wait for an answer ended.
+    enum class End : std::uint8_t {
+        answer,  ///< to this request and no other: answer(), an exception included
+        silence, ///< also: the port has gone
+        damaged,
+        not_asked, ///< what answers it could not be taken
+    };
+
+    /// `request` from the function code on.
+    End ask(std::uint8_t unit, Bytes request);
+    Bytes answer() const { return answer_; } ///< from the function code on
+    const std::string& trouble() const { return trouble_; }
+
+    /// Could the answer to it be taken? `gave_data`: it did before; else it may be denied, and nothing of its
+    /// function may be owed, because an exception does not show which of two it answers.
+    bool may_ask(std::uint8_t unit, Bytes request, bool gave_data);
+    /// Judges what has come since the last question.
+    void listen() { fall_silent(); }
+    /// Did the unit that was asked last say anything since then, whatever it answered?
+    bool heard_unit() const { return heard_unit_; }
+    drive::AnswerCounts counts(std::uint8_t unit) const { return owed_.counts(unit); }
+
+private:
+    enum class Echo : std::uint8_t { unknown, heard, none };
+
+    drive::Question question_of(std::uint8_t unit, Bytes request) const;
+    bool is_told_from_echo(Bytes request) const;
+    bool fall_silent();
+    End wait(Bytes request, Instant until);
+    bool take_frame(Bytes request);
+    bool take_echo(Bytes request, Bytes frame);
+    drive::OwedAnswers::Verdict judge(Bytes request, Bytes frame);
+    std::chrono::nanoseconds duration_of(std::size_t characters) const;
+    std::chrono::nanoseconds pause() const;
+
+    FrameLine& line_;
+    ClientSettings settings_;
+    drive::OwedAnswers owed_;
+    Echo echo_;
+    bool echo_due_ = false; ///< of the request under way
+    std::uint8_t unit_ = 0; ///< asked last
+    bool heard_unit_ = false;
+    Instant heard_at_{};
+    std::vector<std::uint8_t> answer_;
+    std::string trouble_;
+};
+
+} // namespace dpslave::modbus

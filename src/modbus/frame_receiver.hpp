@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Makes frames of the octets of a Modbus RTU line. libmodbus cannot receive an echo or the answer to
+/// function 8 (it reads 5 of its 8 octets), and throws away the good frame behind a bad one. Pure.
+#pragma once
+
+#include "dpslave/base/bytes.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace dpslave::modbus {
+
+/// CRC-16 of MODBUS over Serial Line V1.02, 6.2.2; sent low octet first.
+std::uint16_t crc16(Bytes octets);
+
+class FrameReceiver {
+public:
+    enum class Found : std::uint8_t { nothing, frame, broken };
+
+    /// A request goes out: a copy of it is a frame as well. Unit first, without check sum.
+    void sent(std::uint8_t unit, Bytes pdu);
+
+    /// The next octet. After something broken nothing is found until silence().
+    Found feed(std::uint8_t octet);
+    /// The port has heard a character with wrong parity, or a break.
+    Found fault();
+    /// Nothing came for longer than within a frame.
+    Found silence();
+    bool in_frame() const { return !octets_.empty() || skips_; }
+
+    Bytes frame() const { return frame_; } ///< unit first, without check sum; of the last Found::frame
+
+private:
+    bool has_length() const;
+
+    std::vector<std::uint8_t> octets_;
+    std::vector<std::uint8_t> frame_;
+    std::vector<std::uint8_t> request_; ///< with check sum
+    bool skips_ = false;
+};
+
+} // namespace dpslave::modbus
