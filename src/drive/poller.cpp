@@ -81,8 +81,6 @@ std::optional<Transaction> Poller::next_of(Instant now)
         const auto transaction = unit.is_lost() ? probe(index, now) : unit.next(now);
         if (!transaction) continue;
         turn_ = (index + 1) % units_.size();
-        if (risks)
-            for (const auto& other : units_) other->owe_round();
         return transaction;
     }
     return std::nullopt;
@@ -117,6 +115,8 @@ void Poller::done(const Outcome& outcome, Instant now)
     const Transaction transaction = *std::exchange(doing_, std::nullopt);
     if (std::exchange(probes_, false)) probed_at_ = now;
     units_[transaction.unit]->done(transaction, outcome, now);
+    if (outcome.error == AccessError::no_answer)
+        for (const auto& unit : units_) unit->owe_round();
 }
 
 Instant Poller::next_deadline() const

@@ -45,7 +45,7 @@ public:
     Instant probe_due() const { return asked_at_ + settings_.probe_interval; }
     std::chrono::nanoseconds probe_interval() const { return settings_.probe_interval; }
     Instant asked_at() const { return asked_at_; }
-    /// A transaction that could time out was given: this drive has its round before the next such one.
+    /// A transaction has timed out: this drive has its round before one that may do so again.
     void owe_round() { owes_round_ = true; }
     bool owes_round() const { return owes_round_ && !is_in_doubt(); }
 

@@ -15,7 +15,7 @@ using test::FakeDrive;
 using test::Fault;
 using testing::HasSubstr;
 
-constexpr UnitAddress kA{0, 0}, kB{0, 1}, kNobody{0, 2};
+constexpr UnitAddress kFirst{0, 0}, kSecond{0, 1}, kMissing{0, 2};
 
 Tag word_tag(std::uint16_t number)
 {
@@ -30,9 +30,9 @@ protected:
     explicit EiAnswers(EchoMode echo = EchoMode::off)
         : client(line,
                  {.baud = 9600, .timeout = 200ms, .rules = {.settle = {}, .hold_back = {}, .echo = echo}},
-                 {{kA, MnemonicRule::dc_590plus},
-                  {kB, MnemonicRule::dc_590plus},
-                  {kNobody, MnemonicRule::dc_590plus}})
+                 {{kFirst, MnemonicRule::dc_590plus},
+                  {kSecond, MnemonicRule::dc_590plus},
+                  {kMissing, MnemonicRule::dc_590plus}})
     {
         line.drives = {&a, &b};
         a.parameters["ow"].text = ">000A";
@@ -73,17 +73,17 @@ TEST_F(EiAnswers, ADriveThatIsAlwaysLateByALittleGivesNoValueToTheOther)
     for (int i = 0; line.time < Instant{} + 30s; ++i) {
         b.turnaround = 210ms + std::chrono::milliseconds{i % 21};
         for (const Tag& tag : {output, input}) {
-            if (read(kA, tag) == AccessError::none) {
+            if (read(kFirst, tag) == AccessError::none) {
                 EXPECT_EQ(word, tag.number == 536 ? 0x000A : 0x00AA);
             }
-            if (read(kB, tag) == AccessError::none) {
+            if (read(kSecond, tag) == AccessError::none) {
                 EXPECT_EQ(word, tag.number == 536 ? 0x000B : 0x00BB);
             }
         }
     }
-    EXPECT_GE(client.counts(kB).late_in_a_row, kAlwaysLate);
-    EXPECT_GT(needed_timeout(client.counts(kB)), 210ms);
-    EXPECT_EQ(client.counts(kA).late, 0u);
+    EXPECT_GE(client.counts(kSecond).late_in_a_row, kAlwaysLate);
+    EXPECT_GT(needed_timeout(client.counts(kSecond)), 210ms);
+    EXPECT_EQ(needed_timeout(client.counts(kFirst)), 0ms);
 }
 
 TEST_F(EiAnswers, OneAnswerInTwentyThatIs900MsLateGivesNoWrongValue)
@@ -92,12 +92,12 @@ TEST_F(EiAnswers, OneAnswerInTwentyThatIs900MsLateGivesNoWrongValue)
     for (int i = 0; line.time < Instant{} + 40s; ++i) {
         b.turnaround = i % 20 == 0 ? 900ms : 5ms;
         b.parameters["ow"].text = i % 40 < 20 ? ">000B" : ">0B0B";
-        if (read(kB, output) == AccessError::none) {
+        if (read(kSecond, output) == AccessError::none) {
             EXPECT_EQ(word, std::stoi(b.parameters["ow"].text.substr(1), nullptr, 16));
             ++good;
         }
         b.turnaround = 5ms;
-        if (read(kA, output) == AccessError::none) {
+        if (read(kFirst, output) == AccessError::none) {
             EXPECT_EQ(word, 0x000A);
             ++good;
         }
@@ -109,46 +109,46 @@ TEST_F(EiAnswers, OneAnswerInTwentyThatIs900MsLateGivesNoWrongValue)
 TEST_F(EiAnswers, WhatOneDriveOwesIsNotAskedOfAnother)
 {
     b.faults = {Fault::silent};
-    ASSERT_EQ(read(kB, output), AccessError::no_answer);
+    ASSERT_EQ(read(kSecond, output), AccessError::no_answer);
     line.sent.clear();
 
-    EXPECT_EQ(read(kA, output), AccessError::deferred);
+    EXPECT_EQ(read(kFirst, output), AccessError::deferred);
     EXPECT_EQ(line.sent, "");
-    EXPECT_EQ(read(kA, input), AccessError::none);
+    EXPECT_EQ(read(kFirst, input), AccessError::none);
 }
 
 TEST_F(EiAnswers, AValueOfAnotherMnemonicClearsTheDebt)
 {
     b.faults = {Fault::silent};
-    ASSERT_EQ(read(kB, output), AccessError::no_answer);
-    ASSERT_EQ(read(kB, input), AccessError::none);
+    ASSERT_EQ(read(kSecond, output), AccessError::no_answer);
+    ASSERT_EQ(read(kSecond, input), AccessError::none);
 
-    EXPECT_EQ(read(kA, output), AccessError::none);
+    EXPECT_EQ(read(kFirst, output), AccessError::none);
     EXPECT_EQ(word, 0x000A);
 }
 
 TEST_F(EiAnswers, ADriveThatOwesThisVeryTagIsAskedForSomethingElseFirst)
 {
     b.faults = {Fault::silent};
-    ASSERT_EQ(read(kB, output), AccessError::no_answer);
+    ASSERT_EQ(read(kSecond, output), AccessError::no_answer);
     line.sent.clear();
 
-    EXPECT_EQ(read(kB, output), AccessError::none);
+    EXPECT_EQ(read(kSecond, output), AccessError::none);
     EXPECT_EQ(line.sent, "\x04"
                          "0011II\x05"
                          "\x04"
                          "0011ow\x05");
-    EXPECT_EQ(read(kA, output), AccessError::none) << "nothing is owed any more";
+    EXPECT_EQ(read(kFirst, output), AccessError::none) << "nothing is owed any more";
 }
 
 TEST_F(EiAnswers, ADebtOfADeadDriveSettlesTenTimeOutsAfterItsQuestion)
 {
     b.alive = false;
-    ASSERT_EQ(read(kB, output), AccessError::no_answer);
+    ASSERT_EQ(read(kSecond, output), AccessError::no_answer);
     line.time = Instant{} + 2s;
-    EXPECT_EQ(read(kA, output), AccessError::deferred);
+    EXPECT_EQ(read(kFirst, output), AccessError::deferred);
     line.time = Instant{} + 2100ms;
-    EXPECT_EQ(read(kA, output), AccessError::none);
+    EXPECT_EQ(read(kFirst, output), AccessError::none);
 }
 
 // ---- EOT, NAK and EE
@@ -156,22 +156,22 @@ TEST_F(EiAnswers, ADebtOfADeadDriveSettlesTenTimeOutsAfterItsQuestion)
 TEST_F(EiAnswers, OneStrayEotIsNoVerdictOnTheTag)
 {
     line.comes_by_itself(stray('\x04'), 12ms);
-    EXPECT_EQ(read(kA, output), AccessError::not_understood);
-    EXPECT_EQ(read(kA, output), AccessError::none);
+    EXPECT_EQ(read(kFirst, output), AccessError::not_understood);
+    EXPECT_EQ(read(kFirst, output), AccessError::none);
 }
 
 TEST_F(EiAnswers, AStrayEotAndAnOldEeAreNoVerdictEither)
 {
     a.ee = ">01C7";
     line.comes_by_itself(stray('\x04'), 12ms);
-    EXPECT_EQ(read(kA, output), AccessError::none) << "asked again with EE at 0";
+    EXPECT_EQ(read(kFirst, output), AccessError::none) << "asked again with EE at 0";
     EXPECT_EQ(word, 0x000A);
 }
 
 TEST_F(EiAnswers, ATagIsInvalidWhenTheDriveHasSaidSoTwiceWithEeAt0Before)
 {
     a.parameters.erase("ow");
-    EXPECT_EQ(read(kA, output), AccessError::invalid_tag);
+    EXPECT_EQ(read(kFirst, output), AccessError::invalid_tag);
     const std::string ask = "\x04"
                             "0000ow\x05",
                       ee = "\x04"
@@ -181,30 +181,30 @@ TEST_F(EiAnswers, ATagIsInvalidWhenTheDriveHasSaidSoTwiceWithEeAt0Before)
                               "EE>0000\x03\x3D";
     EXPECT_EQ(line.sent, ask + ee + clear + ee + ask + ee + clear + ee + ask + ee);
     line.sent.clear();
-    EXPECT_EQ(read(kA, output), AccessError::invalid_tag);
+    EXPECT_EQ(read(kFirst, output), AccessError::invalid_tag);
     EXPECT_EQ(line.sent, ask + ee) << "known by now";
 }
 
 TEST_F(EiAnswers, AStrayNakIsNoRefusal)
 {
     line.comes_by_itself(stray('\x15'), 16ms);
-    EXPECT_EQ(write(kA, output, 1), AccessError::not_understood) << "EE says 00C0: the frame was spoilt";
+    EXPECT_EQ(write(kFirst, output, 1), AccessError::not_understood) << "EE says 00C0: the frame was spoilt";
 }
 
 TEST_F(EiAnswers, AStrayNakAndAnOldEeAreNoRefusalEither)
 {
     a.ee = ">05C8";
     line.comes_by_itself(stray('\x15'), 16ms);
-    EXPECT_EQ(write(kA, output, 1), AccessError::none);
+    EXPECT_EQ(write(kFirst, output, 1), AccessError::none);
     EXPECT_EQ(a.parameters["ow"].text, ">0001");
 }
 
 TEST_F(EiAnswers, ARefusalIsBelievedAtOnceOnceEeIsKnownToBe0)
 {
     a.parameters["ow"].read_only = true;
-    ASSERT_EQ(write(kA, output, 1), AccessError::read_only);
+    ASSERT_EQ(write(kFirst, output, 1), AccessError::read_only);
     const unsigned before = a.requests;
-    EXPECT_EQ(write(kA, output, 1), AccessError::read_only);
+    EXPECT_EQ(write(kFirst, output, 1), AccessError::read_only);
     EXPECT_EQ(a.requests - before, 4u) << "the write, EE, and EE to 0 for the next time";
 }
 
@@ -213,18 +213,18 @@ TEST_F(EiAnswers, ARefusalIsBelievedAtOnceOnceEeIsKnownToBe0)
 TEST_F(EiAnswers, ALateAckOfOneDriveIsNoAckOfAnother)
 {
     a.turnaround = 250ms;
-    ASSERT_EQ(write(kA, output, 1), AccessError::no_answer);
+    ASSERT_EQ(write(kFirst, output, 1), AccessError::no_answer);
 
-    EXPECT_EQ(write(kNobody, output, 0), AccessError::no_answer) << "nobody is there";
+    EXPECT_EQ(write(kMissing, output, 0), AccessError::no_answer) << "nobody is there";
 }
 
 TEST_F(EiAnswers, ADoubtfulAckIsProvenByReadingBack)
 {
     a.faults = {Fault::lost_answer};
-    ASSERT_EQ(write(kA, output, 1), AccessError::no_answer);
+    ASSERT_EQ(write(kFirst, output, 1), AccessError::no_answer);
     line.sent.clear();
 
-    EXPECT_EQ(write(kB, output, 2), AccessError::none);
+    EXPECT_EQ(write(kSecond, output, 2), AccessError::none);
     EXPECT_EQ(b.parameters["ow"].text, ">0002");
     EXPECT_THAT(line.sent, HasSubstr("\x04"
                                      "0011II\x05"
@@ -236,10 +236,10 @@ TEST_F(EiAnswers, ADoubtfulAckIsProvenByReadingBack)
 TEST_F(EiAnswers, ADoubtfulAckWithoutProofIsNone)
 {
     a.faults = {Fault::lost_answer};
-    ASSERT_EQ(write(kA, output, 1), AccessError::no_answer);
+    ASSERT_EQ(write(kFirst, output, 1), AccessError::no_answer);
     b.faults = {Fault::none, Fault::none, Fault::silent};
 
-    EXPECT_EQ(write(kB, output, 2), AccessError::no_answer);
+    EXPECT_EQ(write(kSecond, output, 2), AccessError::no_answer);
 }
 
 // ---- a drive is back only on a value
@@ -247,33 +247,33 @@ TEST_F(EiAnswers, ADoubtfulAckWithoutProofIsNone)
 TEST_F(EiAnswers, AStrayEotDoesNotBringADriveBack)
 {
     line.comes_by_itself(stray('\x04'), 12ms);
-    EXPECT_FALSE(client.probe(kNobody));
+    EXPECT_FALSE(client.probe(kMissing));
 }
 
 TEST_F(EiAnswers, AnEchoBringsNoDriveBackHoweverTheLineIsSet)
 {
     line.echoes = true;
-    EXPECT_FALSE(client.probe(kNobody));
-    EXPECT_NE(read(kNobody, output), AccessError::none);
-    EXPECT_NE(write(kNobody, output, 1), AccessError::none);
+    EXPECT_FALSE(client.probe(kMissing));
+    EXPECT_NE(read(kMissing, output), AccessError::none);
+    EXPECT_NE(write(kMissing, output, 1), AccessError::none);
 }
 
 TEST_F(EiEchoOn, IsTakenAwayAndTheAnswerBehindItIsTaken)
 {
-    EXPECT_EQ(read(kA, output), AccessError::none);
+    EXPECT_EQ(read(kFirst, output), AccessError::none);
     EXPECT_EQ(word, 0x000A);
-    EXPECT_EQ(write(kA, output, 5), AccessError::none);
+    EXPECT_EQ(write(kFirst, output, 5), AccessError::none);
     a.parameters.erase("ox");
-    EXPECT_EQ(read(kA, input), AccessError::invalid_tag) << "an EOT behind the echo";
-    EXPECT_FALSE(client.probe(kNobody));
+    EXPECT_EQ(read(kFirst, input), AccessError::invalid_tag) << "an EOT behind the echo";
+    EXPECT_FALSE(client.probe(kMissing));
 }
 
 TEST_F(EiEchoAuto, IsTakenAwayWhereThereIsOneAndNotMissedWhereThereIsNone)
 {
-    EXPECT_EQ(read(kA, output), AccessError::none);
+    EXPECT_EQ(read(kFirst, output), AccessError::none);
     line.echoes = true;
-    EXPECT_EQ(read(kA, output), AccessError::none);
-    EXPECT_EQ(write(kA, output, 5), AccessError::none);
+    EXPECT_EQ(read(kFirst, output), AccessError::none);
+    EXPECT_EQ(write(kFirst, output, 5), AccessError::none);
 }
 
 } // namespace

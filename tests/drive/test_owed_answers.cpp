@@ -15,7 +15,7 @@ using Names = OwedAnswers::Names;
 
 constexpr DriveNumber kA = 1, kB = 2;
 constexpr Form kM = 0x4D4D, kN = 0x4E4E, kRefusal = 0x8083;
-constexpr Instant at(std::chrono::nanoseconds when)
+constexpr Instant after(std::chrono::nanoseconds when)
 {
     return Instant{} + when;
 }
@@ -47,7 +47,7 @@ protected:
     /// Asked, and its wait is over without an answer.
     void loses(const Question& question, std::chrono::nanoseconds when)
     {
-        owed.asked(question, at(when));
+        owed.asked(question, after(when));
         owed.wait_is_over();
     }
     OwedAnswers owed{Names::tag, 2s};
@@ -55,26 +55,26 @@ protected:
 
 TEST_F(Owed, AnAnswerToTheQuestionAskedLastIsTaken)
 {
-    owed.asked(read(kA, kM), at(0s));
-    EXPECT_EQ(owed.heard(kM, text("1"), at(20ms)), Verdict::answer);
+    owed.asked(read(kA, kM), after(0s));
+    EXPECT_EQ(owed.heard(kM, text("1"), after(20ms)), Verdict::answer);
     EXPECT_TRUE(owed.empty());
 }
 
 TEST_F(Owed, AnotherDriveIsNotAskedForWhatOneOwes)
 {
     loses(read(kA, kM), 0s);
-    EXPECT_FALSE(owed.may_ask(read(kB, kM), at(1s)));
-    EXPECT_TRUE(owed.may_ask(read(kB, kN), at(1s)));
-    EXPECT_TRUE(owed.may_ask(read(kA, kM), at(1s)))
+    EXPECT_FALSE(owed.may_ask(read(kB, kM), after(1s)));
+    EXPECT_TRUE(owed.may_ask(read(kB, kN), after(1s)));
+    EXPECT_TRUE(owed.may_ask(read(kA, kM), after(1s)))
         << "this drive and this tag: whichever answer comes, it is right";
 }
 
 TEST_F(Owed, WhereAnswersDoNotNameTheTagTheSameDriveIsNotAskedEither)
 {
     OwedAnswers modbus{Names::drive, 2s};
-    modbus.asked(read(kA, kM), at(0s));
+    modbus.asked(read(kA, kM), after(0s));
     modbus.wait_is_over();
-    EXPECT_FALSE(modbus.may_ask(read(kA, kM), at(1s)));
+    EXPECT_FALSE(modbus.may_ask(read(kA, kM), after(1s)));
 }
 
 TEST_F(Owed, ADebtSettlesAfterItsOwnQuestionAndTheWireTimeOfAll)
@@ -84,18 +84,18 @@ TEST_F(Owed, ADebtSettlesAfterItsOwnQuestionAndTheWireTimeOfAll)
     loses(slow, 0s);
     slow.answer = kN;
     loses(slow, 1s);
-    EXPECT_FALSE(owed.may_ask(read(kB, kM), at(2s + 199ms)));
-    EXPECT_TRUE(owed.may_ask(read(kB, kM), at(2s + 200ms)));
-    EXPECT_FALSE(owed.may_ask(read(kB, kN), at(3s + 99ms))) << "each has its own time";
-    EXPECT_TRUE(owed.may_ask(read(kB, kN), at(3s + 100ms)));
+    EXPECT_FALSE(owed.may_ask(read(kB, kM), after(2s + 199ms)));
+    EXPECT_TRUE(owed.may_ask(read(kB, kM), after(2s + 200ms)));
+    EXPECT_FALSE(owed.may_ask(read(kB, kN), after(3s + 99ms))) << "each has its own time";
+    EXPECT_TRUE(owed.may_ask(read(kB, kN), after(3s + 100ms)));
 }
 
 TEST_F(Owed, ALateAnswerEndsTheOldestDebtThatItFits)
 {
     loses(read(kA, kM), 0s);
     loses(read(kA, kM), 1s);
-    owed.asked(read(kB, kN), at(1200ms));
-    EXPECT_EQ(owed.heard(kM, text("1"), at(1300ms)), Verdict::owed);
+    owed.asked(read(kB, kN), after(1200ms));
+    EXPECT_EQ(owed.heard(kM, text("1"), after(1300ms)), Verdict::owed);
     EXPECT_TRUE(owed.owes(kA, kM)) << "one of the two";
     EXPECT_EQ(owed.counts(kA).late, 1u);
     EXPECT_EQ(owed.counts(kA).delay, 1300ms);
@@ -105,11 +105,11 @@ TEST_F(Owed, OfEqualAnswersWithoutAQuestionBetweenOnlyTheFirstCounts)
 {
     loses(read(kA, kM), 0s);
     loses(read(kA, kM), 1s);
-    EXPECT_EQ(owed.heard(kM, text("1"), at(1100ms)), Verdict::owed);
-    EXPECT_EQ(owed.heard(kM, text("1"), at(1110ms)), Verdict::duplicate);
+    EXPECT_EQ(owed.heard(kM, text("1"), after(1100ms)), Verdict::owed);
+    EXPECT_EQ(owed.heard(kM, text("1"), after(1110ms)), Verdict::duplicate);
     EXPECT_TRUE(owed.owes(kA, kM));
-    owed.asked(read(kB, kN), at(1200ms));
-    EXPECT_EQ(owed.heard(kM, text("1"), at(1300ms)), Verdict::owed) << "a question lies between";
+    owed.asked(read(kB, kN), after(1200ms));
+    EXPECT_EQ(owed.heard(kM, text("1"), after(1300ms)), Verdict::owed) << "a question lies between";
     EXPECT_FALSE(owed.owes(kA, kM));
 }
 
@@ -118,8 +118,8 @@ TEST_F(Owed, AnAnswerThatNothingOwedLooksLikeEndsEveryDebtOfItsDrive)
     loses(read(kA, kM), 0s);
     loses(write(kA, kM), 1s);
     loses(read(kB, 0x4242), 1s);
-    owed.asked(read(kA, kN), at(1200ms));
-    EXPECT_EQ(owed.heard(kN, text("1"), at(1300ms)), Verdict::answer);
+    owed.asked(read(kA, kN), after(1200ms));
+    EXPECT_EQ(owed.heard(kN, text("1"), after(1300ms)), Verdict::answer);
     EXPECT_FALSE(owed.owes(kA));
     EXPECT_TRUE(owed.owes(kB)) << "the drives of a line are independent of each other";
 }
@@ -127,26 +127,26 @@ TEST_F(Owed, AnAnswerThatNothingOwedLooksLikeEndsEveryDebtOfItsDrive)
 TEST_F(Owed, WhereTheDriveOwesTheSameTagTheValueIsRightAndOneAnswerStaysOwed)
 {
     loses(read(kA, kM), 0s);
-    owed.asked(read(kA, kM), at(300ms));
-    EXPECT_EQ(owed.heard(kM, text("1"), at(320ms)), Verdict::answer_or_older);
+    owed.asked(read(kA, kM), after(300ms));
+    EXPECT_EQ(owed.heard(kM, text("1"), after(320ms)), Verdict::answer_or_older);
     EXPECT_TRUE(owed.owes(kA, kM));
 }
 
 TEST_F(Owed, AValueThatMayBeOlderThanAWriteOfItsTagIsSaidToBe)
 {
     loses(read(kA, kM), 0s);
-    owed.asked(write(kA, kM), at(250ms));
+    owed.asked(write(kA, kM), after(250ms));
     ASSERT_TRUE(owed.take_ack());
-    owed.asked(read(kA, kM), at(300ms));
-    EXPECT_EQ(owed.heard(kM, text("1"), at(320ms)), Verdict::before_write);
+    owed.asked(read(kA, kM), after(300ms));
+    EXPECT_EQ(owed.heard(kM, text("1"), after(320ms)), Verdict::before_write);
 }
 
 TEST_F(Owed, AnAckIsTakenWhereNoOtherWriteOfTheLineIsOwed)
 {
-    owed.asked(write(kA, kM), at(0s));
+    owed.asked(write(kA, kM), after(0s));
     EXPECT_TRUE(owed.take_ack());
     loses(write(kA, kM), 1s);
-    owed.asked(write(kB, kM), at(1300ms));
+    owed.asked(write(kB, kM), after(1300ms));
     EXPECT_FALSE(owed.take_ack()) << "it may be the late one of A";
     EXPECT_TRUE(owed.owes_write(kA));
     EXPECT_TRUE(owed.owes_write(kB)) << "a doubtful one ends nothing";
@@ -154,8 +154,8 @@ TEST_F(Owed, AnAckIsTakenWhereNoOtherWriteOfTheLineIsOwed)
 
 TEST_F(Owed, WhatNobodyWasAskedForIsForeign)
 {
-    owed.asked(read(kA, kM), at(0s));
-    EXPECT_EQ(owed.heard(kN, text("1"), at(10ms)), Verdict::foreign);
+    owed.asked(read(kA, kM), after(0s));
+    EXPECT_EQ(owed.heard(kN, text("1"), after(10ms)), Verdict::foreign);
     EXPECT_TRUE(owed.owes(kA, kM));
 }
 
@@ -164,12 +164,12 @@ TEST_F(Owed, AnExceptionIsNotTakenWhereTheDriveOwesAnotherAnswerOfTheFunction)
     OwedAnswers modbus{Names::drive, 2s};
     Question first = read(kA, kM), second = read(kA, kN);
     first.refusal = second.refusal = kRefusal;
-    modbus.asked(first, at(0s));
+    modbus.asked(first, after(0s));
     modbus.wait_is_over();
-    modbus.asked(second, at(1s));
-    EXPECT_EQ(modbus.heard(kRefusal, text("2"), at(1100ms)), Verdict::owed);
+    modbus.asked(second, after(1s));
+    EXPECT_EQ(modbus.heard(kRefusal, text("2"), after(1100ms)), Verdict::owed);
     EXPECT_FALSE(modbus.owes(kA, kM)) << "an ambiguous one ends the oldest";
-    EXPECT_EQ(modbus.heard(kRefusal, text("3"), at(1200ms)), Verdict::answer);
+    EXPECT_EQ(modbus.heard(kRefusal, text("3"), after(1200ms)), Verdict::answer);
 }
 
 TEST_F(Owed, ADriveThatIsAlwaysLateIsNamedWithTheTimeOutThatItNeeds)
@@ -177,13 +177,13 @@ TEST_F(Owed, ADriveThatIsAlwaysLateIsNamedWithTheTimeOutThatItNeeds)
     for (int i = 0; i < 3; ++i) {
         EXPECT_EQ(needed_timeout(owed.counts(kA)), 0ms);
         loses(read(kA, kM), i * 1s);
-        EXPECT_EQ(owed.heard(kM, text("1"), at(i * 1s + 400ms)), Verdict::owed);
-        owed.asked(read(kB, kN), at(i * 1s + 500ms));
+        EXPECT_EQ(owed.heard(kM, text("1"), after(i * 1s + 400ms)), Verdict::owed);
+        owed.asked(read(kB, kN), after(i * 1s + 500ms));
         owed.wait_is_over();
     }
     EXPECT_EQ(needed_timeout(owed.counts(kA)), 500ms);
-    owed.asked(read(kA, kM), at(9s));
-    EXPECT_EQ(owed.heard(kM, text("1"), at(9100ms)), Verdict::answer);
+    owed.asked(read(kA, kM), after(9s));
+    EXPECT_EQ(owed.heard(kM, text("1"), after(9100ms)), Verdict::answer);
     EXPECT_EQ(needed_timeout(owed.counts(kA)), 0ms) << "not always";
 }
 
