@@ -72,7 +72,8 @@ TEST_F(Attack, ByAHostileFileIsRefusedAtAReloadAndTheExchangeGoesOn)
     Master master{gateway, {"--tags", "55,56w"}};
     ASSERT_TRUE(master.does("start 30s"));
     const std::filesystem::path table = gateway.folder("tags.csv");
-    const std::string with_table = gateway.config_text() + "tags = \"tags.csv\"\n";
+    std::string with_table = gateway.config_text();
+    with_table = with_table.substr(0, with_table.rfind("tags = ")) + "tags = \"tags.csv\"\n";
     std::string faulty = "tag,name,type\n", deep = "a";
     for (int i = 0; i < 12'000; ++i) faulty += std::to_string(i) + ",a name,NOTYPE\n";
     for (int i = 0; i < 200'000; ++i) deep += ".a";
