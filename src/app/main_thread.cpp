@@ -99,6 +99,7 @@ std::optional<std::string> MainThread::open_socket()
     settings.operator_group = operator_group_of(config_.control);
     settings.operator_group_name = config_.control.operator_group;
     settings.version = kVersion;
+    settings.url = kUrl;
     auto server = control::Server::open(std::move(settings), handlers());
     if (!server) return server.error();
     server_.emplace(std::move(*server));

@@ -4,5 +4,6 @@
 namespace dpslave::app {
 
 const char* const kVersion = DPSLAVE_VERSION; // given by src/app/CMakeLists.txt
+const char* const kUrl = DPSLAVE_URL;
 
 } // namespace dpslave::app

@@ -103,6 +103,7 @@ Bench::Bench(control::Handlers handlers, const std::function<void(control::Serve
     control::ServerSettings settings;
     settings.socket = socket;
     settings.version = "9.8.7";
+    settings.url = "file:///doc/README.md";
     if (change) change(settings);
     auto opened = control::Server::open(std::move(settings), std::move(handlers));
     if (!opened) throw std::runtime_error(opened.error());

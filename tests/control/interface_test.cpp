@@ -78,8 +78,8 @@ TEST(ServiceInterface, IsThatOfVarlink)
     ASSERT_TRUE(interface) << interface.error();
     EXPECT_EQ(interface->name, "org.varlink.service");
     EXPECT_EQ(interface->methods.count("GetInfo") + interface->methods.count("GetInterfaceDescription"), 2u);
-    for (const char* error :
-         {"InterfaceNotFound", "MethodNotFound", "MethodNotImplemented", "InvalidParameter"})
+    for (const char* error : {"InterfaceNotFound", "MethodNotFound", "MethodNotImplemented",
+                              "InvalidParameter", "PermissionDenied", "ExpectedMore"})
         EXPECT_EQ(interface->errors.count(error), 1u) << error;
 }
 

@@ -111,8 +111,10 @@ TEST_F(ControlServer, TellsItsInterfaces)
 
     const auto reply = bench.ask(caller, message(R"({"method":"org.varlink.service.GetInfo"})"));
 
-    EXPECT_EQ(reply,
-              json(R"({"parameters":{"vendor":"dpslaved","product":"dpslaved","version":"9.8.7","url":"",
+    EXPECT_EQ(
+        reply,
+        json(
+            R"({"parameters":{"vendor":"dpslaved","product":"dpslaved","version":"9.8.7","url":"file:///doc/README.md",
                               "interfaces":["org.varlink.service","org.dpslaved.Control"]}})"));
 }
 

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# sysusers.sh FILE: fails if it does not make the user and put it into the group of the serial ports.
+# sysusers.sh FILE: fails if it does not make the user and put it into the group of the serial ports, and the group of the devices.
 set -eu
 command -v systemd-sysusers >/dev/null || { echo "systemd-sysusers is not installed" && exit 77; }
 root=$(mktemp -d)
@@ -13,3 +13,4 @@ systemd-sysusers --root="$root" dpslaved.conf
 grep -E '^dpslaved:.*:/nonexistent:.*nologin$' "$root/etc/passwd"
 grep -E '^dpslaved:' "$root/etc/group"
 grep -E '^dialout:x:20:dpslaved$' "$root/etc/group"
+grep -E '^dpslaved-devices:x:[0-9]+:$' "$root/etc/group" # operators are not in it

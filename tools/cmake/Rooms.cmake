@@ -13,6 +13,9 @@ if(DPSLAVE_SANITIZE)
   target_link_options(dpslave_flags INTERFACE -fsanitize=${DPSLAVE_SANITIZE})
 endif()
 
+include(Hardening)
+target_link_libraries(dpslave_flags INTERFACE dpslave_hardening)
+
 # CMAKE_UNITY_BUILD compiles several files of a room at once, which more than halves the time. ALONE names those that
 # share the name of something local with a neighbour.
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 6)
@@ -29,6 +32,7 @@ function(dpslave_room name)
   dpslave_alone(${arg_ALONE})
   add_library(dpslave_${name} STATIC ${arg_SOURCES})
   target_include_directories(dpslave_${name} PUBLIC ${PROJECT_SOURCE_DIR}/include PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  target_compile_options(dpslave_${name} PRIVATE ${DPSLAVE_FORTIFY})
   target_link_libraries(dpslave_${name} PUBLIC ${arg_MAY_OPEN} PRIVATE dpslave_flags ${arg_PRIVATE})
 endfunction()
 
@@ -36,6 +40,7 @@ endfunction()
 function(dpslave_program name)
   cmake_parse_arguments(arg "" "" "SOURCES;LINKS" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
+  target_compile_options(${name} PRIVATE ${DPSLAVE_FORTIFY})
   target_link_libraries(${name} PRIVATE dpslave_flags ${arg_LINKS})
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()

@@ -24,6 +24,7 @@ has_user() {
     getent group dpslaved
     expect_equal "user id below 1000" "$(($(id -u dpslaved) < 1000))" 1
     expect_text "$(id -Gn dpslaved)" dialout
+    getent group dpslaved-devices
 }
 prove "given the package, when it was installed, then there is a system user dpslaved that may use serial ports" has_user
 

@@ -21,6 +21,16 @@ upgrades() {
 }
 prove "given an edited configuration, when the package is upgraded, then it is kept and both buses have the new program" upgrades
 
+stays_stopped() {
+    systemctl stop dpslaved dpslaved@second
+    dpkg --force-confold -i /host/next/*.deb
+    ! is dpslaved ActiveState active || fail "the upgrade has started the service"
+    ! is dpslaved@second ActiveState active || fail "the upgrade has started the service of the second bus"
+    systemctl start dpslaved dpslaved@second
+    eventually exchanging
+}
+prove "given a service that was stopped, when the package is upgraded, then it stays stopped" stays_stopped
+
 reinstalls() {
     dpkg --force-confold -i /host/next/*.deb
     eventually exchanging
