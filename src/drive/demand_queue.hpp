@@ -23,6 +23,12 @@ public:
 
     /// The order that stands now; `verdict` other than none answers it without the drive.
     void set(const DemandOrder& order, const Tag* row, AccessError verdict);
+    /// The row of each order is now the one that `row_of` makes of it.
+    template <class RowOf>
+    void exchange(RowOf row_of)
+    {
+        for (Entry& entry : entries_) entry.row = row_of(entry.row);
+    }
     /// The layouts up to this one have ended, and their orders with them.
     void end(Generation generation);
 

@@ -21,15 +21,38 @@ bool ends_when_held(AccessError error)
 void OutputPlan::reset(std::vector<Item> items)
 {
     items_ = std::move(items);
+    sort_by_tag();
+    failed_blocks_ = 0;
+    may_write_ = false;
+    stopped_ = false;
+}
+
+void OutputPlan::sort_by_tag()
+{
     by_tag_.clear();
     for (std::size_t i = 0; i < items_.size(); ++i)
         if (items_[i].asked) by_tag_.push_back(i);
     std::sort(by_tag_.begin(), by_tag_.end(),
               [this](auto a, auto b) { return items_[a].row->number < items_[b].row->number; });
     batch_.clear();
-    failed_blocks_ = 0;
-    may_write_ = false;
-    stopped_ = false;
+}
+
+void OutputPlan::exchange(std::vector<Item> items, std::chrono::nanoseconds refresh)
+{
+    rule_.refresh = refresh;
+    for (std::size_t i = 0; i < items.size(); ++i) { // the layout is the same, so are the places
+        Item& item = items[i];
+        const Item& known = items_[i];
+        if (known.asked == item.asked && is_same_value(*known.row, *item.row)) {
+            const Tag* const row = item.row;
+            item = known;
+            item.row = row;
+        } else {
+            item.wanted = known.wanted;
+        }
+    }
+    items_ = std::move(items);
+    sort_by_tag();
 }
 
 void OutputPlan::set(std::span<const std::uint16_t> words, bool may_write)
@@ -225,6 +248,25 @@ void OutputPlan::refuse(const Tag* row, AccessError error)
         item.state = state_of(error);
         item.error = error;
     }
+}
+
+void OutputPlan::forget()
+{
+    for (Item& item : items_) {
+        if (!item.asked) continue;
+        const Item before = item;
+        item = Item{};
+        item.parameter = before.parameter;
+        item.row = before.row;
+        item.readable = before.readable;
+        item.wanted = before.wanted;
+        item.written = before.written;
+        item.updated_at = before.updated_at;
+        item.state = WordState::stale;
+        item.round = round_;
+    }
+    batch_.clear();
+    failed_blocks_ = 0;
 }
 
 void OutputPlan::drive_lost()

@@ -76,8 +76,14 @@ public:
 
     void reset(std::vector<Item> items);
     void set(std::span<const std::uint16_t> words, bool may_write);
+    /// Other rows for the same layout: what is known stays where the drive is asked the same; else the word
+    /// is written anew.
+    void exchange(std::vector<Item> items, std::chrono::nanoseconds refresh);
+    void pause(bool paused) { paused_ = paused; } ///< nothing is written for the time being
+    /// It may be another drive: every word is written. Before begin_round().
+    void forget();
     void stop() { stopped_ = true; } ///< the layout has ended: nothing of it is written any more
-    bool writes_now() const { return may_write_ && !stopped_; }
+    bool writes_now() const { return may_write_ && !stopped_ && !paused_; }
     const std::vector<Item>& items() const { return items_; }
 
     void begin_round() { ++round_; }
@@ -104,6 +110,7 @@ public:
 
 private:
     static bool is_dropped(const Item& item);
+    void sort_by_tag();
     Instant due_at(const Item& item) const;
     Instant repeat_at(const Item& item) const;
     bool joins(const Item& item, Instant now) const;
@@ -120,6 +127,7 @@ private:
     std::uint32_t round_ = 1;
     bool may_write_ = false;
     bool stopped_ = false;
+    bool paused_ = false;
 };
 
 } // namespace dpslave::drive

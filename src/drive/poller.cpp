@@ -163,6 +163,16 @@ const UnitSnapshot& Poller::snapshot(std::size_t unit) const
     return units_[unit]->snapshot();
 }
 
+void Poller::leave_port()
+{
+    for (const auto& unit : units_) unit->leave_port();
+}
+
+void Poller::port_changed()
+{
+    for (const auto& unit : units_) unit->port_changed();
+}
+
 void Poller::exchange(const std::vector<UnitSettings>& units,
                       const std::vector<std::optional<std::size_t>>& stays, BlockRule rule)
 {
@@ -170,7 +180,7 @@ void Poller::exchange(const std::vector<UnitSettings>& units,
     for (std::size_t i = 0; i < units.size(); ++i) {
         if (stays[i]) {
             next.push_back(std::move(units_[*stays[i]]));
-            next[i]->go_on_as(i, units[i].retries);
+            next[i]->go_on_as(i, units[i]);
         } else {
             next.push_back(std::make_unique<Unit>(units[i], rule, i));
         }

@@ -43,7 +43,7 @@ void Poller::Unit::set_outputs(const OutputImage& image)
     outputs_.set(image_.words, image_.may_write);
     master_wrote_ = master_wrote_ || image_.may_write;
     if (has_ended(image_.layout.generation)) end_layout();
-    if (outputs_.writes_now() && !writing_) begin_writing();
+    if (outputs_.writes_now() && !writing_ && !leaves_port_) begin_writing();
     if (is_new) show();
 }
 
@@ -88,9 +88,64 @@ void Poller::Unit::end_layout()
     reads_.compare(false);
     writing_ = false;
     if (!master_wrote_ || zeroed_) return;
+    zero_outputs();
+}
+
+void Poller::Unit::zero_outputs()
+{
     zeroed_ = true;
     for (const OutputPlan::Item& item : outputs_.items())
         if (item.asked) safe_state_.add(item.row);
+}
+
+// ---- another port, other settings
+
+void Poller::Unit::leave_port()
+{
+    leaves_port_ = true;
+    outputs_.pause(true);
+    if (writing_) zero_outputs();
+    writing_ = false;
+    safe_state_.ride_no_longer();
+}
+
+/// Nothing is known of what is there: a drive that was lost may answer here, and the other way round.
+void Poller::Unit::port_changed()
+{
+    leaves_port_ = false;
+    safe_state_.ride_again();
+    zeroed_ = has_ended(image_.layout.generation) && zeroed_;
+    lost_ = false;
+    silences_ = 0;
+    ever_asked_ = false;
+    probe_wait_ = settings_.probe_interval;
+    reads_.drive_returned(kAtOnce);
+    outputs_.pause(false);
+    outputs_.forget();
+    outputs_.begin_round();
+    round_began_.reset();
+    order_was_last_ = zero_waits_ = false;
+    if (outputs_.writes_now()) begin_writing();
+    show();
+}
+
+void Poller::Unit::go_on_as(std::size_t index, const UnitSettings& settings)
+{
+    index_ = index;
+    settings_.retries = settings.retries;
+    if (settings == settings_) return;
+    UnitTags tags{settings};
+    reads_.exchange(tags.reads_of(image_.layout));
+    outputs_.exchange(tags.outputs_of(image_.layout), settings.output_refresh);
+    const auto row_of = [&tags](const Tag* row) { return tags.row(row->number); };
+    safe_state_.exchange(row_of);
+    demand_.exchange(row_of);
+    for (WaitingOperate& waiting : operates_) waiting.row = row_of(waiting.row);
+    tags_ = std::move(tags); // rows that are in no table stay where they are
+    settings_ = settings;
+    snapshot_.watched = {};
+    inputs_changed_ = true;
+    show();
 }
 
 void Poller::Unit::left_data_exchange(Generation generation)

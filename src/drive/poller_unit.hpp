@@ -26,11 +26,9 @@ public:
 
     void set_zero_after(ZeroAfter after) { safe_state_.set_zero_after(after); }
     void ride_no_longer() { safe_state_.ride_no_longer(); }
-    void go_on_as(std::size_t index, int retries)
-    {
-        index_ = index;
-        settings_.retries = retries;
-    }
+    void leave_port();
+    void port_changed();
+    void go_on_as(std::size_t index, const UnitSettings& settings);
 
     void tell_time(Instant now) { safe_state_.tell_time(now); } ///< before next(), of this drive or another
     std::optional<Transaction> next(Instant now);               ///< precondition: not lost
@@ -52,7 +50,7 @@ public:
     std::optional<InputImage> take_inputs();
     std::optional<DemandAnswer> take_demand_answer() { return demand_.take_answer(); }
     std::optional<OperateAnswer> take_operate_answer();
-    bool safe_state_pending() const { return safe_state_.pending(); }
+    bool safe_state_pending() const { return safe_state_.pending() && !(leaves_port_ && lost_); }
     const UnitSnapshot& snapshot() const { return snapshot_; }
 
 private:
@@ -74,6 +72,7 @@ private:
     void new_layout(const OutputImage& image);
     void begin_writing();
     void end_layout();
+    void zero_outputs();
 
     std::optional<Transaction> asked(Instant now);
     std::optional<Transaction> ordered();
@@ -113,6 +112,7 @@ private:
     bool master_wrote_ = false; ///< the present layout had may_write
     bool writing_ = false;      ///< the outputs of the present layout are written
     bool zeroed_ = false;       ///< the outputs of the present layout were sent to their safe state
+    bool leaves_port_ = false;  ///< between leave_port() and port_changed()
     ReadPlan reads_;
     OutputPlan outputs_;
     SafeState safe_state_;

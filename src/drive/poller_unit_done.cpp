@@ -333,6 +333,7 @@ void Poller::Unit::show_watched()
 {
     const std::vector<std::uint16_t>& tags = tags_.watched();
     for (std::size_t i = 0; i < tags.size(); ++i) {
+        snapshot_.watched[i].tag = tags[i];
         const auto found = reads_.find(tags[i]);
         if (!found) continue;
         const ReadPlan::Item& item = reads_.items()[*found];

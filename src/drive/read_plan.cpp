@@ -42,6 +42,30 @@ void ReadPlan::reset(std::vector<Item> items)
     rebuild();
 }
 
+void ReadPlan::exchange(std::vector<Item> items)
+{
+    for (Item& item : items) {
+        const auto at = find(item.row->number);
+        if (!at) continue;
+        const Item& known = items_[*at];
+        if (known.asked == item.asked && is_same_value(*known.row, *item.row)) {
+            const Item wanted = item;
+            item = known;
+            item.row = wanted.row;
+            item.input = wanted.input;
+            item.watched = wanted.watched;
+            item.compared = wanted.compared;
+            item.starts_block = false; // a cut on the way to a hole: the search begins anew
+        } else if (item.asked) {
+            item.word = known.word;
+            item.tried = known.tried;
+        }
+    }
+    const bool compares = compares_;
+    reset(std::move(items));
+    compare(compares);
+}
+
 void ReadPlan::compare(bool outputs)
 {
     if (compares_ == outputs) return;

@@ -68,6 +68,9 @@ public:
 
     /// `items` ascending by tag, each tag once.
     void reset(std::vector<Item> items);
+    /// Other rows for the same layout, and maybe other watched tags: what is known stays where the drive is
+    /// asked the same; else the word is held until it has been read anew.
+    void exchange(std::vector<Item> items);
     std::optional<std::size_t> find(std::uint16_t tag) const;
     const std::vector<Item>& items() const { return items_; }
 

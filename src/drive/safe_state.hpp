@@ -26,6 +26,18 @@ public:
     /// It was zeroed, or the drive refused that, or the present layout writes it.
     void remove(const Tag* row);
     void tell_time(Instant now);
+    /// Each of them is now the row that `row_of` makes of it.
+    template <class RowOf>
+    void exchange(RowOf row_of)
+    {
+        for (Zero& zero : zeros_) zero.row = row_of(zero.row);
+    }
+    /// The port is another one: what is not zeroed yet rides on, and is tried there at once when it is due.
+    void ride_again()
+    {
+        rides_ = true;
+        drive_returned();
+    }
 
     const Tag* next(Instant now) const;         ///< the tag to be zeroed now; nullptr = none
     void postpone(const Tag* row, Instant now); ///< not understood: another one goes first

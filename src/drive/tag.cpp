@@ -235,6 +235,14 @@ bool is_within_limits(const Tag& tag, std::uint16_t word)
     return checked(tag, counts_of(tag, word)).error == AccessError::none;
 }
 
+bool is_same_value(const Tag& a, const Tag& b)
+{
+    const auto is = [&](Access access) { return (a.access == access) == (b.access == access); };
+    return a.number == b.number && a.type == b.type && a.is_real == b.is_real && a.decimals == b.decimals &&
+           a.is_unsigned == b.is_unsigned && a.mnemonic == b.mnemonic &&
+           a.modbus_register == b.modbus_register && is(Access::read_only) && is(Access::write_only);
+}
+
 TagTable::TagTable(std::vector<Tag> tags) : tags_(std::move(tags))
 {
     std::sort(tags_.begin(), tags_.end(), [](const Tag& a, const Tag& b) { return a.number < b.number; });

@@ -22,12 +22,12 @@ protected:
         bench.log.clear();
     }
 
+    static inline const TagTable table = table_up_to(99);
     static UnitSettings unit(std::uint8_t address)
     {
-        static const TagTable tags = table_up_to(99);
         UnitSettings settings;
         settings.address.unit = address;
-        settings.tags = &tags;
+        settings.tags = &table;
         return settings;
     }
     /// The second one stays and is the first from now on; behind it comes a new one.
@@ -114,6 +114,187 @@ TEST_F(PollerExchange, ComesWhenTheOneThatLeavesIsZeroedWhichTheOtherDoesNotNoti
     EXPECT_EQ(bench.drives[0].words[10], 0);
     EXPECT_TRUE(bench.poller.safe_state_pending(1)) << "it rides on";
     EXPECT_EQ(bench.drives[1].words[10], 500);
+}
+
+// ---- other rows for a drive that stays
+
+/// The first one stays with another table; the second one as it is.
+class PollerOtherRows : public PollerExchange {
+protected:
+    void first_has(const TagTable& tags)
+    {
+        UnitSettings first = unit(0);
+        first.tags = &tags;
+        bench.poller.exchange({first, unit(1)}, {0U, 1U}, {});
+    }
+    static TagTable table_with(const Tag& changed)
+    {
+        std::vector<Tag> rows = table_up_to(99).all();
+        rows[changed.number] = changed;
+        return TagTable{rows};
+    }
+    TagTable other;
+};
+
+TEST_F(PollerOtherRows, NoticesNothingOfANameOrALimit)
+{
+    Tag row = table_up_to(99).all()[10];
+    row.name = "SETPOINT";
+    row.max = 600;
+    const auto before = bench.poller.snapshot(0);
+    other = table_with(row);
+    first_has(other);
+    bench.run(500ms);
+    EXPECT_EQ(bench.poller.snapshot(0).words, before.words);
+    EXPECT_EQ(bench.count([](const Done& d) { return d.unit == 0 && d.kind == Transaction::Kind::write; }),
+              0U)
+        << "the standing output is not due before its refresh";
+}
+
+TEST_F(PollerOtherRows, AsksWithTheNewRow)
+{
+    Tag row = table_up_to(99).all()[1];
+    row.decimals = 2;
+    other = table_with(row);
+    first_has(other);
+    bool asked = false;
+    bench.meanwhile = [&](const Transaction& transaction) {
+        if (transaction.tag == nullptr || transaction.tag->number != 1 || transaction.unit != 0) return;
+        EXPECT_EQ(transaction.tag->decimals, 2);
+        asked = true;
+    };
+    bench.run(1s);
+    EXPECT_TRUE(asked);
+}
+
+TEST_F(PollerOtherRows, HoldsTheWordUntilItIsReadWithTheNewRow)
+{
+    Tag row = table_up_to(99).all()[1];
+    row.decimals = 2;
+    other = table_with(row);
+    first_has(other);
+    const auto held = bench.poller.take_inputs(0);
+    ASSERT_TRUE(held);
+    EXPECT_EQ(held->words[0], 100);
+    EXPECT_TRUE(held->every_input_tried);
+    bench.drives[0].words[1] = 10000;
+    bench.run(1s);
+    EXPECT_EQ(bench.poller.take_inputs(0)->words[0], 10000);
+}
+
+TEST_F(PollerOtherRows, WritesAnOutputAtOnceThatTheOldRowForbade)
+{
+    Tag row = table_up_to(99).all()[10];
+    row.access = Access::read_only;
+    const TagTable forbidding = table_with(row);
+    first_has(forbidding);
+    bench.master_writes(0, 10, 600);
+    bench.run(3s);
+    EXPECT_EQ(bench.drives[0].words[10], 500);
+    EXPECT_EQ(bench.poller.snapshot(0).states[1], WordState::read_only);
+
+    first_has(table);
+    bench.run(100ms);
+    EXPECT_EQ(bench.drives[0].words[10], 600);
+}
+
+TEST_F(PollerOtherRows, MayForgetTheOldTable)
+{
+    bench.poller.set_zero_after(0, 1s);
+    {
+        const TagTable passing = table_with(table_up_to(99).all()[10]);
+        first_has(passing);
+        bench.poller.operate({.number = 9, .unit = 0, .tag = 20});
+        bench.poller.set_demand(0, {.kind = DemandOrder::Kind::read, .tag = 1, .number = 4, .generation = 7});
+        bench.master_leaves(0);
+        first_has(table);
+    }
+    bench.run(5s);
+    EXPECT_EQ(bench.drives[0].words[10], 0);
+    EXPECT_TRUE(bench.poller.take_operate_answer());
+}
+
+// ---- another port
+
+class PollerOtherPort : public PollerExchange {
+protected:
+    void other_port() { bench.poller.port_changed(); }
+};
+
+TEST_F(PollerOtherPort, ZeroesWhatItHasWrittenAtTheOneThatIsLeft)
+{
+    bench.poller.set_zero_after(0, 60s); // a ride is not waited for
+    bench.poller.leave_port();
+    EXPECT_TRUE(bench.poller.safe_state_pending(0));
+    bench.run(500ms);
+    EXPECT_FALSE(bench.poller.safe_state_pending());
+    EXPECT_EQ(bench.drives[0].words[10], 0);
+    EXPECT_EQ(bench.drives[1].words[10], 0);
+
+    bench.master_writes(0, 10, 700);
+    bench.run(3s);
+    EXPECT_EQ(bench.drives[0].words[10], 0) << "what the master writes meanwhile is for the new port";
+}
+
+TEST_F(PollerOtherPort, LeavesADriveAsItIsWhoseOutputsAreNeverZeroed)
+{
+    bench.poller.set_zero_after(0, std::nullopt);
+    bench.poller.leave_port();
+    EXPECT_FALSE(bench.poller.safe_state_pending(0));
+    bench.run(500ms);
+    EXPECT_EQ(bench.drives[0].words[10], 500);
+}
+
+TEST_F(PollerOtherPort, WritesTheStandingOutputsAtTheNewOneFirst)
+{
+    bench.poller.leave_port();
+    bench.run(500ms);
+    other_port();
+    for (MemoryDrive& drive : bench.drives) drive.words[10] = 0;
+    bench.log.clear();
+    bench.steps(2);
+    EXPECT_EQ(bench.purposes(), "oo");
+    EXPECT_EQ(bench.drives[0].words[10], 500);
+    EXPECT_EQ(bench.drives[1].words[10], 500);
+    bench.run(3s);
+    EXPECT_EQ(bench.count([](const Done& d) { return d.purpose == Purpose::safe_state; }), 0U);
+}
+
+TEST_F(PollerOtherPort, WritesAtOnceToADriveThatWasLostAtTheOldOne)
+{
+    bench.drives[0].alive = false;
+    bench.run(20s);
+    ASSERT_FALSE(bench.poller.snapshot(0).answers);
+    bench.poller.leave_port();
+    bench.drives[0].alive = true;
+    bench.drives[0].words[10] = 0;
+    other_port();
+    bench.run(100ms);
+    EXPECT_EQ(bench.drives[0].words[10], 500);
+    EXPECT_TRUE(bench.poller.snapshot(0).answers);
+}
+
+TEST_F(PollerOtherPort, ZeroesThereWhenTheMasterIsLostLater)
+{
+    bench.poller.leave_port();
+    bench.run(500ms);
+    other_port();
+    bench.run(500ms);
+    bench.master_leaves(0);
+    bench.run(500ms);
+    EXPECT_EQ(bench.drives[0].words[10], 0);
+}
+
+TEST_F(PollerOtherPort, ARideGoesOnThere)
+{
+    bench.poller.set_zero_after(0, 5s);
+    bench.master_leaves(0);
+    bench.run(1s);
+    other_port();
+    bench.run(1s);
+    EXPECT_EQ(bench.drives[0].words[10], 500);
+    bench.run(5s);
+    EXPECT_EQ(bench.drives[0].words[10], 0);
 }
 
 } // namespace

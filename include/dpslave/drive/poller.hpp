@@ -53,6 +53,7 @@ struct UnitSettings {
     /// While nothing else is asked; and between two probes of lost drives of the line, of which the one that
     /// has waited longest is the next: the time after which no answer to the last probe can come.
     std::chrono::nanoseconds probe_interval = std::chrono::seconds{1};
+    friend bool operator==(const UnitSettings&, const UnitSettings&) = default;
 };
 
 /// Who asked for a transaction. output: a write, or a read that shows what became of compared outputs; watch:
@@ -79,6 +80,7 @@ struct Outcome {
 
 /// A watched tag as it was read last. untried: not yet.
 struct Watched {
+    std::uint16_t tag = 0;
     std::uint16_t word = 0;
     WordState state = WordState::untried;
 };
@@ -161,10 +163,20 @@ public:
 
     const UnitSnapshot& snapshot(std::size_t unit) const;
 
+    /// The port is about to be another one, and no line has the present one any more: what was written goes
+    /// to the safe state here, and nothing else is written until port_changed(). A drive that is lost, or
+    /// that is never to be zeroed, is left as it is.
+    void leave_port();
+    /// The port is another one: every present output is written at once, also to a drive that was lost at the
+    /// old one. Precondition: no transaction is under way.
+    void port_changed();
+
     /// The drives from now on. Drive i is the one that had the index stays[i] until now and goes on with all
-    /// that is known and wanted of it, only its `retries` are those of units[i]; or, where that is nothing, a
-    /// new one. The others are forgotten with whatever they still had to do. Precondition: no transaction is
-    /// under way; no index stays twice.
+    /// that is known and wanted of it, with the tags, watched tags, refresh and retries of units[i]: what a
+    /// row asks in another way is asked anew, the rest goes on as it was. Where that is nothing it is a new
+    /// one. The others are forgotten with whatever they still had to do. Tables of before may go after it.
+    /// Precondition: no transaction is under way; no index stays twice; address and compare_outputs of one
+    /// that stays are the same.
     void exchange(const std::vector<UnitSettings>& units,
                   const std::vector<std::optional<std::size_t>>& stays, BlockRule rule);
 

@@ -104,6 +104,10 @@ ParsedValue parse_value(const Tag& tag, std::string_view text);
 /// Within the type and the limits of the row.
 bool is_within_limits(const Tag& tag, std::uint16_t word);
 
+/// Both rows ask the drive the same and make the same word of its answer: what differs is for people only, or
+/// a limit.
+bool is_same_value(const Tag& a, const Tag& b);
+
 class TagTable {
 public:
     TagTable() = default;
