@@ -116,6 +116,7 @@ ExitStatus run_daemon(const Config& config, const std::filesystem::path& profile
     }
 
     BusThread bus(config.bus, std::move(*port), *driver, plant.roster(), link);
+    io::make_stacks_small();
     if (config.realtime.lock_memory) say_warnings(io::lock_memory());
     spdlog::info("dpslaved {}: {} station(s) on {} at {}", kVersion, config.stations.size(), config.bus.port,
                  rate_in_words(config.bus));

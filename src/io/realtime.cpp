@@ -10,7 +10,6 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <system_error>
 
@@ -22,19 +21,11 @@ std::string text(int error)
     return std::system_category().message(error);
 }
 
-/// Touches what the thread may use of its stack, so that no page is first met while a master waits.
-[[gnu::noinline]] void prefault_stack()
-{
-    constexpr std::size_t kUsed = 256 * 1024;
-    constexpr std::size_t kPage = 4096;
-    std::array<volatile unsigned char, kUsed> stack; // NOLINT: touched, not used
-    for (std::size_t at = 0; at < kUsed; at += kPage) stack[at] = 0;
-}
-
-/// With everything locked a new thread's stack counts against the limit as a whole: is there room for some?
+/// With everything locked a new thread's stack counts against the limit as a whole: is there room for some,
+/// and for what they allocate?
 bool room_for_threads()
 {
-    constexpr std::size_t kStacks = std::size_t{64} * 1024 * 1024;
+    constexpr std::size_t kStacks = 32 * kThreadStack;
     void* const probe =
         ::mmap(nullptr, kStacks, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (probe == MAP_FAILED) return false;
@@ -56,12 +47,23 @@ std::string not_locked(const std::string& why)
 
 } // namespace
 
+void make_stacks_small()
+{
+    pthread_attr_t attributes;
+    if (::pthread_attr_init(&attributes) != 0) return;
+    if (::pthread_attr_setstacksize(&attributes, kThreadStack) == 0)
+        ::pthread_setattr_default_np(&attributes);
+    ::pthread_attr_destroy(&attributes);
+}
+
 std::vector<std::string> lock_memory()
 {
     // What was locked once stays: nothing goes back to the system at free() to be faulted in again by the
     // next malloc(), and no block gets a mapping of its own that goes with it.
     ::mallopt(M_TRIM_THRESHOLD, -1);
     ::mallopt(M_MMAP_MAX, 0);
+    // An arena of its own for each thread would reserve 64 MiB, which counts as locked although it is empty.
+    ::mallopt(M_ARENA_MAX, 1);
     if (::mlockall(MCL_CURRENT | MCL_FUTURE) < 0) return {not_locked(text(errno))};
     if (room_for_threads()) return {};
     ::munlockall();
@@ -71,7 +73,6 @@ std::vector<std::string> lock_memory()
 std::vector<std::string> enter_realtime(int priority, int cpu)
 {
     std::vector<std::string> warnings;
-    prefault_stack();
     if (::prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL) < 0)
         warnings.push_back("timers are not exact (PR_SET_TIMERSLACK: " + text(errno) +
                            "): replies may start 50 us late");

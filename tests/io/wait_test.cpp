@@ -235,8 +235,25 @@ TEST(Realtime, AThreadHasItsName)
     }}.join();
 }
 
+TEST(Realtime, AThreadThatStartsLaterHasASmallStack)
+{
+    make_stacks_small();
+    std::size_t size = 0;
+    std::thread{[&size] {
+        pthread_attr_t attributes;
+        ASSERT_EQ(::pthread_getattr_np(::pthread_self(), &attributes), 0);
+        void* base = nullptr;
+        ASSERT_EQ(::pthread_attr_getstack(&attributes, &base, &size), 0);
+        ::pthread_attr_destroy(&attributes);
+    }}.join();
+
+    EXPECT_GE(size, kThreadStack / 2);
+    EXPECT_LE(size, kThreadStack);
+}
+
 TEST(Realtime, LockedMemoryLeavesRoomForThreadsOrIsNotLocked)
 {
+    make_stacks_small();
     const std::vector<std::string> warnings = lock_memory();
 
     EXPECT_THAT(warnings, AnyOf(IsEmpty(), ElementsAre(HasSubstr("LimitMEMLOCK=infinity"))));

@@ -82,6 +82,7 @@ public:
     std::size_t how_often(std::string_view text) const { return said_.how_often(text); }
     bool ever_said(std::string_view text) const { return Reader{transcript_}.how_often(text) > 0; }
 
+    pid_t pid() const { return pid_; }
     const Transcript& transcript() const { return transcript_; } ///< standard output and standard error
 
     /// Its exit status when it ends by itself within `limit`; 128 + N after signal N; nothing: it still runs.

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the daemon keeps in memory, which is locked and taken from everybody else.
+#include "gateway.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+namespace dpslave::test {
+namespace {
+
+/// A field of /proc/PID/status, KiB.
+unsigned kib_of(pid_t pid, const std::string& field)
+{
+    std::ifstream file{fmt::format("/proc/{}/status", pid)};
+    for (std::string name; file >> name;) {
+        unsigned value = 0;
+        if (name == field + ":" && file >> value) return value;
+        file.ignore(1000, '\n');
+    }
+    return 0;
+}
+
+/// The limit is that of a program as it is shipped; without optimisation its own code is twice as large.
+constexpr double kLimit = DPSLAVE_OPTIMISED ? 1.3 : 1.6;
+
+TEST(Memory, OfTheDaemonIsNotMuchMoreThanThatOfItsLibraries)
+{
+    Process sleeper{{LOCKED_SLEEPER_PROGRAM}};
+    if (!sleeper.says("locked")) GTEST_SKIP() << "this user may not lock memory";
+    Gateway gateway;
+    Master master{gateway, {"--tags", "55,56w"}};
+    ASSERT_TRUE(master.does("start 30s"));
+    if (gateway.daemon().ever_said("memory is not locked")) GTEST_SKIP() << "the daemon may not lock enough";
+
+    const unsigned alone = kib_of(sleeper.pid(), "VmRSS");
+    const unsigned daemon = kib_of(gateway.daemon().pid(), "VmRSS");
+    const unsigned locked = kib_of(gateway.daemon().pid(), "VmLck");
+    ASSERT_GT(alone, 0U);
+    const std::string said =
+        fmt::format("the daemon has {} KiB and locks {}, its libraries alone have {}: {:.2f}", daemon, locked,
+                    alone, 1.0 * daemon / alone);
+    fmt::print("{}\n", said);
+    EXPECT_LE(daemon, kLimit * alone) << said;
+    EXPECT_LE(locked, kLimit * alone) << said;
+}
+
+} // namespace
+} // namespace dpslave::test
