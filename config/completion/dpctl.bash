@@ -9,6 +9,7 @@ _dpctl_options()
     case $1 in
         '') echo "$_dpctl_common" ;;
         doctor) echo "$_dpctl_common --all" ;;
+        reload) echo "$_dpctl_common --dry-run" ;;
         read | write | 'tec set') echo "$_dpctl_common --station" ;;
         tag) echo '--json --all --table --profile --profiles --help' ;;
         hex) echo '--json --help' ;;

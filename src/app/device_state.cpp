@@ -86,6 +86,25 @@ DeviceState::DeviceState(const StationConfig& config, bool self_test_passed)
     for (const std::uint16_t tag : config.watched) seen_.push_back({.tag = tag});
 }
 
+void DeviceState::adopt(const StationConfig& config)
+{
+    if (config.tec && config_->tec) {
+        const tec::Settings& before = config_->tec->start;
+        const tec::Settings& now = config.tec->start;
+        for (const auto input :
+             {&tec::Settings::type, &tec::Settings::address, &tec::Settings::ext_diagnostic,
+              &tec::Settings::int_diag_select, &tec::Settings::ride_through, &tec::Settings::unused_1})
+            if (before.*input != now.*input) settings_.*input = now.*input;
+    }
+    std::vector<Seen> before = std::exchange(seen_, {});
+    for (const std::uint16_t tag : config.watched) {
+        const auto known =
+            std::find_if(before.begin(), before.end(), [tag](const Seen& one) { return one.tag == tag; });
+        seen_.push_back(known != before.end() ? *known : Seen{.tag = tag});
+    }
+    config_ = &config;
+}
+
 void DeviceState::look(const StationView& station, const BusSnapshot& bus)
 {
     look_at_drive(station.drive);
@@ -119,6 +138,7 @@ void DeviceState::look_at_drive(const drive::UnitSnapshot& drive)
 {
     for (std::size_t i = 0; i < seen_.size() && i < drive.watched.size(); ++i) {
         const drive::Watched& now = drive.watched[i];
+        if (now.tag != seen_[i].tag) continue; // of the drive side before a reload that watches others
         seen_[i].is_current = now.state == WordState::good && drive.answers;
         if (now.state != WordState::good && now.state != WordState::stale) continue;
         seen_[i].word = now.word;

@@ -60,11 +60,11 @@ DriveThread::DriveThread(LineConfig line, std::unique_ptr<LineBackend> backend,
       link_(link),
       words_(LineBackend::block_rule(line_).max_tags)
 {
-    link_.port_open.store(backend_ != nullptr, std::memory_order_relaxed);
+    link_.port_open.store(true, std::memory_order_relaxed);
     if (backend_)
         backend_->set_units(units);
     else
-        next_open_ = io::monotonic_now() + kOpenAgainAfter; // whoever has the port is about to let go of it
+        port_comes_until_ = io::monotonic_now() + kPortPatience;
 }
 
 void DriveThread::run(std::stop_token stop, io::EventFd& wake)
@@ -72,13 +72,14 @@ void DriveThread::run(std::stop_token stop, io::EventFd& wake)
     while (!stop.stop_requested()) {
         take_work();
         fetch();
-        const auto transaction = poller_.next(io::monotonic_now());
+        const bool waits = waits_for_port(io::monotonic_now()) && !is_open();
+        const auto transaction = waits ? std::nullopt : poller_.next(io::monotonic_now());
         if (transaction) carry_out(*transaction);
         publish(); // also what the poller has decided without the drive
         if (next_ && leaving_is_over()) {
             take_over();
         } else if (!transaction) {
-            rest(wake.fd(), io::monotonic_now());
+            rest(wake.fd(), waits ? kTickWithLayout : rest_time(io::monotonic_now()));
             wake.clear(); // work and stop are looked at right after this
         }
     }
@@ -239,14 +240,19 @@ void DriveThread::forget_trouble(const Unit& unit, const drive::Transaction& acc
     link_.troubles.publish(troubles_);
 }
 
-/// Nothing to do: waits for the next deadline, but not longer than an order of the master may wait.
-void DriveThread::rest(int wake, Instant now) const
+/// Until the next deadline, but not longer than an order of the master may wait.
+std::chrono::nanoseconds DriveThread::rest_time(Instant now) const
 {
     const bool busy = std::any_of(units_.begin(), units_.end(),
                                   [](const Unit& unit) { return unit.layout != 0 && unit.answered; });
     const std::chrono::nanoseconds tick = busy ? kTickWithLayout : kTickIdle;
-    const auto wait = std::clamp<std::chrono::nanoseconds>(poller_.next_deadline() - now,
-                                                           std::chrono::nanoseconds{0}, tick);
+    return std::clamp<std::chrono::nanoseconds>(poller_.next_deadline() - now, std::chrono::nanoseconds{0},
+                                                tick);
+}
+
+/// Nothing to do: waits, until something is to be looked at.
+void DriveThread::rest(int wake, std::chrono::nanoseconds wait) const
+{
     const timespec time{.tv_sec = 0, .tv_nsec = static_cast<long>(wait.count())};
     pollfd one{.fd = wake, .events = POLLIN, .revents = 0};
     ::ppoll(&one, 1, &time, nullptr);
@@ -266,7 +272,7 @@ void DriveThread::farewell()
         if (const auto transaction = poller_.next(io::monotonic_now()))
             carry_out(*transaction);
         else
-            rest(-1, io::monotonic_now()); // a negative descriptor is not looked at
+            rest(-1, rest_time(io::monotonic_now())); // a negative descriptor is not looked at
     }
     if (poller_.safe_state_pending())
         spdlog::error("not every output could be put into its safe state: a drive does not answer");
@@ -287,22 +293,39 @@ void DriveThread::take_work()
                                    [&](const DriveUnit& one) { return one.number == unit.number; });
         if (unit.leaves) poller_.ride_no_longer(i); // nobody is there any more to zero the outputs later
     }
+    if (next_->leaves_drives) poller_.leave_port();
 }
 
 bool DriveThread::leaving_is_over() const
 {
+    // A drive that is lost at the port that is left is not waited for: its cable may be at the new one.
+    const auto is_waited_for = [this](std::size_t i) {
+        return poller_.safe_state_pending(i) &&
+               (units_[i].leaves || (next_->leaves_drives && poller_.snapshot(i).answers));
+    };
     bool pending = false;
+    for (std::size_t i = 0; i < units_.size(); ++i) pending = pending || is_waited_for(i);
+    if (pending && io::monotonic_now() < leave_until_) return false;
     for (std::size_t i = 0; i < units_.size(); ++i)
-        pending = pending || (units_[i].leaves && poller_.safe_state_pending(i));
-    if (!pending) return true;
-    if (io::monotonic_now() < leave_until_) return false;
-    for (std::size_t i = 0; i < units_.size(); ++i)
-        if (units_[i].leaves && poller_.safe_state_pending(i))
+        if (poller_.safe_state_pending(i) && (units_[i].leaves || next_->leaves_drives))
             spdlog::error(
-                "{}: not every output could be put into its safe state before the station was taken "
-                "away: the drive does not answer",
-                units_[i].config->name);
+                "{}: not every output could be put into its safe state before {}: the drive does not "
+                "answer",
+                units_[i].config->name,
+                units_[i].leaves ? "the station was taken away" : line_.port + " was left");
     return true;
+}
+
+/// The new port, or the old one set in another way. One that a line of ours still has is waited for.
+void DriveThread::take_port()
+{
+    backend_.reset(); // first: the next one may need the same port
+    backend_ = std::move(next_->backend);
+    next_open_ = {};
+    port_comes_until_ = io::monotonic_now() + kPortPatience;
+    open_failure_said_ = false;
+    link_.port_open.store(true, std::memory_order_relaxed); // a moment without it is no fault
+    if (next_->is_other_port) poller_.port_changed();
 }
 
 /// Only now come those who are new: no one writes to a drive that another station still leaves.
@@ -318,18 +341,13 @@ void DriveThread::take_over()
         stays.push_back(is_known ? std::optional{static_cast<std::size_t>(known - units_.begin())}
                                  : std::nullopt);
         units.push_back(is_known ? *known : Unit{one});
+        units.back().config = one.config;
     }
-    if (next_->line) {
-        backend_.reset(); // first: the next one may need the same port
-        backend_ = std::move(next_->backend);
-        next_open_ = {};
-        open_failure_said_ = false;
-        link_.port_open.store(is_open(), std::memory_order_relaxed); // a moment without it is no fault
-    }
+    if (next_->opens_port) take_port();
+    const drive::BlockRule rule = LineBackend::block_rule(line_);
+    poller_.exchange(settings_of(next_->units, line_), stays, rule); // the tables of before are still there
     units_ = std::move(units);
     if (backend_) backend_->set_units(next_->units);
-    const drive::BlockRule rule = LineBackend::block_rule(line_);
-    poller_.exchange(settings_of(next_->units, line_), stays, rule);
     words_.resize(std::max<std::size_t>(words_.size(), rule.max_tags)); // those who stay keep their rule
     forget_troubles_of_the_gone();
     for (const LineOrder& order : std::exchange(early_orders_, {})) operate(order);
@@ -355,9 +373,11 @@ bool DriveThread::is_open()
     if (backend_) return true;
     const Instant now = io::monotonic_now();
     if (now < next_open_) return false;
-    next_open_ = now + kOpenAgainAfter;
     auto opened = LineBackend::open(line_, link_.port_open);
+    if (!opened && waits_for_port(now)) return false;
+    next_open_ = now + kOpenAgainAfter;
     if (!opened) {
+        link_.port_open.store(false, std::memory_order_relaxed);
         if (!open_failure_said_) spdlog::error("line {}: {}; it is tried again", line_.name, opened.error());
         open_failure_said_ = true;
         return false;

@@ -70,7 +70,7 @@ control::Handlers MainThread::handlers()
                             const control::Caller& who) { return on_tag(parameters, who, true); }},
         {"SetTec",
          [this](const Json& parameters, const control::Caller& who) { return on_set_tec(parameters, who); }},
-        {"Reload", [this](const Json&, const control::Caller&) { return on_reload(); }},
+        {"Reload", [this](const Json& parameters, const control::Caller&) { return on_reload(parameters); }},
     };
 }
 
@@ -141,7 +141,7 @@ Json MainThread::leds_of(std::size_t station)
 Json MainThread::known_stations() const
 {
     Json names = Json::array();
-    for (const Post& one : posts_) names.push_back(one.config->name);
+    for (const Post& one : posts_) names.push_back(one.station.config->name);
     return names;
 }
 
@@ -153,7 +153,7 @@ Error MainThread::no_such_station(const std::string& wanted) const
 std::optional<std::size_t> MainThread::index_of(const std::string& name) const
 {
     for (std::size_t i = 0; i < posts_.size(); ++i)
-        if (posts_[i].config->name == name) return i;
+        if (posts_[i].station.config->name == name) return i;
     return std::nullopt;
 }
 
@@ -166,7 +166,7 @@ MainThread::Choice MainThread::choose(const Json& parameters, bool one_is_needed
     }
     const std::string wanted = parameters["station"].get<std::string>();
     for (std::size_t i = 0; i < posts_.size(); ++i)
-        if (wanted == posts_[i].config->name || wanted == std::to_string(view_.stations[i].address))
+        if (wanted == posts_[i].station.config->name || wanted == std::to_string(view_.stations[i].address))
             return {.station = i, .error = {}};
     return {.station = {}, .error = no_such_station(wanted)};
 }
@@ -277,14 +277,14 @@ Reply MainThread::on_tag(const Json& parameters, const control::Caller& who, boo
                               .word = 0};
     if (is_write) {
         const Result<std::uint16_t, Error> word =
-            word_to_write(*post.config, order.tag, parameters["value"].get<std::string>());
+            word_to_write(*post.station.config, order.tag, parameters["value"].get<std::string>());
         if (!word) return word.error();
         order.word = *word;
     }
     if (!has_place_for(who) || !post.station.line->link.orders.push({post.station.number, order}))
         return Error{"Busy", Json::object()};
     asked_[order.number] = {.station = post.station.number,
-                            .config = post.config,
+                            .config = post.station.config,
                             .tag = order.tag,
                             .word = order.word,
                             .is_write = is_write,

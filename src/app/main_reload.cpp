@@ -28,9 +28,23 @@ std::vector<std::string> sentences(const profile::Faults& faults)
 
 } // namespace
 
-/// While one is under way the next one waits; all who wait then share it.
-Reply MainThread::on_reload()
+Json MainThread::reply_of(const Reloaded& reloaded)
 {
+    Json leaving = Json::array();
+    for (const Plan::Leaving& one : reloaded.leaving)
+        leaving.push_back(Json::object({{"station", one.station}, {"reason", one.reason}}));
+    return Json::object({{"applied", reloaded.applied},
+                         {"changes", reloaded.changes},
+                         {"leaving", std::move(leaving)},
+                         {"pending", reloaded.pending},
+                         {"warnings", reloaded.warnings},
+                         {"faults", reloaded.faults}});
+}
+
+/// While one is under way the next one waits; all who wait then share it.
+Reply MainThread::on_reload(const Json& parameters)
+{
+    if (parameters.value("dry_run", false)) return Done{reply_of(judge_file().result)};
     reload_wanted_ = true;
     reload_asked_.push_back(next_order_);
     return control::Later{.token = next_order_++};
@@ -73,40 +87,71 @@ void MainThread::reload()
         reloaded_ = {};
         reloaded_.faults.push_back(fmt::format("a failure of the system: {}", error.what()));
     }
-    for (const std::string& warning : reloaded_.warnings) spdlog::warn("{}", warning);
     for (const std::string& fault : reloaded_.faults) spdlog::error("{}", fault);
     if (!reloaded_.applied) spdlog::error("the new configuration is refused; the one until now runs on");
-    for (const std::string& change : reloaded_.changes) spdlog::info("{}", change);
-    for (const std::string& pending : reloaded_.pending) spdlog::warn("{}", pending);
     if (reloaded_.applied && reloaded_.changes.empty() && reloaded_.pending.empty())
         spdlog::info("nothing has changed");
     if (reloading_ == Reloading::idle) answer_reload();
 }
 
-MainThread::Reloaded MainThread::try_reload()
+/// What the masters use at this moment, as far as a value of it was ever on the bus or in the drive.
+std::vector<InForce> MainThread::in_force() const
 {
-    Reloaded result;
+    std::vector<InForce> all;
+    for (std::size_t i = 0; i < posts_.size(); ++i) {
+        InForce& one = all.emplace_back(InForce{posts_[i].device.address()});
+        const dp::Snapshot& bus = view_.stations[i].bus;
+        const drive::UnitSnapshot& drive = view_.stations[i].drive;
+        if (bus.state != dp::State::data_exch) continue;
+        for (std::size_t k = 0; k < bus.layout.count; ++k) {
+            const Parameter& parameter = bus.layout.parameters[k];
+            TagInUse& used = one.tags.emplace_back(TagInUse{parameter.tag, std::nullopt});
+            if (drive.generation == bus.layout.generation && drive.updated_at[k] != Instant{})
+                used.word = parameter.writes ? bus.outputs[k] : bus.inputs[k];
+        }
+        if (bus.demand_order.kind != DemandOrder::Kind::cancel)
+            one.tags.push_back({bus.demand_order.tag, bus.demand_reply.back()});
+    }
+    return all;
+}
+
+MainThread::Judged MainThread::judge_file()
+{
+    Judged judged;
+    Reloaded& result = judged.result;
     auto wanted = load_config(config_.file, profiles_);
     remember_file(wanted ? &*wanted : nullptr);
     if (!wanted) {
         result.faults = sentences(wanted.error());
-        return result;
+        return judged;
     }
     result.warnings = sentences(wanted->warnings);
-    std::vector<std::uint8_t> in_force;
-    for (const Post& post : posts_) in_force.push_back(post.device.address());
-    Plan plan = plan_reload(config_, in_force, std::move(*wanted));
+    refresh();
+    Plan plan = plan_reload(config_, in_force(), std::move(*wanted));
     if (!plan.refusals.empty()) {
         result.faults = std::move(plan.refusals);
-        return result;
+        return judged;
     }
     result.changes = plan.changes;
+    result.leaving = plan.leaving;
     result.pending = plan.pending;
-    if (auto trouble = apply(std::move(plan))) {
-        result.changes.clear();
-        result.pending.clear();
-        result.faults.push_back(std::move(*trouble));
-        return result;
+    judged.plan = std::move(plan);
+    return judged;
+}
+
+/// What will be different is in the log before it is.
+MainThread::Reloaded MainThread::try_reload()
+{
+    auto [result, plan] = judge_file();
+    for (const std::string& warning : result.warnings) spdlog::warn("{}", warning);
+    if (!plan) return result;
+    for (const std::string& change : result.changes) spdlog::info("{}", change);
+    for (const std::string& pending : result.pending) spdlog::warn("{}", pending);
+    if (auto trouble = apply(std::move(*plan))) {
+        Reloaded refused;
+        refused.warnings = std::move(result.warnings);
+        refused.faults.push_back(std::move(*trouble));
+        return refused;
     }
     result.applied = true;
     return result;
@@ -147,10 +192,10 @@ void MainThread::repost()
             posts_.push_back(make_post(station));
             continue;
         }
-        posts_.push_back(std::move(*known));
+        Post& post = posts_.emplace_back(std::move(*known));
         before.erase(known);
-        if (posts_[i].config->leds != config_.stations[i].leds)
-            posts_[i].config = std::make_shared<const StationConfig>(config_.stations[i]);
+        if (post.station.config != station.config) post.device.adopt(*station.config);
+        post.station = station;
     }
     for (Post& gone : before) leaving_.push_back(std::move(gone.station));
     show_posts();
@@ -193,12 +238,7 @@ void MainThread::answer_reload()
 {
     status_said_ = status_line(view_);
     notifier_.ready(status_said_);
-    for (const std::uint32_t token : reload_told_)
-        server_->complete(token, Done{{{"applied", reloaded_.applied},
-                                       {"changes", reloaded_.changes},
-                                       {"pending", reloaded_.pending},
-                                       {"warnings", reloaded_.warnings},
-                                       {"faults", reloaded_.faults}}});
+    for (const std::uint32_t token : reload_told_) server_->complete(token, Done{reply_of(reloaded_)});
     reload_told_.clear();
 }
 

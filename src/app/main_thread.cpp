@@ -74,10 +74,11 @@ void MainThread::show_posts()
         StationView& view =
             view_.stations.emplace_back(known != before.end() ? std::move(*known) : StationView{});
         view.number = post.station.number;
-        view.config = post.config.get();
+        view.config = post.station.config.get();
         view.line = &post.station.line->config;
         view.address = post.device.address();
-        if (post.config->profile->diagnosis != profile::DiagForm::none) usual_tick_ = kTickWithDiagnosis;
+        if (post.station.config->profile->diagnosis != profile::DiagForm::none)
+            usual_tick_ = kTickWithDiagnosis;
     }
 }
 

@@ -30,9 +30,10 @@ std::vector<DriveUnit> units_on(const DriveLine& line, const std::vector<Station
 
 bool are_same(const std::vector<DriveUnit>& a, const std::vector<DriveUnit>& b)
 {
-    return std::equal(
-        a.begin(), a.end(), b.begin(), b.end(),
-        [](const DriveUnit& one, const DriveUnit& other) { return one.number == other.number; });
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const DriveUnit& one, const DriveUnit& other) {
+                          return one.number == other.number && one.config == other.config;
+                      });
 }
 
 std::string not_opened(const Config& config, const LineConfig& line, const std::string& why)
@@ -144,7 +145,7 @@ std::optional<std::string> Plant::make_lines(const Plan& plan, Next& next) const
         const Plan::Line& planned = plan.lines[i];
         next.lines.push_back(planned.before ? lines_[*planned.before] : std::make_shared<DriveLine>(config));
         next.backends.emplace_back();
-        if ((planned.before && !planned.is_changed) || has_port(config.port)) continue;
+        if ((planned.before && !planned.is_opened_anew) || has_port(config.port)) continue;
         auto backend = LineBackend::open(config, next.lines[i]->link.port_open);
         if (!backend) return not_opened(plan.config, config, backend.error());
         next.backends[i] = std::move(*backend);
@@ -156,11 +157,29 @@ void Plant::make_stations(const Plan& plan, Next& next)
 {
     for (std::size_t i = 0; i < plan.stations.size(); ++i) {
         const StationConfig& config = plan.config.stations[i];
-        if (const auto stays = plan.stations[i].stays)
-            next.stations.push_back(stations_[*stays]);
-        else
+        const auto [stays, is_changed] = plan.stations[i];
+        if (!stays) {
             next.stations.push_back(new_station(config, next.lines[config.line]));
+            continue;
+        }
+        next.stations.push_back(stations_[*stays]);
+        if (is_changed) next.stations.back().config = std::make_shared<const StationConfig>(config);
     }
+}
+
+/// What a line that goes on has to do with its port. Two names may be those of one port.
+void Plant::plan_port(const Plan& plan, std::size_t index, LineWork& work) const
+{
+    const Plan::Line& planned = plan.lines[index];
+    if (!planned.is_changed) return;
+    work.line = plan.config.lines[index];
+    work.opens_port = planned.is_opened_anew;
+    const std::string old_port = canonical(lines_[*planned.before]->config.port);
+    work.is_other_port = canonical(work.line->port) != old_port;
+    work.leaves_drives =
+        work.is_other_port &&
+        std::none_of(plan.config.lines.begin(), plan.config.lines.end(),
+                     [&old_port](const LineConfig& line) { return canonical(line.port) == old_port; });
 }
 
 /// What is new for each line that goes on; lines that are new get their threads.
@@ -175,7 +194,7 @@ void Plant::make_works(const Plan& plan, Next& next) const
         } else if (plan.lines[i].is_changed || !are_same(units, units_on(line, stations_))) {
             auto work = std::make_unique<LineWork>();
             work->units = std::move(units);
-            if (plan.lines[i].is_changed) work->line = plan.config.lines[i];
+            plan_port(plan, i, *work);
             work->backend = std::move(next.backends[i]);
             next.works.push_back({next.lines[i], std::move(work)});
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpslave/app/reload_plan.hpp"
+#include "reload_station.hpp"
 
 #include <fmt/format.h>
 
@@ -19,11 +19,29 @@ std::optional<std::size_t> index_of_name(const std::vector<Named>& all, const st
     return static_cast<std::size_t>(found - all.begin());
 }
 
+/// The one of `present` that `line` continues: of its name, else of its port, if its name has gone.
+std::optional<std::size_t> index_of(const LineConfig& line, const Config& present, const Config& wanted)
+{
+    if (const auto same = index_of_name(present.lines, line.name)) return same;
+    for (std::size_t i = 0; i < present.lines.size(); ++i)
+        if (present.lines[i].port == line.port && !index_of_name(wanted.lines, present.lines[i].name))
+            return i;
+    return std::nullopt;
+}
+
 /// The place of a key in the file is no setting.
 bool is_same(LineConfig a, const LineConfig& b)
 {
     a.port_line = b.port_line;
     return a == b;
+}
+
+/// Its port can stay open: what is different does not concern it.
+bool has_same_port(LineConfig a, const LineConfig& b)
+{
+    a.name = b.name;
+    a.retries = b.retries;
+    return is_same(std::move(a), b);
 }
 
 /// The device whose address counts from the next start only.
@@ -98,16 +116,27 @@ void plan_lines(const Config& present, Plan& plan)
 {
     for (const LineConfig& line : plan.config.lines) {
         Plan::Line& planned = plan.lines.emplace_back();
-        planned.before = index_of_name(present.lines, line.name);
-        planned.is_changed = planned.before && !is_same(present.lines[*planned.before], line);
-        if (!planned.before)
+        planned.before = index_of(line, present, plan.config);
+        if (!planned.before) {
             plan.changes.push_back(fmt::format("line {} added ({})", line.name, line.port));
-        else if (planned.is_changed)
+            continue;
+        }
+        const LineConfig& old = present.lines[*planned.before];
+        planned.is_changed = !is_same(old, line);
+        planned.is_opened_anew = !has_same_port(old, line);
+        if (old.port != line.port)
+            plan.changes.push_back(
+                fmt::format("line {} moves from {} to {}", line.name, old.port, line.port));
+        else if (planned.is_opened_anew)
             plan.changes.push_back(fmt::format("line {} changed: {} is opened anew", line.name, line.port));
+        if (old.name != line.name)
+            plan.changes.push_back(fmt::format("line {}: its name, which was {}", line.name, old.name));
+        if (old.retries != line.retries) plan.changes.push_back(fmt::format("line {}: retries", line.name));
     }
-    for (const LineConfig& line : present.lines)
-        if (!index_of_name(plan.config.lines, line.name))
-            plan.changes.push_back(fmt::format("line {} removed", line.name));
+    for (std::size_t i = 0; i < present.lines.size(); ++i)
+        if (std::none_of(plan.lines.begin(), plan.lines.end(),
+                         [i](const Plan::Line& line) { return line.before == i; }))
+            plan.changes.push_back(fmt::format("line {} removed", present.lines[i].name));
 }
 
 /// Keeps the address of an option board that has another one in the new file.
@@ -122,41 +151,72 @@ void hold_address(const StationConfig& before, StationConfig& station, Plan& pla
     set_address(station, before.address);
 }
 
-void plan_station(const Config& present, std::size_t index, Plan& plan)
+bool is_on_line(const StationConfig& old, const StationConfig& station, const Plan& plan)
+{
+    return plan.lines[station.line].before == old.line;
+}
+
+/// The one of `present` that `station` continues: of its name, else the same device, if its name has gone.
+std::optional<std::size_t> index_of(const StationConfig& station, const Config& present, const Plan& plan)
+{
+    if (const auto same = index_of_name(present.stations, station.name)) return same;
+    for (std::size_t i = 0; i < present.stations.size(); ++i) {
+        const StationConfig& old = present.stations[i];
+        if (old.address == station.address && old.unit == station.unit && is_on_line(old, station, plan) &&
+            old.profile->name == station.profile->name && !index_of_name(plan.config.stations, old.name))
+            return i;
+    }
+    return std::nullopt;
+}
+
+void plan_station(const Config& present, const std::vector<InForce>& in_force, std::size_t index, Plan& plan)
 {
     StationConfig& station = plan.config.stations[index];
     Plan::Station& planned = plan.stations.emplace_back();
-    const auto before = index_of_name(present.stations, station.name);
+    const auto before = index_of(station, present, plan);
     if (!before) {
         plan.changes.push_back(fmt::format("station {} added at address {}", station.name, station.address));
         return;
     }
     const StationConfig& old = present.stations[*before];
     hold_address(old, station, plan);
-    const LineConfig& old_line = present.lines[old.line];
-    const LineConfig& line = plan.config.lines[station.line];
-    if (!is_same(old, station) || old_line.name != line.name || old_line.protocol != line.protocol) {
-        plan.changes.push_back(
-            fmt::format("station {} changed: it leaves the bus and starts anew at address {}", station.name,
-                        station.address));
+    auto [leaves, applied] = change_of(old, station, in_force[*before]);
+    const auto leave = [&leaves](std::string_view why) {
+        leaves.append(leaves.empty() ? "" : ", ").append(why);
+    };
+    if (!is_on_line(old, station, plan))
+        leave("line");
+    else if (present.lines[old.line].protocol != plan.config.lines[station.line].protocol)
+        leave("protocol of its line");
+    if (leaves.empty()) {
+        planned.stays = before;
+        planned.is_changed = !applied.empty();
+        if (!applied.empty()) plan.changes.push_back(fmt::format("station {}: {}", station.name, applied));
         return;
     }
-    planned.stays = before;
-    if (old.leds != station.leds)
-        plan.changes.push_back(fmt::format("station {}: other lamps", station.name));
+    plan.leaving.push_back({old.name, leaves});
+    plan.changes.push_back(
+        fmt::format("station {} changed: it leaves the bus and starts anew at address {} ({})", station.name,
+                    station.address, leaves));
 }
 
-void plan_stations(const Config& present, Plan& plan)
+void plan_stations(const Config& present, const std::vector<InForce>& in_force, Plan& plan)
 {
-    for (std::size_t i = 0; i < plan.config.stations.size(); ++i) plan_station(present, i, plan);
-    for (const StationConfig& station : present.stations)
-        if (!index_of_name(plan.config.stations, station.name))
-            plan.changes.push_back(fmt::format("station {} removed", station.name));
+    std::vector<bool> goes_on(present.stations.size());
+    for (std::size_t i = 0; i < plan.config.stations.size(); ++i) {
+        if (const auto before = index_of(plan.config.stations[i], present, plan)) goes_on[*before] = true;
+        plan_station(present, in_force, i, plan);
+    }
+    for (std::size_t i = 0; i < present.stations.size(); ++i) {
+        if (goes_on[i]) continue;
+        plan.leaving.push_back({present.stations[i].name, "removed"});
+        plan.changes.push_back(fmt::format("station {} removed", present.stations[i].name));
+    }
 }
 
 /// The file alone has no address twice; but one may still be, or by hand have become, that of another
 /// station.
-void refuse_addresses_in_use(const Config& present, const std::vector<std::uint8_t>& in_force, Plan& plan)
+void refuse_addresses_in_use(const Config& present, const std::vector<InForce>& in_force, Plan& plan)
 {
     const auto& stations = plan.config.stations;
     const auto refuse = [&](std::size_t newcomer, std::size_t other, std::uint8_t address,
@@ -169,7 +229,7 @@ void refuse_addresses_in_use(const Config& present, const std::vector<std::uint8
         if (plan.stations[i].stays) continue;
         for (std::size_t k = 0; k < stations.size(); ++k) {
             const auto stays = plan.stations[k].stays;
-            const std::uint8_t taken = stays ? in_force[*stays] : stations[k].address;
+            const std::uint8_t taken = stays ? in_force[*stays].address : stations[k].address;
             if (k == i || taken != stations[i].address) continue;
             const bool by_hand = stays && taken != present.stations[*stays].address;
             if (by_hand)
@@ -200,26 +260,13 @@ void plan_order(Plan& plan)
 
 } // namespace
 
-/// Their members are compared as they stand, so that none can be forgotten; only what they point to by
-/// itself.
-bool is_same(const StationConfig& a, const StationConfig& b)
-{
-    StationConfig like = a;
-    like.line = b.line;
-    like.leds = b.leds;
-    like.profile = b.profile;
-    like.personality = b.personality;
-    like.tags = b.tags;
-    return like == b && *a.profile == *b.profile && *a.personality == *b.personality && *a.tags == *b.tags;
-}
-
-Plan plan_reload(const Config& present, const std::vector<std::uint8_t>& in_force, Config wanted)
+Plan plan_reload(const Config& present, const std::vector<InForce>& in_force, Config wanted)
 {
     Plan plan;
     plan.config = std::move(wanted);
     refuse_what_needs_a_restart(present, plan);
     plan_lines(present, plan);
-    plan_stations(present, plan);
+    plan_stations(present, in_force, plan);
     refuse_addresses_in_use(present, in_force, plan);
     plan_rest(present, plan);
     plan_order(plan);

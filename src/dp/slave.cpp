@@ -281,6 +281,7 @@ Snapshot Slave::snapshot() const
                   .outputs = active_.words,
                   .demand_request = received_.demand,
                   .demand_reply = freeze_ ? frozen_.demand : demand_.reply(),
+                  .demand_order = demand_.standing(),
                   .counters = counters_};
     tell_diagnosis(seen.diagnosis);
     seen.counters.demand_orders = demand_.orders();

@@ -50,6 +50,7 @@ void query_arguments(CLI::App&, Options&);
 void port_argument(CLI::App&, Options&);
 void number_arguments(CLI::App&, Options&);
 void octet_arguments(CLI::App&, Options&);
+void reload_arguments(CLI::App&, Options&);
 
 constexpr std::array kSubcommands = std::to_array<Subcommand>({
     {"status", "The bus and each station in one line", "GetStatus", Needs::daemon, "", no_arguments,
@@ -85,7 +86,9 @@ constexpr std::array kSubcommands = std::to_array<Subcommand>({
      tec_arguments, do_tec},
     {"reload",
      "Reads the configuration file again and applies it, or says why not (root and the operator group)",
-     "Reload", Needs::daemon, "", no_arguments, do_reload},
+     "Reload", Needs::daemon,
+     "dpctl reload --dry-run   what it would change, and which stations would leave the bus and why",
+     reload_arguments, do_reload},
     {"leds", "What the lamps show, and what that means", "GetLeds", Needs::daemon, "", station_argument,
      do_leds},
     {"watch", "Shows changes until Ctrl-C", "Watch", Needs::daemon, "", station_argument, do_watch},
@@ -248,6 +251,11 @@ void number_arguments(CLI::App& app, Options& options)
                    "Decimal (288, -300.00), hexadecimal (0x120, >120, 120h) or a range (0-559)")
         ->required()
         ->type_name("");
+}
+
+void reload_arguments(CLI::App& app, Options& options)
+{
+    app.add_flag("--dry-run", options.dry_run, "Only tells what a reload would do; no port is opened for it");
 }
 
 void octet_arguments(CLI::App& app, Options& options)

@@ -34,16 +34,23 @@ int do_tec(const Options& options, Terminal& terminal)
                 [&](const Json& reply) { return render_tec(reply, terminal.colour); });
 }
 
-/// Refused is not fine, though the daemon has answered.
+/// Says first what it is going to do. Refused is not fine, though the daemon has answered.
 int do_reload(const Options& options, Terminal& terminal)
 {
+    std::string said;
+    if (options.dry_run || !options.json) {
+        const auto plan = ask(options, terminal, "Reload", Json::object({{"dry_run", true}}));
+        if (!plan) return plan.error();
+        const bool faulty = !plan->value("faults", Json::array()).empty();
+        said = options.json ? json_text(*plan) + '\n' : render_reload(*plan, options.dry_run);
+        (faulty && !options.json ? terminal.err : terminal.out) << said << std::flush;
+        if (options.dry_run) return faulty ? kNo : kFine;
+    }
     const auto reply = ask(options, terminal, "Reload", Json::object());
     if (!reply) return reply.error();
     const bool applied = reply->value("applied", false);
-    if (options.json)
-        terminal.out << json_text(*reply) << '\n' << std::flush;
-    else
-        (applied ? terminal.out : terminal.err) << render_reload(*reply) << std::flush;
+    const std::string now = options.json ? json_text(*reply) + '\n' : render_reload(*reply, false);
+    if (now != said) (applied || options.json ? terminal.out : terminal.err) << now << std::flush;
     return applied ? kFine : kNo;
 }
 

@@ -20,8 +20,8 @@ std::string render_counters(const Json& reply, bool colour);
 std::string render_leds(const Json& reply, bool colour);
 /// TEC OPTION, with the three steps of its set-up where it is not set up (B-054).
 std::string render_tec(const Json& reply, bool colour);
-/// What a reload has changed, or why it was refused.
-std::string render_reload(const Json& reply);
+/// What a reload changes, or why it is refused; of a dry run also who would leave the bus.
+std::string render_reload(const Json& reply, bool is_dry_run);
 /// A tag read or written.
 std::string render_tag(const Json& reply, std::string_view verb);
 /// The whole picture of `watch`.

@@ -30,7 +30,7 @@ std::string render_tag(const Json& reply, std::string_view verb)
                        word(integer(reply, "raw")));
 }
 
-std::string render_reload(const Json& reply)
+std::string render_reload(const Json& reply, bool is_dry_run)
 {
     std::string out;
     const auto add = [&](const char* key, std::string_view before) {
@@ -38,14 +38,18 @@ std::string render_reload(const Json& reply)
             if (sentence.is_string()) out += fmt::format("{}{}\n", before, sentence.get<std::string>());
     };
     add("warnings", "warning: ");
-    if (!flag(reply, "applied")) {
+    if (!list(reply, "faults").empty()) {
         add("faults", "");
         return out + "The new configuration is refused; the one until now runs on.\n";
     }
     add("changes", "");
     add("pending", "pending: ");
     if (list(reply, "changes").empty() && list(reply, "pending").empty()) out += "Nothing has changed.\n";
-    return out;
+    if (!is_dry_run) return out;
+    for (const Json& one : list(reply, "leaving"))
+        out += fmt::format("leaves the bus: {} ({})\n", text(one, "station"), text(one, "reason"));
+    if (list(reply, "leaving").empty()) out += "no station leaves the bus\n";
+    return out + "Nothing was done: this is what a reload would do.\n";
 }
 
 std::string render_watch(const Json& reply, bool colour)

@@ -19,8 +19,9 @@ struct Options {
     int tag = 0;
     std::string parameter; ///< of the TEC OPTION function block
     std::string value;
-    bool set = false; ///< `tec set`
-    bool all = false; ///< `tag`: also names that say more than the query; `doctor`: every rule
+    bool set = false;     ///< `tec set`
+    bool dry_run = false; ///< `reload`
+    bool all = false;     ///< `tag`: also names that say more than the query; `doctor`: every rule
 
     // Of the subcommands that need no daemon.
     std::vector<std::string> words; ///< query, numbers or octets

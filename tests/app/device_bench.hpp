@@ -73,8 +73,10 @@ public:
     {
         view.drive.known = view.drive.answers = true;
         std::size_t i = 0;
-        for (const std::uint16_t word : words)
-            view.drive.watched[i++] = {.word = word, .state = WordState::good};
+        for (const std::uint16_t word : words) {
+            view.drive.watched[i] = {.tag = station.watched[i], .word = word, .state = WordState::good};
+            ++i;
+        }
     }
     void drive_is_lost()
     {

@@ -116,13 +116,39 @@ TEST_F(Box, DoesNotKnowTheTripBeforeItsTagWasRead)
     EXPECT_EQ(device->tripped(), std::nullopt);
 
     bench.drive_reads({0, 0});
-    bench.view.drive.watched[0] = {.word = 0, .state = WordState::invalid_tag};
+    bench.view.drive.watched[0].state = WordState::invalid_tag;
     EXPECT_EQ(looked().trip(), "unknown: tag 4 was never read");
     EXPECT_THAT(device->take_news(), Not(Contains(says("trip"))));
 
     bench.drive_reads({0, 0});
     EXPECT_EQ(looked().trip(), "0: NO TRIP");
     EXPECT_EQ(device->tripped(), false);
+}
+
+/// A reload that the running exchange takes.
+TEST_F(Box, KeepsWhatWasSetByHandUnlessTheFileSaysSomethingElseThanBefore)
+{
+    looked();
+    EXPECT_EQ(device->set("RIDE THROUGH", "7"), std::nullopt);
+    EXPECT_EQ(device->set("INT DIAG SELECT", "100"), std::nullopt);
+    StationConfig other = bench.station;
+    other.tec->start.int_diag_select = 500;
+    device->adopt(other);
+    EXPECT_EQ(device->settings().ride_through, 7);
+    EXPECT_EQ(device->settings().int_diag_select, 500);
+}
+
+TEST_F(Box, DoesNotTakeAWordOfAnotherTagForItsTripAfterAReload)
+{
+    bench.drive_reads({0, 5});
+    looked();
+    StationConfig other = bench.station;
+    other.tec->trip_tag = other.watched[1]; // read until now for something else
+    std::swap(other.watched[0], other.watched[1]);
+    device->adopt(other);
+    bench.view.drive.watched[0].word = 9; // of the tag that stood first before
+    looked();
+    EXPECT_EQ(device->trip(), "5: EXTERNAL TRIP");
 }
 
 TEST_F(Box, SaysThatATripIsTheLastOneKnownWhileTheDriveIsLost)

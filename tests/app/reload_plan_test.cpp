@@ -8,6 +8,7 @@ namespace dpslave {
 namespace {
 
 using app::Config;
+using app::InForce;
 using app::Plan;
 using test::with;
 using testing::ElementsAre;
@@ -32,10 +33,17 @@ protected:
         for (const auto& station : config.stations) all.push_back(station.address);
         return all;
     }
+    /// As at the start, without a master.
+    static std::vector<InForce> in_force(const Config& config)
+    {
+        std::vector<InForce> all;
+        for (const auto& station : config.stations) all.push_back({station.address});
+        return all;
+    }
     Plan plan(const std::string& before, const std::string& after) const
     {
         const Config present = good(before);
-        return app::plan_reload(present, addresses_of(present), good(after));
+        return app::plan_reload(present, in_force(present), good(after));
     }
     /// Of each station of the new file: the index that it had and keeps.
     static std::vector<std::optional<std::size_t>> stays(const Plan& plan)
@@ -105,32 +113,139 @@ TEST_P(ChangedStation, LeavesAndStartsAnewWhileTheOtherGoesOn)
 {
     const std::string after = one + with(test::kSecondStation, GetParam().from, GetParam().to);
     const Plan plan = this->plan(two, after);
-    EXPECT_THAT(plan.changes,
-                ElementsAre("station winder changed: it leaves the bus and starts anew at address 6"));
+    EXPECT_THAT(plan.changes, ElementsAre(HasSubstr("station winder changed: it leaves the bus and starts "
+                                                    "anew at address 6 (")));
+    ASSERT_THAT(plan.leaving, SizeIs(1));
+    EXPECT_EQ(plan.leaving[0].station, "winder");
+    EXPECT_THAT(plan.leaving[0].reason, HasSubstr(GetParam().what));
     EXPECT_THAT(stays(plan), ElementsAre(0U, std::nullopt));
 }
 
+INSTANTIATE_TEST_SUITE_P(By, ChangedStation,
+                         testing::Values(Change{"unit", "\"01\"", "\"02\""},
+                                         Change{"profile", "\"620\"", "\"584s\""},
+                                         Change{"ident", "unit =", "ident = 0x1234\nunit ="},
+                                         Change{"Demand Data", "unit =", "demand.error_base = 1\nunit ="}),
+                         testing::PrintToStringParamName());
+
+/// Any of these is applied while the station goes on.
+class AppliedKey : public ReloadPlan, public testing::WithParamInterface<Change> {};
+
+TEST_P(AppliedKey, IsNamedAndNoStationLeavesTheBus)
+{
+    const Plan plan = this->plan(two, one + with(test::kSecondStation, GetParam().from, GetParam().to));
+    EXPECT_THAT(plan.changes, ElementsAre(HasSubstr(GetParam().what)));
+    EXPECT_THAT(plan.leaving, IsEmpty());
+    EXPECT_THAT(stays(plan), ElementsAre(0U, 1U));
+    EXPECT_TRUE(plan.stations[1].is_changed);
+    EXPECT_FALSE(plan.stations[0].is_changed);
+}
+
 INSTANTIATE_TEST_SUITE_P(
-    By, ChangedStation,
-    testing::Values(Change{"its unit", "\"01\"", "\"02\""}, Change{"its profile", "\"620\"", "\"584s\""},
-                    Change{"its refresh", "unit =", "output_refresh_s = 2.0\nunit ="},
-                    Change{"what is done at the loss", "unit =", "output_loss = \"hold\"\nunit ="},
-                    Change{"its ident", "unit =", "ident = 0x1234\nunit ="},
-                    Change{"its tag table", "unit =", "tags = \"../tags/590plus.csv\"\nunit ="}),
+    Of, AppliedKey,
+    testing::Values(Change{"output_refresh_s", "unit =", "output_refresh_s = 2.0\nunit ="},
+                    Change{"output_loss", "unit =", "output_loss = \"hold\"\nunit ="},
+                    Change{"station reel: its name, which was winder", "\"winder\"", "\"reel\""},
+                    Change{"tags", "unit =", "tags = \"../tags/590plus.csv\"\nunit ="}),
     testing::PrintToStringParamName());
+
+TEST_F(ReloadPlan, TakesAStationOfAnotherNameAndAnotherUnitForAnother)
+{
+    const std::string other = with(with(test::kSecondStation, "\"winder\"", "\"reel\""), "\"01\"", "\"02\"");
+    const Plan plan = this->plan(two, one + other);
+    EXPECT_THAT(stays(plan), ElementsAre(0U, std::nullopt));
+    EXPECT_THAT(plan.leaving, ElementsAre(Plan::Leaving{"winder", "removed"}));
+}
+
+// ---- rows of the tag table
+
+/// A master has chosen tag 55, which shows 1250, and tag 56, to which it writes 700.
+class ReloadOfRows : public ReloadPlan {
+protected:
+    static constexpr const char* kRows = "tag,name,type,decimals,min,max\n"
+                                         "55,SPEED,REAL,2,-100,100\n"
+                                         "56,SETPOINT,REAL,2,-100,100\n"
+                                         "57,CURRENT,REAL,2,,\n";
+    Plan of(const std::string& rows, std::optional<std::uint16_t> speed = 1250)
+    {
+        folder_.write("tags/empty.csv", kRows);
+        const Config present = good(one);
+        auto now = in_force(present);
+        now[0].tags = {{55, speed}, {56, 700}};
+        folder_.write("tags/empty.csv", rows);
+        return app::plan_reload(present, now, good(one));
+    }
+    void goes_on(const Plan& plan, const std::string& change)
+    {
+        EXPECT_THAT(plan.changes, ElementsAre(change));
+        EXPECT_THAT(plan.leaving, IsEmpty());
+        EXPECT_THAT(plan.stations, ElementsAre(Plan::Station{0U, true}));
+    }
+    void leaves(const Plan& plan, const std::string& reason)
+    {
+        EXPECT_THAT(plan.leaving, ElementsAre(Plan::Leaving{"unwinder", reason}));
+        EXPECT_THAT(stays(plan), ElementsAre(std::nullopt));
+    }
+};
+
+TEST_F(ReloadOfRows, AppliesANameThatTheMasterUses)
+{
+    goes_on(of(with(kRows, "SPEED", "SPEED FEEDBACK")), "station unwinder: 1 row of its tag table");
+}
+
+TEST_F(ReloadOfRows, AppliesOneMoreRowThatNoMasterHasChosen)
+{
+    goes_on(of(with(kRows, "57,", "54,RAMP,INT,,,\n57,")), "station unwinder: 1 row of its tag table");
+}
+
+TEST_F(ReloadOfRows, AppliesAnyChangeOfARowThatNoMasterHasChosen)
+{
+    goes_on(of(with(kRows, "57,CURRENT,REAL,2,,", "57,CURRENT,WORD,,,")),
+            "station unwinder: 1 row of its tag table");
+    goes_on(of(with(kRows, "57,CURRENT,REAL,2,,\n", "")), "station unwinder: 1 row of its tag table");
+}
+
+TEST_F(ReloadOfRows, AppliesLimitsThatTheValueMeets)
+{
+    goes_on(of(with(kRows, "SETPOINT,REAL,2,-100,100", "SETPOINT,REAL,2,-100,7")),
+            "station unwinder: 1 row of its tag table");
+}
+
+TEST_F(ReloadOfRows, TakesTheStationOffTheBusWhereTheValueIsOutsideTheNewLimits)
+{
+    leaves(of(with(kRows, "SETPOINT,REAL,2,-100,100", "SETPOINT,REAL,2,-100,6.99")),
+           "tag 56 is 7.00, which is outside its new limits");
+}
+
+TEST_F(ReloadOfRows, TakesTheStationOffTheBusWhereTheMasterWouldGetAnotherValue)
+{
+    leaves(of(with(kRows, "SPEED,REAL,2", "SPEED,REAL,1")),
+           "tag 55, which the master uses, would be another value");
+    leaves(of(with(kRows, "55,SPEED,REAL,2,-100,100\n", "")),
+           "tag 55, which the master uses, would be another value");
+}
+
+TEST_F(ReloadOfRows, AppliesAScaleWhereNoValueWasEverOnTheBus)
+{
+    goes_on(of(with(kRows, "SPEED,REAL,2", "SPEED,REAL,1"), std::nullopt),
+            "station unwinder: 1 row of its tag table");
+}
 
 TEST_F(ReloadPlan, SeesAProfileOrATagTableThatIsAnotherOneUnderTheSameName)
 {
     const Config present = good(two);
     folder_.write("tags/empty.csv", "tag,name,type\n55,SPEED,INT\n56,SETPOINT,INT\n");
-    const Plan other_tags = app::plan_reload(present, addresses_of(present), good(two));
-    EXPECT_THAT(stays(other_tags), ElementsAre(std::nullopt, std::nullopt));
+    const Plan other_tags = app::plan_reload(present, in_force(present), good(two));
+    EXPECT_THAT(other_tags.changes,
+                ElementsAre(HasSubstr("station unwinder: "), HasSubstr("station winder: ")));
 
     change_profile("590-site", "V4.2 onwards", "V4.2 onwards");
     const std::string site = with(two, "\"590\"", "\"590-site\"");
     const Config now = good(site);
     change_profile("590-site", "V4.2 onwards", "V4.3 onwards");
-    EXPECT_THAT(stays(app::plan_reload(now, addresses_of(now), good(site))), ElementsAre(std::nullopt, 1U));
+    const Plan other_text = app::plan_reload(now, in_force(now), good(site));
+    EXPECT_THAT(other_text.changes, ElementsAre("station unwinder: profile"));
+    EXPECT_THAT(other_text.leaving, IsEmpty());
 }
 
 TEST_F(ReloadPlan, LetsAStationGoOnWhoseLampsAreOthers)
@@ -145,8 +260,26 @@ TEST_F(ReloadPlan, LetsStationsGoOnWhoseLineIsSetInAnotherWay)
     const Plan plan =
         this->plan(two, with(two, "protocol = \"ei-ascii\"", "protocol = \"ei-ascii\"\nbaud = 19200"));
     EXPECT_THAT(plan.changes, ElementsAre("line p3 changed: /dev/null-p3 is opened anew"));
-    EXPECT_THAT(plan.lines, ElementsAre(Plan::Line{0U, true}));
+    EXPECT_THAT(plan.lines, ElementsAre(Plan::Line{0U, true, true}));
     EXPECT_THAT(stays(plan), ElementsAre(0U, 1U));
+}
+
+TEST_F(ReloadPlan, MovesALineToAnotherPortWithItsStations)
+{
+    const Plan plan = this->plan(two, with(two, "/dev/null-p3", "/dev/null-p4"));
+    EXPECT_THAT(plan.changes, ElementsAre("line p3 moves from /dev/null-p3 to /dev/null-p4"));
+    EXPECT_THAT(plan.leaving, IsEmpty());
+    EXPECT_THAT(stays(plan), ElementsAre(0U, 1U));
+}
+
+TEST_F(ReloadPlan, KeepsThePortOpenOfALineThatHasAnotherNameOrOtherRetries)
+{
+    std::string after = with(one, "protocol = \"ei-ascii\"", "protocol = \"ei-ascii\"\nretries = 4");
+    for (int i = 0; i < 2; ++i) after = with(after, "\"p3\"", "\"drives\"");
+    const Plan plan = this->plan(one, after);
+    EXPECT_THAT(plan.changes, ElementsAre("line drives: its name, which was p3", "line drives: retries"));
+    EXPECT_THAT(plan.lines, ElementsAre(Plan::Line{0U, true, false}));
+    EXPECT_THAT(stays(plan), ElementsAre(0U));
 }
 
 TEST_F(ReloadPlan, StartsAStationAnewWhoseLineSpeaksAnotherProtocol)
@@ -163,12 +296,12 @@ TEST_F(ReloadPlan, AddsAndRemovesLines)
         two + "[[line]]\nname = \"p4\"\nport = \"/dev/null-p4\"\nprotocol = \"ei-ascii\"\n";
     const Plan added = plan(two, more);
     EXPECT_THAT(added.changes, ElementsAre("line p4 added (/dev/null-p4)"));
-    EXPECT_THAT(added.lines, ElementsAre(Plan::Line{0U, false}, Plan::Line{}));
+    EXPECT_THAT(added.lines, ElementsAre(Plan::Line{0U, false, false}, Plan::Line{}));
     EXPECT_THAT(stays(added), ElementsAre(0U, 1U));
 
     const Plan removed = plan(more, two);
     EXPECT_THAT(removed.changes, ElementsAre("line p4 removed"));
-    EXPECT_THAT(removed.lines, ElementsAre(Plan::Line{0U, false}));
+    EXPECT_THAT(removed.lines, ElementsAre(Plan::Line{0U, false, false}));
 }
 
 // ----
@@ -189,7 +322,7 @@ TEST_F(ReloadPlan, DoesTheRestOfAChangeAtTheOldAddressOfAnOptionBoard)
     const std::string after = with(with(two, "address = 6", "address = 7"), "unit = \"01\"", "unit = \"02\"");
     const Plan plan = this->plan(two, after);
     EXPECT_THAT(plan.changes,
-                ElementsAre("station winder changed: it leaves the bus and starts anew at address 6"));
+                ElementsAre("station winder changed: it leaves the bus and starts anew at address 6 (unit)"));
     EXPECT_THAT(plan.pending, SizeIs(1));
     EXPECT_EQ(plan.config.stations[1].address, 6);
 }
@@ -197,8 +330,8 @@ TEST_F(ReloadPlan, DoesTheRestOfAChangeAtTheOldAddressOfAnOptionBoard)
 TEST_F(ReloadPlan, ForgetsAPendingAddressThatIsTakenBack)
 {
     const Config present = good(two);
-    const Plan first = app::plan_reload(present, {5, 6}, good(with(two, "address = 6", "address = 7")));
-    const Plan second = app::plan_reload(first.config, {5, 6}, good(two));
+    const Plan first = app::plan_reload(present, {{5}, {6}}, good(with(two, "address = 6", "address = 7")));
+    const Plan second = app::plan_reload(first.config, {{5}, {6}}, good(two));
     EXPECT_THAT(second.changes, IsEmpty());
     EXPECT_THAT(second.pending, IsEmpty());
 }
@@ -226,8 +359,9 @@ TEST_F(ReloadPlan, RefusesAnAddressThatAnOptionBoardLeavesWithTheNextStartOnly)
 TEST_F(ReloadPlan, ChangesTheAddressOfATechnologyBoxAtOnce)
 {
     const Plan plan = this->plan(boxed, with(boxed, "address = 9", "address = 10"));
-    EXPECT_THAT(plan.changes,
-                ElementsAre("station box changed: it leaves the bus and starts anew at address 10"));
+    EXPECT_THAT(
+        plan.changes,
+        ElementsAre("station box changed: it leaves the bus and starts anew at address 10 (address)"));
     EXPECT_THAT(plan.pending, IsEmpty());
     EXPECT_EQ(plan.config.stations[2].address, 10);
 }
@@ -236,19 +370,20 @@ TEST_F(ReloadPlan, RefusesAnAddressThatATechnologyBoxWasGivenByHand)
 {
     const Config present = good(boxed);
     const std::string after = boxed + with(with(kBox, "\"box\"", "\"other\""), "\"02\"", "\"03\"");
-    const Plan plan = app::plan_reload(present, {5, 6, 20}, good(with(after, "address = 9", "address = 21")));
+    const Plan plan =
+        app::plan_reload(present, {{5}, {6}, {20}}, good(with(after, "address = 9", "address = 21")));
     EXPECT_THAT(plan.refusals, IsEmpty());
 
     const std::string taken = boxed + with(with(with(kBox, "\"box\"", "\"other\""), "\"02\"", "\"03\""),
                                            "address = 9", "address = 20");
-    const Plan refused = app::plan_reload(present, {5, 6, 20}, good(taken));
+    const Plan refused = app::plan_reload(present, {{5}, {6}, {20}}, good(taken));
     EXPECT_THAT(refused.refusals, ElementsAre(HasSubstr("set by hand")));
 }
 
 TEST_F(ReloadPlan, LetsATechnologyBoxGoOnAtTheAddressThatItWasGivenByHand)
 {
     const Config present = good(boxed);
-    const Plan plan = app::plan_reload(present, {5, 6, 20}, good(boxed));
+    const Plan plan = app::plan_reload(present, {{5}, {6}, {20}}, good(boxed));
     EXPECT_THAT(plan.changes, IsEmpty());
     EXPECT_THAT(stays(plan), ElementsAre(0U, 1U, 2U));
 }

@@ -95,6 +95,7 @@ std::map<std::string, json> all()
         {"GetTec", json::parse(kTec)},
         {"SetTec", json::parse(kTec)},
         {"Reload", json::parse(R"({"applied":true,"changes":["station rewinder removed"],
+            "leaving":[{"station":"rewinder","reason":"removed"}],
             "pending":["station unwinder: address 7 counts from the next start on"],"warnings":[],"faults":[]})")},
         {"Watch", {{"bus", bus}, {"stations", stations}, {"words", watched_words}}},
         {"ReadTag", tag},

@@ -62,7 +62,7 @@ protected:
 /// The unwinder in data exchange, with a word in each direction that is not zero.
 class ReloadInService : public Reload {
 protected:
-    ReloadInService()
+    explicit ReloadInService(Wiring wiring = {.units = {"00", "01"}}) : Reload{std::move(wiring)}
     {
         gateway.drive().tell("unit 00");
         gateway.drive().tell("set 55 12.50");
@@ -123,9 +123,10 @@ TEST_F(Reload, ZeroesTheOutputsOfAStationThatIsChangedAndStartsItAnew)
 {
     rewinder_exchanges();
     const Outcome outcome =
-        reload(changed(text, "rewinder", "output_refresh_s = 1.0", "output_refresh_s = 2.0"));
+        reload(changed(text, "rewinder", "output_refresh_s", "demand.error_base = 1\noutput_refresh_s"));
     EXPECT_EQ(outcome.status, 0) << outcome.err;
-    EXPECT_EQ(told(outcome), "station rewinder changed: it leaves the bus and starts anew at address 6\n");
+    EXPECT_EQ(told(outcome), "station rewinder changed: it leaves the bus and starts anew at address 6 (its "
+                             "Demand Data or other abilities)\n");
     EXPECT_TRUE(gateway.drive().says("unit 01: tag 56 written 0.00"));
     Master master{gateway, {"--tags", "55,56w"}, 6};
     EXPECT_TRUE(master.does("start 30s"));
@@ -138,7 +139,8 @@ TEST_F(Reload, ZeroesTheOutputsOfAStationThatIsChangedAndStartsItAnew)
 TEST_F(ReloadInService, OfOtherStationsOnTheSameLineIsNotNoticed)
 {
     master.tell("try wait 5s for in 1 = 0");
-    const std::string other = changed(text, "rewinder", "output_refresh_s = 1.0", "output_refresh_s = 2.0");
+    const std::string other =
+        changed(text, "rewinder", "output_refresh_s", "demand.error_base = 1\noutput_refresh_s");
     EXPECT_THAT(reload(other).out, HasSubstr("rewinder changed"));
     EXPECT_THAT(reload(without_rewinder()).out, HasSubstr("rewinder removed"));
     EXPECT_THAT(reload(text).out, HasSubstr("station rewinder added at address 6"));
@@ -325,6 +327,133 @@ TEST_F(Reload, TakesOverOtherLamps)
     EXPECT_TRUE(eventually([&] { return content(lamp) == "0"; }));
 }
 
+// ---- what is applied in the running exchange
+
+class ReloadOfATable : public ReloadInService {
+protected:
+    static constexpr const char* kRows = "tag,name,type,decimals,min,max,access\n"
+                                         "55,SPEED,REAL,2,,,\n"
+                                         "56,SETPOINT,REAL,2,-200,200,\n";
+    ReloadOfATable() : ReloadInService{{.units = {"00", "01"}, .table = kRows}} {}
+
+    Outcome reload_rows(const std::string& rows)
+    {
+        write_file(gateway.folder("tags.csv"), rows);
+        return gateway.dpctl({"reload"});
+    }
+};
+
+TEST_F(ReloadOfATable, ThatRenamesATagAndAddsARowIsNotNoticed)
+{
+    master.tell("try wait 3s for in 1 = 0");
+    std::string rows = kRows;
+    rows.replace(rows.find("SPEED"), 5, "LINE SPEED");
+    const Outcome outcome = reload_rows(rows + "57,CURRENT,REAL,1,,,\n");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(told(outcome), "station unwinder: 2 rows of its tag table\n"
+                             "station rewinder: 2 rows of its tag table\n");
+    EXPECT_TRUE(gateway.word_becomes(55, "name", "LINE SPEED"));
+    EXPECT_EQ(gateway.dpctl({"read", "57", "--station", "unwinder"}).status, 1)
+        << "the drive has no such tag";
+    unwinder_noticed_nothing();
+}
+
+TEST_F(ReloadOfATable, SaysInADryRunWhoWouldLeaveTheBusAndDoesNothing)
+{
+    master.tell("try wait 3s for in 1 = 0");
+    std::string rows = kRows;
+    rows.replace(rows.find("SPEED,REAL,2"), 12, "SPEED,REAL,1");
+    write_file(gateway.folder("tags.csv"), rows);
+    const Outcome outcome = gateway.dpctl({"reload", "--dry-run"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("leaves the bus: unwinder (tag 55, which the master uses, would be "
+                                       "another value)\n"));
+    EXPECT_THAT(outcome.out, Not(HasSubstr("leaves the bus: rewinder"))) << "no master uses it";
+    EXPECT_THAT(outcome.out, HasSubstr("Nothing was done"));
+    write_file(gateway.folder("tags.csv"), kRows);
+    EXPECT_EQ(told(gateway.dpctl({"reload"})), "Nothing has changed.\n");
+    unwinder_noticed_nothing();
+}
+
+TEST_F(ReloadOfATable, IsDoneTwoHundredTimesWithoutALossOfTheExchange)
+{
+    master.tell("try wait 60s for in 1 = 0");
+    for (int i = 0; i < 200; ++i) {
+        const Outcome outcome =
+            reload_rows(kRows + std::string{"57,CURRENT,REAL,"} + (i % 2 == 0 ? "1" : "2") + ",,,\n");
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+        ASSERT_THAT(outcome.out, HasSubstr("1 row of its tag table"));
+    }
+    unwinder_noticed_nothing();
+}
+
+// ---- another port
+
+/// A second drive line, and on it a drive of its own.
+class ReloadOfPorts : public ReloadInService {
+protected:
+    ReloadOfPorts() : ReloadInService{{.units = {"00"}}}
+    {
+        EXPECT_TRUE(line.says("ready"));
+        EXPECT_TRUE(drive.says("ready"));
+        drive.tell("unit 00");
+        drive.tell("set 55 33.00");
+    }
+    std::string port(const std::string& name) const { return gateway.folder(name).string(); }
+    void no_fault_was_logged()
+    {
+        EXPECT_FALSE(gateway.daemon().ever_said(" error: "));
+        EXPECT_FALSE(gateway.daemon().ever_said("does not answer"));
+        EXPECT_FALSE(gateway.daemon().ever_said("another program"));
+    }
+
+    Process line{{DPSIM_PROGRAM, "line", "--baud", "38400", "--bits", "10", "--a",
+                  gateway.folder("other-drive"), "--b", gateway.folder("other-gateway")}};
+    Process drive{{DPSIM_PROGRAM, "drive", "--model", "590", "--port", gateway.folder("other-drive"),
+                   "--baud", "38400", "--log", "--tags",
+                   std::string{DPSLAVE_SOURCE_DIR} + "/config/tags/example.csv", "--unit", "00"}};
+};
+
+TEST_F(ReloadOfPorts, WritesStandingOutputsAtTheNewOneAndLeavesTheOldDriveSafe)
+{
+    const Outcome outcome = reload(changed(text, "[[line]]", port("drive-gateway"), port("other-gateway")));
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("line p3 moves from"));
+    EXPECT_TRUE(gateway.drive().says("unit 00: tag 56 written 0.00"));
+    EXPECT_TRUE(drive.says("unit 00: tag 56 written 7.00"));
+    EXPECT_TRUE(master.does("wait 30s for in 1 = 3300"));
+    EXPECT_EQ(gateway.station(0).at("left_count"), 0);
+    EXPECT_EQ(drive.how_often("unit 00: tag 56 written 0.00"), 0U);
+    no_fault_was_logged();
+}
+
+TEST_F(ReloadOfPorts, OfTwoLinesThatSwapThemIsWithoutAFault)
+{
+    std::string both = text;
+    both += fmt::format(
+        "[[line]]\nname = \"p4\"\nport = \"{}\"\nprotocol = \"ei-ascii\"\nbaud = 38400\n"
+        "[[station]]\nname = \"dancer\"\naddress = 7\nprofile = \"590\"\nline = \"p4\"\nunit = \"00\"\n",
+        port("other-gateway"));
+    ASSERT_EQ(reload(both).status, 0);
+    Master second{gateway, {"--tags", "55,56w"}, 7};
+    ASSERT_TRUE(second.does("start 30s"));
+    EXPECT_TRUE(second.does("out 1 = 900"));
+    EXPECT_TRUE(drive.says("unit 00: tag 56 written 9.00"));
+
+    std::string swapped = changed(both, "[[line]]", port("drive-gateway"), "SWAP");
+    swapped = changed(swapped, "\"p4\"", port("other-gateway"), port("drive-gateway"));
+    const Outcome outcome = reload(changed(swapped, "[[line]]", "SWAP", port("other-gateway")));
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_TRUE(gateway.drive().says("unit 00: tag 56 written 9.00"));
+    EXPECT_TRUE(drive.says("unit 00: tag 56 written 7.00"));
+    EXPECT_TRUE(master.does("wait 30s for in 1 = 3300"));
+    EXPECT_TRUE(second.does("wait 30s for in 1 = 1250"));
+    EXPECT_EQ(drive.how_often("unit 00: tag 56 written 0.00"), 0U);
+    EXPECT_EQ(gateway.drive().how_often("unit 00: tag 56 written 0.00"), 0U);
+    for (const std::size_t i : {0U, 1U}) EXPECT_EQ(gateway.station(i).at("left_count"), 0);
+    no_fault_was_logged();
+}
+
 class ReloadOfBoxes : public Reload {
 protected:
     ReloadOfBoxes() : Reload{{.profile = "605", .units = {"00", "01"}}} {}
@@ -335,7 +464,8 @@ TEST_F(ReloadOfBoxes, AppliesAnotherAddressAtOnceAndKeepsWhatWasSetByHandWhereNo
     EXPECT_EQ(gateway.dpctl({"tec", "set", "EXT DIAGNOSTIC", "0x6AB5", "--station", "unwinder"}).status, 0);
     EXPECT_EQ(gateway.dpctl({"tec", "set", "ADDRESS", "20", "--station", "unwinder"}).status, 0);
     const Outcome outcome = reload(changed(text, "rewinder", "address = 6", "address = 8"));
-    EXPECT_EQ(told(outcome), "station rewinder changed: it leaves the bus and starts anew at address 8\n");
+    EXPECT_EQ(told(outcome),
+              "station rewinder changed: it leaves the bus and starts anew at address 8 (address)\n");
     EXPECT_EQ(gateway.station(0).at("address"), 20);
     EXPECT_EQ(gateway.station(1).at("address"), 8);
     EXPECT_EQ(gateway.tec("EXT DIAGNOSTIC"), 0x6AB5);

@@ -32,6 +32,10 @@ public:
     /// self-test is one for good: the station stays silent.
     explicit DeviceState(const StationConfig& config, bool self_test_passed = true);
 
+    /// The same device with other keys, whose `config` outlives it. What was set by hand stands, unless the
+    /// file says something else about it than before.
+    void adopt(const StationConfig& config);
+
     /// What is the case now: the snapshots of `station` and of the bus.
     void look(const StationView& station, const BusSnapshot& bus);
 

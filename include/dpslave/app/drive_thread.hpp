@@ -34,6 +34,8 @@ private:
     static constexpr std::chrono::milliseconds kTickIdle{20};
     static constexpr std::chrono::seconds kFarewell{2};
     static constexpr std::chrono::seconds kOpenAgainAfter{1};
+    /// A port that another line of ours is about to let go of: that one may leave its drives first.
+    static constexpr std::chrono::milliseconds kPortPatience{kFarewell + std::chrono::seconds{1}};
 
     struct Unit {
         explicit Unit(const DriveUnit& made_of);
@@ -57,18 +59,22 @@ private:
     void remember_trouble(const Unit& unit, const drive::Transaction& access, AccessError cause,
                           const std::string& text);
     void forget_trouble(const Unit& unit, const drive::Transaction& access);
-    void rest(int wake, Instant now) const;
+    void rest(int wake, std::chrono::nanoseconds wait) const;
+    std::chrono::nanoseconds rest_time(Instant now) const;
     void farewell();
 
     void take_work();
     bool leaving_is_over() const;
     void take_over();
     void forget_troubles_of_the_gone();
+    void take_port();
     bool is_open();
+    bool waits_for_port(Instant now) const { return !backend_ && now < port_comes_until_; }
 
     LineConfig line_;
     std::unique_ptr<LineBackend> backend_; ///< null: the port could not be opened yet
     Instant next_open_{};
+    Instant port_comes_until_{}; ///< until then another line of ours may still have it: nothing is asked
     bool open_failure_said_ = false;
     std::vector<Unit> units_;
     drive::Poller poller_;

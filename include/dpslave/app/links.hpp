@@ -153,10 +153,14 @@ class LineBackend;
 /// What a line is to do from now on.
 struct LineWork {
     ~LineWork();
-    std::vector<DriveUnit> units;   ///< one that was there before goes on without a break
-    std::optional<LineConfig> line; ///< the port is another one or set in another way
-    std::unique_ptr<LineBackend>
-        backend; ///< with `line`: opened already; null = after the close of the old one
+    /// One that was there before goes on without a break, with its `config` of now.
+    std::vector<DriveUnit> units;
+    std::optional<LineConfig> line; ///< a key of it is different
+    bool opens_port = false;        ///< the port is another one, or set in another way
+    bool is_other_port = false;     ///< with `opens_port`: standing outputs are written there at once
+    bool leaves_drives = false;     ///< with `is_other_port`: the drives at the old one go to the safe state
+    /// With `opens_port`: opened already; null: one of ours has it and is about to let go of it.
+    std::unique_ptr<LineBackend> backend;
 };
 
 /// An order of `dpctl`; its `unit` is found by the number of the station.

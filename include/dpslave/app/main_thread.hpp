@@ -51,10 +51,9 @@ private:
     /// One station, as this thread follows it; what is shown of it is in view_ at the same index.
     struct Post {
         Post(const Station& at_work, bool self_test_passed)
-            : station(at_work), config(station.config), device(*station.config, self_test_passed)
+            : station(at_work), device(*station.config, self_test_passed)
         {}
         Station station;
-        std::shared_ptr<const StationConfig> config; ///< station.config, or the same with other lamps
         DeviceState device;
         BusOrders ordered; ///< as published last
     };
@@ -104,7 +103,7 @@ private:
     control::Error no_such_station(const std::string& wanted) const;
     control::Json known_stations() const;
     std::optional<std::size_t> index_of(const std::string& name) const;
-    const StationConfig& config_of(std::size_t station) const { return *posts_[station].config; }
+    const StationConfig& config_of(std::size_t station) const { return *posts_[station].station.config; }
 
     // main_thread.cpp
     Post make_post(const Station& station);
@@ -128,6 +127,12 @@ private:
     struct Reloaded {
         bool applied = false;
         std::vector<std::string> changes, pending, warnings, faults;
+        std::vector<Plan::Leaving> leaving;
+    };
+    /// What it would come to, and the plan; none where there are faults.
+    struct Judged {
+        Reloaded result;
+        std::optional<Plan> plan;
     };
     /// Where a reload stands. Another one begins when it is idle again.
     enum class Reloading : std::uint8_t {
@@ -135,9 +140,12 @@ private:
         bus,   ///< the bus is to take the new roster
         drives ///< the drives of those who left get their safe state
     };
-    control::Reply on_reload();
+    control::Reply on_reload(const control::Json& parameters);
+    static control::Json reply_of(const Reloaded& reloaded);
     void mind_reload();
     void reload();
+    Judged judge_file();
+    std::vector<InForce> in_force() const;
     Reloaded try_reload();
     std::optional<std::string> apply(Plan plan);
     void repost();

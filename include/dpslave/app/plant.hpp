@@ -83,6 +83,7 @@ private:
     bool has_port(const std::string& port) const;
     std::optional<std::string> make_lines(const Plan& plan, Next& next) const;
     void make_stations(const Plan& plan, Next& next);
+    void plan_port(const Plan& plan, std::size_t index, LineWork& work) const;
     void make_works(const Plan& plan, Next& next) const;
     void start(DriveLine& line);
 

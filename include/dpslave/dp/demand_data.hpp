@@ -36,6 +36,7 @@ public:
     void answer(const DemandAnswer& answer);
 
     const DemandRegisters& reply() const { return reply_; }
+    const DemandOrder& standing() const { return standing_; } ///< `cancel`: none stands
     std::optional<DemandOrder> take_order() { return orders_.pop(); }
 
     std::uint64_t orders() const { return ordered_; }   ///< reads and writes ordered

@@ -109,6 +109,7 @@ struct Snapshot {
     std::array<std::uint16_t, kMaxParameters> outputs{}; ///< active (after Sync and Clear)
     std::array<std::uint16_t, 4> demand_request{};       ///< the four registers as received
     std::array<std::uint16_t, 4> demand_reply{};         ///< as sent
+    DemandOrder demand_order{};                          ///< the one that stands; `cancel`: none
     Counters counters{};
 };
 
