@@ -57,21 +57,6 @@ void set_address(StationConfig& station, std::uint8_t address)
     if (station.tec) station.tec->start.address = address;
 }
 
-/// Names of keys that differ: "port, baud".
-class Differences {
-public:
-    template <class T>
-    void look(const T& a, const T& b, std::string_view key)
-    {
-        if (a == b) return;
-        names_.append(names_.empty() ? "" : ", ").append(key);
-    }
-    const std::string& names() const { return names_; }
-
-private:
-    std::string names_;
-};
-
 std::string bus_differences(const BusConfig& a, const BusConfig& b)
 {
     Differences keys;
@@ -180,24 +165,23 @@ void plan_station(const Config& present, const std::vector<InForce>& in_force, s
     }
     const StationConfig& old = present.stations[*before];
     hold_address(old, station, plan);
-    auto [leaves, applied] = change_of(old, station, in_force[*before]);
-    const auto leave = [&leaves](std::string_view why) {
-        leaves.append(leaves.empty() ? "" : ", ").append(why);
-    };
+    StationChange change = change_of(old, station, in_force[*before]);
     if (!is_on_line(old, station, plan))
-        leave("line");
+        change.leaves.add("line");
     else if (present.lines[old.line].protocol != plan.config.lines[station.line].protocol)
-        leave("protocol of its line");
-    if (leaves.empty()) {
+        change.leaves.add("protocol of its line");
+    if (change.leaves.empty()) {
         planned.stays = before;
-        planned.is_changed = !applied.empty();
-        if (!applied.empty()) plan.changes.push_back(fmt::format("station {}: {}", station.name, applied));
+        planned.is_changed = !change.applied.empty();
+        if (planned.is_changed)
+            plan.changes.push_back(fmt::format("station {}: {}", station.name, change.applied.names()));
         return;
     }
-    plan.leaving.push_back({old.name, leaves});
+    const std::string& reason = change.leaves.names();
+    plan.leaving.push_back({old.name, reason});
     plan.changes.push_back(
         fmt::format("station {} changed: it leaves the bus and starts anew at address {} ({})", station.name,
-                    station.address, leaves));
+                    station.address, reason));
 }
 
 void plan_stations(const Config& present, const std::vector<InForce>& in_force, Plan& plan)

@@ -3,29 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <string_view>
+#include <string>
 
 namespace dpslave::app {
 
 namespace {
 
-/// "port, baud".
-class Words {
-public:
-    void add(std::string_view word) { all_.append(all_.empty() ? "" : ", ").append(word); }
-    template <class T>
-    void look(const T& a, const T& b, std::string_view key)
-    {
-        if (!(a == b)) add(key);
-    }
-    const std::string& all() const { return all_; }
-
-private:
-    std::string all_;
-};
-
 /// What the master has in its GSD, or was told in the diagnosis and the answers until now.
-void look_at_personality(const StationConfig& before, const StationConfig& now, Words& leaves)
+void look_at_personality(const StationConfig& before, const StationConfig& now, Differences& leaves)
 {
     const dp::Personality& a = *before.personality;
     const dp::Personality& b = *now.personality;
@@ -38,7 +23,8 @@ void look_at_personality(const StationConfig& before, const StationConfig& now, 
 }
 
 /// The rest of it is texts, what only a GSD or --check needs, and what the station has copied.
-void look_at_profile(const profile::Profile& a, const profile::Profile& b, Words& leaves, Words& applied)
+void look_at_profile(const profile::Profile& a, const profile::Profile& b, Differences& leaves,
+                     Differences& applied)
 {
     profile::Profile like = a;
     like.tags = b.tags; // looked at row by row
@@ -52,7 +38,7 @@ void look_at_profile(const profile::Profile& a, const profile::Profile& b, Words
 }
 
 /// With an input out of range, or another TYPE, the station would fall silent.
-void look_at_tec(const TecConfig& a, const TecConfig& b, Words& leaves, Words& applied)
+void look_at_tec(const TecConfig& a, const TecConfig& b, Differences& leaves, Differences& applied)
 {
     TecConfig like = a;
     like.start.address = b.start.address; // that of the station, which is looked at there
@@ -64,7 +50,7 @@ void look_at_tec(const TecConfig& a, const TecConfig& b, Words& leaves, Words& a
 /// Every member that is not named here counts as one that cannot change, so that none can be forgotten.
 void look_at_keys(const StationConfig& before, const StationConfig& now, StationChange& change)
 {
-    Words leaves, applied;
+    auto& [leaves, applied] = change;
     leaves.look(before.address, now.address, "address");
     leaves.look(before.unit, now.unit, "unit");
     look_at_personality(before, now, leaves);
@@ -100,7 +86,6 @@ void look_at_keys(const StationConfig& before, const StationConfig& now, Station
     like.watched = before.watched;
     like.leds = before.leds;
     leaves.look(like, before, "another key");
-    change = {leaves.all(), applied.all()};
 }
 
 drive::Tag row_of(const StationConfig& station, std::uint16_t number)
@@ -143,19 +128,13 @@ void look_at_rows(const StationConfig& before, const StationConfig& now, const I
                   StationChange& change)
 {
     if (*before.tags == *now.tags) return;
-    Words leaves;
     for (const TagInUse& used : in_force.tags) {
         if (!used.word) continue;
         const std::string reason = why_not(row_of(before, used.tag), row_of(now, used.tag), *used.word);
-        if (!reason.empty()) leaves.add(reason);
+        if (!reason.empty()) change.leaves.add(reason);
     }
     const std::size_t rows = changed_rows(*before.tags, *now.tags);
-    Words applied;
-    if (!change.applied.empty()) applied.add(change.applied);
-    if (rows > 0) applied.add(fmt::format("{} {} of its tag table", rows, rows == 1 ? "row" : "rows"));
-    change.applied = applied.all();
-    if (leaves.all().empty()) return;
-    change.leaves.append(change.leaves.empty() ? "" : ", ").append(leaves.all());
+    if (rows > 0) change.applied.add(fmt::format("{} {} of its tag table", rows, rows == 1 ? "row" : "rows"));
 }
 
 } // namespace

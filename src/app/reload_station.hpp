@@ -3,16 +3,16 @@
 /// the table of keys.
 #pragma once
 
-#include "dpslave/app/reload_plan.hpp"
+#include "differences.hpp"
 
-#include <string>
+#include "dpslave/app/reload_plan.hpp"
 
 namespace dpslave::app {
 
 /// Keys and rows that differ, in words.
 struct StationChange {
-    std::string leaves;  ///< why it cannot stay on the bus: "unit"; empty: it can
-    std::string applied; ///< what is applied while it is there: "output_refresh_s, other lamps"; may be empty
+    Differences leaves;  ///< why it cannot stay on the bus: "unit"; empty: it can
+    Differences applied; ///< what is applied while it is there: "output_refresh_s, other lamps"
 };
 
 /// `now` has the address that is to be in force. Lines are not looked at.

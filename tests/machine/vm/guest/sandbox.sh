@@ -43,6 +43,7 @@ nothing_but_real_time() {
     expect_equal Seccomp "$(awk '/^Seccomp:/ {print $2}' <<<"$status")" 2
     expect_equal "limit of locked memory" "$(awk '/^Max locked memory/ {print $4}' "/proc/$pid/limits")" unlimited
     expect_equal "limit of the real-time priority" "$(awk '/^Max realtime priority/ {print $4}' "/proc/$pid/limits")" 99
+    [ ! -e /dev/cpu_dma_latency ] || expect_text "$(ls -l "/proc/$pid/fd")" /dev/cpu_dma_latency
 }
 
 the_rest_is_shut() {
