@@ -23,7 +23,7 @@ Ticker::Ticker(std::chrono::nanoseconds period)
 void Ticker::clear() noexcept
 {
     std::uint64_t ticks = 0;
-    static_cast<void>(::read(fd_.get(), &ticks, sizeof ticks));
+    [[maybe_unused]] const ssize_t taken = ::read(fd_.get(), &ticks, sizeof ticks);
 }
 
 } // namespace dpslave::io
