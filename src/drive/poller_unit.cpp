@@ -118,7 +118,6 @@ void Poller::Unit::port_changed()
     lost_ = false;
     silences_ = 0;
     ever_asked_ = false;
-    probe_wait_ = settings_.probe_interval;
     reads_.drive_returned(kAtOnce);
     outputs_.pause(false);
     outputs_.forget();
