@@ -312,7 +312,8 @@ TEST_F(Reload, AnswersCallsBehindOneWhoseStationHasGoneOutOfTheNewConfiguration)
     ASSERT_TRUE(caller.says("sent"));
     ASSERT_TRUE(eventually([this] { return gateway.json({"status"}).contains("pid"); })); // and it was heard
 
-    EXPECT_EQ(reload(without_rewinder()).status, 0);
+    write_file(gateway.config(), without_rewinder());
+    EXPECT_EQ(gateway.dpctl({"reload", "--json"}).status, 0); // one call: the drive is given up soon
     EXPECT_TRUE(caller.says("[True, True] [0, 0]"));
     EXPECT_EQ(caller.wait(), 0);
 }
@@ -379,8 +380,9 @@ TEST_F(ReloadOfATable, IsDoneTwoHundredTimesWithoutALossOfTheExchange)
 {
     master.tell("try wait 60s for in 1 = 0");
     for (int i = 0; i < 200; ++i) {
-        const Outcome outcome =
-            reload_rows(kRows + std::string{"57,CURRENT,REAL,"} + (i % 2 == 0 ? "1" : "2") + ",,,\n");
+        write_file(gateway.folder("tags.csv"),
+                   kRows + std::string{"57,CURRENT,REAL,"} + (i % 2 == 0 ? "1" : "2") + ",,,\n");
+        const Outcome outcome = gateway.dpctl({"reload", "--json"});
         ASSERT_EQ(outcome.status, 0) << outcome.err;
         ASSERT_THAT(outcome.out, HasSubstr("1 row of its tag table"));
     }
@@ -390,13 +392,18 @@ TEST_F(ReloadOfATable, IsDoneTwoHundredTimesWithoutALossOfTheExchange)
 // ---- another port
 
 /// A second drive line, and on it a drive of its own.
-class ReloadOfPorts : public ReloadInService {
+class ReloadOfPorts : public Reload {
 protected:
-    ReloadOfPorts() : ReloadInService{{.units = {"00"}}}
+    ReloadOfPorts() : Reload{{.units = {"00"}}}
     {
+        gateway.drive().tell("set 55 12.50");
+        EXPECT_TRUE(master.does("start 30s"));
+        EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
+        EXPECT_TRUE(master.does("out 1 = 700"));
+        EXPECT_TRUE(gateway.drive().says("tag 56 written 7.00"));
+        gateway.drive().skip();
         EXPECT_TRUE(line.says("ready"));
         EXPECT_TRUE(drive.says("ready"));
-        drive.tell("unit 00");
         drive.tell("set 55 33.00");
     }
     std::string port(const std::string& name) const { return gateway.folder(name).string(); }
@@ -407,6 +414,7 @@ protected:
         EXPECT_FALSE(gateway.daemon().ever_said("another program"));
     }
 
+    Master master{gateway, {"--tags", "55,56w"}, 5};
     Process line{{DPSIM_PROGRAM, "line", "--baud", "38400", "--bits", "10", "--a",
                   gateway.folder("other-drive"), "--b", gateway.folder("other-gateway")}};
     Process drive{{DPSIM_PROGRAM, "drive", "--model", "590", "--port", gateway.folder("other-drive"),
@@ -419,11 +427,11 @@ TEST_F(ReloadOfPorts, WritesStandingOutputsAtTheNewOneAndLeavesTheOldDriveSafe)
     const Outcome outcome = reload(changed(text, "[[line]]", port("drive-gateway"), port("other-gateway")));
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_THAT(outcome.out, HasSubstr("line p3 moves from"));
-    EXPECT_TRUE(gateway.drive().says("unit 00: tag 56 written 0.00"));
-    EXPECT_TRUE(drive.says("unit 00: tag 56 written 7.00"));
+    EXPECT_TRUE(gateway.drive().says("tag 56 written 0.00"));
+    EXPECT_TRUE(drive.says("tag 56 written 7.00"));
     EXPECT_TRUE(master.does("wait 30s for in 1 = 3300"));
     EXPECT_EQ(gateway.station(0).at("left_count"), 0);
-    EXPECT_EQ(drive.how_often("unit 00: tag 56 written 0.00"), 0U);
+    EXPECT_EQ(drive.how_often("tag 56 written 0.00"), 0U);
     no_fault_was_logged();
 }
 
@@ -438,18 +446,18 @@ TEST_F(ReloadOfPorts, OfTwoLinesThatSwapThemIsWithoutAFault)
     Master second{gateway, {"--tags", "55,56w"}, 7};
     ASSERT_TRUE(second.does("start 30s"));
     EXPECT_TRUE(second.does("out 1 = 900"));
-    EXPECT_TRUE(drive.says("unit 00: tag 56 written 9.00"));
+    EXPECT_TRUE(drive.says("tag 56 written 9.00"));
 
     std::string swapped = changed(both, "[[line]]", port("drive-gateway"), "SWAP");
     swapped = changed(swapped, "\"p4\"", port("other-gateway"), port("drive-gateway"));
     const Outcome outcome = reload(changed(swapped, "[[line]]", "SWAP", port("other-gateway")));
     EXPECT_EQ(outcome.status, 0) << outcome.err;
-    EXPECT_TRUE(gateway.drive().says("unit 00: tag 56 written 9.00"));
-    EXPECT_TRUE(drive.says("unit 00: tag 56 written 7.00"));
+    EXPECT_TRUE(gateway.drive().says("tag 56 written 9.00"));
+    EXPECT_TRUE(drive.says("tag 56 written 7.00"));
     EXPECT_TRUE(master.does("wait 30s for in 1 = 3300"));
     EXPECT_TRUE(second.does("wait 30s for in 1 = 1250"));
-    EXPECT_EQ(drive.how_often("unit 00: tag 56 written 0.00"), 0U);
-    EXPECT_EQ(gateway.drive().how_often("unit 00: tag 56 written 0.00"), 0U);
+    EXPECT_EQ(drive.how_often("tag 56 written 0.00"), 0U);
+    EXPECT_EQ(gateway.drive().how_often("tag 56 written 0.00"), 0U);
     for (const std::size_t i : {0U, 1U}) EXPECT_EQ(gateway.station(i).at("left_count"), 0);
     no_fault_was_logged();
 }
