@@ -65,6 +65,8 @@ void look_at_keys(const StationConfig& before, const StationConfig& now, Station
     applied.look(before.ext_diag_bit, now.ext_diag_bit, "ext_diag_bit");
     applied.look(before.status_tag, now.status_tag, "status_tag");
     applied.look(before.integer_resolution, now.integer_resolution, "resolution");
+    applied.look(before.unlisted_decimals, now.unlisted_decimals, "unlisted_decimals");
+    applied.look(before.unscaled_holds, now.unscaled_holds, "unscaled_tags");
     applied.look(before.leds, now.leds, "other lamps");
 
     StationConfig like = now;
@@ -83,6 +85,8 @@ void look_at_keys(const StationConfig& before, const StationConfig& now, Station
     like.ext_diag_bit = before.ext_diag_bit;
     like.status_tag = before.status_tag;
     like.integer_resolution = before.integer_resolution;
+    like.unlisted_decimals = before.unlisted_decimals;
+    like.unscaled_holds = before.unscaled_holds;
     like.watched = before.watched;
     like.leds = before.leds;
     leaves.look(like, before, "another key");
@@ -91,13 +95,15 @@ void look_at_keys(const StationConfig& before, const StationConfig& now, Station
 drive::Tag row_of(const StationConfig& station, std::uint16_t number)
 {
     const drive::Tag* row = station.tags->find(number);
-    return row != nullptr ? *row : drive::unlisted_tag(number);
+    if (row != nullptr) return *row;
+    return station.unlisted_decimals ? drive::unlisted_tag(number, *station.unlisted_decimals)
+                                     : drive::unlisted_tag(number);
 }
 
 /// Empty: the row may change under the word that is on the bus.
 std::string why_not(const drive::Tag& before, const drive::Tag& now, std::uint16_t word)
 {
-    if (!drive::is_same_value(before, now))
+    if (!drive::is_same_value(before, now) || (drive::has_scale(before) && !drive::has_scale(now)))
         return fmt::format("tag {}, which the master uses, would be another value", now.number);
     if (drive::is_within_limits(before, word) && !drive::is_within_limits(now, word))
         return fmt::format("tag {} is {}, which is outside its new limits", now.number,
@@ -127,7 +133,7 @@ std::size_t changed_rows(const drive::TagTable& before, const drive::TagTable& n
 void look_at_rows(const StationConfig& before, const StationConfig& now, const InForce& in_force,
                   StationChange& change)
 {
-    if (*before.tags == *now.tags) return;
+    if (*before.tags == *now.tags && before.unlisted_decimals == now.unlisted_decimals) return;
     for (const TagInUse& used : in_force.tags) {
         if (!used.word) continue;
         const std::string reason = why_not(row_of(before, used.tag), row_of(now, used.tag), *used.word);
