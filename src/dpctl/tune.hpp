@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// From the facts of a machine to what it can promise at each rate, and what would make it better. Pure but
-/// for do_tune(). Source: wire reference 1.4, 1.5 and 11 ("wire" in the comments below).
+/// for do_tune(). Source: wire reference 1.4, 1.5 and 11.
 #pragma once
 
 #include "fields.hpp"
@@ -16,9 +16,9 @@
 
 namespace dpslave::dpctl {
 
-/// Bit times that the GSD of a common slave promises, by rate (class default, wire 1.3).
+/// Bit times that the GSD of a common slave promises, by rate (class default; wire reference 1.3).
 inline constexpr std::array<std::uint32_t, kBauds.size()> kDefaultMaxTsdr{60, 60, 60, 60, 60, 100, 150};
-/// What masters wait at most: some refuse above 1023 (wire 1.4).
+/// What masters wait at most: some refuse above 1023 (wire reference 1.4).
 inline constexpr std::uint32_t kCeiling = 1000;
 
 /// What the daemon counted since it serves the bus; all at the rate of BusFacts::baud unless that was
@@ -60,7 +60,7 @@ struct SoftwarePart {
 SoftwarePart software_part(const TuneFacts& facts);
 
 /// MaxTsdr that follows from an idle time-out and a software part: T_bit, rounded up, never below min T_SDR
-/// (wire 11.6, "Minimum MaxTsdr").
+/// (wire reference 11.6, "Minimum MaxTsdr").
 std::uint32_t needed_tsdr(std::uint32_t idle_timeout_tbit, std::uint32_t software_us, Baud baud);
 
 enum class Verdict : std::uint8_t { holds, doubtful, cannot };

@@ -280,7 +280,7 @@ void threads(const TuneFacts& facts, Findings& out)
     const auto bus = facts.bus ? facts.bus->thread : std::nullopt;
     const int ours = bus && bus->is_realtime() ? bus->priority : kDefaultPriority;
     const auto& irq = facts.port.irq_thread;
-    if (irq && irq->priority <= ours) // above it, not beside it: wire 11.1
+    if (irq && irq->priority <= ours) // above it, not beside it: wire reference 11.1
         out.push_back(
             {Severity::better, "irq.priority",
              fmt::format("The thread of the port's interrupt ({}) has {}, the bus thread {}", irq->name,

@@ -15,7 +15,7 @@ using io::UartKind;
 
 namespace {
 
-// Software parts to plan with, us (wire 11.6, [R]).
+// Software parts to plan with, us (wire reference 11.6, [R]).
 constexpr std::uint32_t kRealtimeKernel = 300;
 constexpr std::uint32_t kStockKernelLow = 1000;
 constexpr std::uint32_t kStockKernelHigh = 2500;
@@ -25,8 +25,8 @@ constexpr std::uint32_t kFtdiTimerMs = 16; // as the driver leaves it
 constexpr std::uint64_t kEnoughReplies = 2000; // fewer say nothing about a thousandth
 constexpr double kDirty = 1e-3;                // share of exchanges that went wrong: doubtful above
 constexpr double kBroken = 1e-2;               // cannot above
-constexpr double kToleranceOfStandard = 0.3;   // percent; wire 1.1
-constexpr double kTolerance = 1.0;             // percent; wire 11.1: reject
+constexpr double kToleranceOfStandard = 0.3;   // percent; wire reference 1.1
+constexpr double kTolerance = 1.0;             // percent; wire reference 11.1: reject
 
 /// What the daemon's own work took beyond min T_SDR, which it has to wait anyway.
 std::uint32_t excess_us(const BusFacts& bus)
@@ -55,10 +55,10 @@ std::optional<std::string> doubt(const TuneFacts& facts, Baud baud)
     if (uart == UartKind::unknown)
         return fmt::format("unknown driver {}: measure it", port.driver.empty() ? "?" : port.driver);
     if (uart == UartKind::mediatek || port.dma) return "DMA holds characters back: measure it";
-    // One interrupt for each character (wire 11.5).
+    // One interrupt for each character (wire reference 11.5).
     if (is_16550(uart) && port.trigger == 1 && baud == Baud::k1500)
         return fmt::format("{} interrupts a second: too many for most boards", rate / kCharacter.count);
-    // The 8250 driver refills the transmit FIFO only when it is empty (wire 11.5, "Transmit").
+    // The 8250 driver refills the transmit FIFO only when it is empty (wire reference 11.5, "Transmit").
     if (is_16550(uart) && port.fifo.value_or(1) <= 16 && baud >= Baud::k500)
         return fmt::format("gaps in replies of more than {} octets, unless the FIFO is refilled within {} us",
                            port.fifo.value_or(1), kCharacter.count * 1'000'000 / rate);
@@ -147,7 +147,7 @@ SoftwarePart software_part(const TuneFacts& facts)
     if (!facts.bus) return part;
     if (facts.bus->thread && !facts.bus->thread->is_realtime())
         part.high_us = std::max(part.high_us, kStockKernelHigh);
-    // What was measured and is worse than planned counts, with half of it on top (wire 11.6, [R]).
+    // What was measured and is worse than planned counts, with half of it on top (wire reference 11.6, [R]).
     const std::uint32_t excess = excess_us(*facts.bus);
     part.low_us = std::max(part.low_us, excess);
     part.high_us = std::max(part.high_us, excess + excess / 2);

@@ -100,8 +100,8 @@ bool Instrument::integer_resolution()
     return counts_at(kResolution) == 1;
 }
 
-/// How the IEEE area has it (reference, section 5). Word 2 of a segment is a rate or a duration, as word 0
-/// says.
+/// How the IEEE area has it (EI-ASCII and Modbus reference, section 5). Word 2 of a segment is a rate or a
+/// duration, as word 0 says.
 Instrument::IeeeForm Instrument::ieee_form(const SimTag& tag)
 {
     const unsigned word = (unsigned{tag.number} - kStore) % kProgramWords;

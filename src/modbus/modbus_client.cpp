@@ -49,7 +49,7 @@ drive::AnswerCounts ModbusClient::counts(UnitAddress unit) const
 }
 
 /// One more transaction costs 20 characters and the latency of the drive, a word that is read over costs two
-/// characters (reference, section 6).
+/// characters (EI-ASCII and Modbus reference, section 6).
 drive::BlockRule ModbusClient::block_rule(std::uint32_t baud, int bits_of_a_character)
 {
     constexpr std::uint32_t kTransaction = 20;

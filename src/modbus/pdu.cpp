@@ -93,8 +93,9 @@ std::string exception_text(std::uint8_t code)
     return "exception " + std::to_string(code) + " (" + meaning(code) + ")";
 }
 
-/// Reference, section 4. An instrument says 2 or 3 for a read-only register and for a value beyond its limits
-/// alike; the table tells them apart. 3 on a read: this register is not to be had as one word.
+/// EI-ASCII and Modbus reference, section 4. An instrument says 2 or 3 for a read-only register and for a
+/// value beyond its limits alike; the table tells them apart. 3 on a read: this register is not to be had as
+/// one word.
 AccessError error_of_exception(std::uint8_t code, bool is_write, const drive::Tag* row)
 {
     const bool read_only = is_write && row != nullptr && row->access == drive::Access::read_only;

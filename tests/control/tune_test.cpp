@@ -165,8 +165,9 @@ TEST_F(Tune, AStockPcHoldsTheTwoRatesThatItsClockMakes)
     EXPECT_EQ(reason(Baud::k187_5), "UART makes 115200 (-38.56 %)");
 }
 
-// The same with a clock of 24 MHz: "fine up to 187.5k and out of range at 500k" (11.6, Reading); with the
-// 1000 us that a stock kernel has at its best 500k would need 544, which is below the ceiling.
+// The same with a clock of 24 MHz: "fine up to 187.5k and out of range at 500k" (wire reference 11.6,
+// "Reading"); with the 1000 us that a stock kernel has at its best 500k would need 544, which is below the
+// ceiling.
 TEST_F(Tune, AStockKernelHoldsUpTo187_5AndIsOutOfRangeAbove)
 {
     on(test::stock_pc, "/dev/ttyS1");

@@ -206,7 +206,8 @@ struct GapAtRate {
 };
 class ModbusBlockRule : public testing::TestWithParam<GapAtRate> {};
 
-/// The numbers of the reference, section 6: 20 characters and 5 ms cost as much as this many words too many.
+/// The numbers of the EI-ASCII and Modbus reference, section 6: 20 characters and 5 ms cost as much as this
+/// many words too many.
 TEST_P(ModbusBlockRule, JoinsTagsWhereReadingOverTheGapIsCheaper)
 {
     io::Pty cable;

@@ -44,7 +44,7 @@ struct UnitSettings {
     /// Each output is also read cyclically, unless its tag is write-only, and a standing word is written
     /// again only where the drive shows another one: the front panel is overridden and no memory is worn. A
     /// word that was refused is tried again after 1 s, then more seldom up to every 10 s; one that was
-    /// accepted and not kept up to every minute. output_refresh is not used. Acceptance C-019.
+    /// accepted and not kept up to every minute. output_refresh is not used. Row C-019.
     bool compare_outputs = false;
     std::vector<std::uint16_t> never_written; ///< tags that count as read only, whatever the table says
     /// Read once a round; 250 ms apart where nothing is read for the master. kMaxWatched at most.
