@@ -171,7 +171,7 @@ bool Poller::Unit::operate(const OperateOrder& order)
     AccessError error = tags_.verdict(*row, order.is_write);
     if (error == AccessError::none && lost_) error = AccessError::no_answer;
     if (error == AccessError::none)
-        operates_.push_back({order, row, 0});
+        operates_.push_back({order, row});
     else
         operate_answers_.push_back({order.number, error, 0});
     return true;
@@ -229,8 +229,9 @@ std::optional<Transaction> Poller::Unit::ordered()
         order_was_last_ = true;
         const WaitingOperate& waiting = operates_.front();
         job_.order = waiting.order.number;
-        return waiting.order.is_write ? make_write(Purpose::operate, waiting.row, waiting.order.word)
-                                      : make_read(Purpose::operate, waiting.row);
+        return waiting.order.is_write && !waiting.written
+                   ? make_write(Purpose::operate, waiting.row, waiting.order.word)
+                   : make_read(Purpose::operate, waiting.row);
     }
     return std::nullopt;
 }

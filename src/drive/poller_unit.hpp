@@ -58,6 +58,7 @@ private:
         OperateOrder order;
         const Tag* row = nullptr;
         int attempts = 0;
+        bool written = false; ///< the drive has said so: now it is read back
     };
     /// What the transaction under way is for.
     struct Job {

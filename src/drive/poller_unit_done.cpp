@@ -23,6 +23,15 @@ std::uint16_t word_of(const Transaction& transaction, const Outcome& outcome)
     return outcome.error == AccessError::none ? outcome.words.front() : std::uint16_t{0};
 }
 
+/// What the read behind a write says of it; nothing: the drive holds another word. A tag that the drive takes
+/// and does not give (EE 04) cannot be proven.
+std::optional<AccessError> proof_of(std::uint16_t written, const Outcome& outcome)
+{
+    if (outcome.error == AccessError::unsupported_type) return AccessError::none;
+    if (outcome.error == AccessError::none && outcome.words.front() != written) return std::nullopt;
+    return outcome.error;
+}
+
 /// A drive that refuses because it runs, or is not in configuration mode, says the same as for a tag that is
 /// read only or a value out of range; only the row of the table tells (EI-ASCII reference, section 4).
 AccessError with_reason(const Transaction& transaction, AccessError error)
@@ -196,8 +205,8 @@ void Poller::Unit::done_demand(const Transaction& transaction, const Outcome& ou
     const bool proves = !is_write && entry != nullptr && entry->order.number == job_.order && entry->written;
     if (!proves) return demand_.done(job_.order, outcome.error, word_of(transaction, outcome));
     const std::uint16_t written = entry->order.value;
-    if (outcome.error != AccessError::none || outcome.words.front() == written)
-        return demand_.done(job_.order, AccessError::none, written);
+    const auto proof = proof_of(written, outcome);
+    if (proof) return demand_.done(job_.order, *proof, written);
     demand_.not_held(job_.order, settings_.retries);
 }
 
@@ -213,7 +222,19 @@ void Poller::Unit::done_operate(const Transaction& transaction, const Outcome& o
     const bool may_pass =
         outcome.error == AccessError::no_answer || outcome.error == AccessError::not_understood;
     if (may_pass && ++waiting.attempts <= settings_.retries) return;
-    operate_answers_.push_back({waiting.order.number, outcome.error, word_of(transaction, outcome)});
+    const bool is_write = transaction.kind == Transaction::Kind::write;
+    if (is_write && outcome.error == AccessError::none && proven_by_reading(transaction)) {
+        waiting.written = true;
+        return;
+    }
+    OperateAnswer answer{waiting.order.number, outcome.error, word_of(transaction, outcome)};
+    if (waiting.written) {
+        const auto proof = proof_of(waiting.order.word, outcome);
+        waiting.written = false;
+        if (!proof && ++waiting.attempts <= settings_.retries) return; // it does not hold it: written again
+        answer = {waiting.order.number, proof.value_or(AccessError::out_of_range), waiting.order.word};
+    }
+    operate_answers_.push_back(answer);
     operates_.pop_front();
 }
 
