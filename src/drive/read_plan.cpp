@@ -230,10 +230,17 @@ bool ReadPlan::good(Block block, std::span<const std::uint16_t> words, Instant n
     return changed;
 }
 
-/// Cut in the middle; what is then still refused is cut again.
+/// The item that a transaction can begin with, from `index` on.
+std::size_t ReadPlan::in_use_from(std::size_t index) const
+{
+    while (index < items_.size() && !in_use(items_[index])) ++index;
+    return index;
+}
+
+/// Cut in the middle, where something is read; what is then still refused is cut again.
 void ReadPlan::split(Block block)
 {
-    cut_ = Cut{block, (block.first + block.last) / 2 + 1, false};
+    cut_ = Cut{block, in_use_from((block.first + block.last) / 2 + 1), false};
     items_[cut_->at].starts_block = true;
     rebuild();
 }
@@ -242,7 +249,8 @@ void ReadPlan::split(Block block)
 void ReadPlan::look_at_cut(Block good)
 {
     if (!cut_) return;
-    if (good.first <= cut_->block.first && good.last + 1 == cut_->at) cut_->first_half_is_good = true;
+    if (good.first <= cut_->block.first && in_use_from(good.last + 1) == cut_->at)
+        cut_->first_half_is_good = true;
     if (!cut_->first_half_is_good || good.first != cut_->at || good.last < cut_->block.last) return;
     items_[cut_->at].after_hole = true;
     mend();

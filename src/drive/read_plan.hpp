@@ -115,6 +115,7 @@ private:
     bool joins(const Item& item) const;
     void rebuild();
     void mend();
+    std::size_t in_use_from(std::size_t index) const;
     void split(Block block);
     bool busy(Block block);
     void look_at_cut(Block good);
