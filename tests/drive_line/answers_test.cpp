@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Every answer of a drive belongs to its question: section 4 of the rules of the drive line, with 10^6
+/// transactions for each protocol. Longer runs: DRIVE_LINE_TRANSACTIONS=10000000 DRIVE_LINE_SEED=1000000; one
+/// run with its trace: DRIVE_LINE_ONLY=SEED.
+#include "naive_clients.hpp"
+#include "random_runs.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+
+namespace dpslave::drive_line {
+namespace {
+
+constexpr std::uint64_t kTransactions = DRIVE_LINE_TRANSACTIONS;
+
+constexpr int kMostFindings = 5; ///< that are told in full
+
+std::uint64_t number_of(const char* variable, std::uint64_t otherwise)
+{
+    const char* const text = std::getenv(variable);
+    return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
+}
+
+std::string story(const RunResult& result)
+{
+    std::string text = result.violation + "\n";
+    for (const std::string& line : result.trace) text += line + "\n";
+    return text;
+}
+
+/// Runs one after the other until there were enough transactions; the first finding is told with its trace.
+template <class Run, class Make>
+void expect_truth(const Run& run, const Make& make)
+{
+    const std::uint64_t only = number_of("DRIVE_LINE_ONLY", 0);
+    const std::uint64_t wanted = only != 0 ? 1 : number_of("DRIVE_LINE_TRANSACTIONS", kTransactions);
+    std::uint64_t made = 0, runs = 0;
+    int findings = 0;
+    for (std::uint64_t seed = only != 0 ? only : number_of("DRIVE_LINE_SEED", 1); made < wanted;
+         ++seed, ++runs) {
+        const RunResult result = run(seed, make, {});
+        made += result.transactions;
+        if (result.violation.empty()) continue;
+        ADD_FAILURE() << "seed " << seed << " after " << made
+                      << " transactions: " << story(run(seed, make, {.traces = true}));
+        if (++findings == kMostFindings) break;
+    }
+    testing::Test::RecordProperty("transactions", static_cast<int>(made));
+    testing::Test::RecordProperty("runs", static_cast<int>(runs));
+}
+
+/// How many of the first `runs` seeds convict this client.
+template <class Run, class Make>
+int convictions(const Run& run, const Make& make, std::uint64_t runs, RunOptions options = {})
+{
+    int count = 0;
+    for (std::uint64_t seed = 1; seed <= runs; ++seed)
+        if (!run(seed, make, options).violation.empty()) ++count;
+    return count;
+}
+
+TEST(EiAsciiAnswers, BelongToTheirQuestions)
+{
+    expect_truth(run_ei, ei_client);
+}
+
+TEST(ModbusAnswers, BelongToTheirQuestions)
+{
+    expect_truth(run_modbus, modbus_client);
+}
+
+TEST(Judge, ConvictsAClientThatTakesTheFirstAnswerThatLooksRight)
+{
+    EXPECT_GE(convictions(run_ei, naive_ei, 40), 20);
+    EXPECT_GE(convictions(run_modbus, naive_modbus, 40), 10);
+}
+
+/// Drives that die, deny tags and refuse writes are no excuse for anybody.
+TEST(Judge, AcquitsEvenThatClientWhereNothingIsLateOrLost)
+{
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+        RunResult result = run_ei(seed, naive_ei, {.calm = true, .traces = true});
+        EXPECT_EQ(result.violation, "") << "EI-ASCII, seed " << seed << ": " << story(result);
+        result = run_modbus(seed, naive_modbus, {.calm = true, .traces = true});
+        EXPECT_EQ(result.violation, "") << "Modbus, seed " << seed << ": " << story(result);
+    }
+}
+
+} // namespace
+} // namespace dpslave::drive_line

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Order and cost on a drive line: what dead drives, losses and the judgement of answers cost the living
+/// ones. Times are those of the simulated clock.
+#include "naive_clients.hpp"
+#include "random_runs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+namespace dpslave::drive_line {
+namespace {
+
+Conditions calm_line(std::size_t drives)
+{
+    Conditions one;
+    one.line.timeout = 600ms;
+    one.line.turnaround = 15ms;
+    one.drives = drives;
+    return one;
+}
+
+/// A line whose masters do only what the test says. The first `living` drives answer.
+template <class Line>
+class Bench {
+public:
+    template <class Make>
+    Bench(const Conditions& conditions, std::size_t living, const Make& make, bool is_modbus)
+        : line_(conditions.line, chance_)
+    {
+        add_drives(line_, conditions, is_modbus);
+        for (SimulatedDrive& drive : line_.drives) {
+            drive.has_loopback = true;
+            drive.knows_identity = true;
+        }
+        tables_ = tables_of(line_);
+        backend_ = make(line_, conditions);
+        RunRules rules;
+        rules.masters_act = false;
+        rules.compare_outputs = is_modbus;
+        run_.emplace(line_, *backend_, tables_, rules);
+        // single reads: the tags of a block would share one question
+        for (std::size_t i = 0; i < line_.drives.size(); ++i) {
+            run_->enter(i,
+                        {{tag(i, 100), true, false}, {tag(i, 106), true, false}, {tag(i, 110), false, true}});
+            run_->change(i);
+        }
+        for (std::size_t i = living; i < line_.drives.size(); ++i) line_.dies(i);
+        run_->live_for(60s); // long enough that the dead ones are known
+    }
+
+    Line& line() { return line_; }
+    LineRun& run() { return *run_; }
+
+    /// How long the slowest of `changes` changed outputs of drive 0 took to reach it.
+    Time slowest_change(int changes)
+    {
+        Time slowest{0};
+        for (int i = 0; i < changes; ++i) {
+            run_->live_for(chance_.between(100ms, 3s));
+            run_->change(0);
+            const std::uint16_t wanted = run_->image(0).words[2];
+            const Instant changed = line_.time;
+            while (line_.drives[0].find(tag(0, 110))->now().word != wanted && line_.time < changed + 60s &&
+                   !run_->violation())
+                run_->live(run_->transactions() + 1);
+            slowest = std::max(slowest, line_.time - changed);
+        }
+        EXPECT_FALSE(run_->violation()) << *run_->violation();
+        return slowest;
+    }
+
+    /// The part of the time that went by in transactions that brought nothing.
+    double part_lost(Time duration)
+    {
+        Time lost{0};
+        run_->on_transaction = [&](const drive::Transaction&, AccessError error, Instant began) {
+            if (error != AccessError::none) lost += line_.time - began;
+        };
+        const Instant begins = line_.time;
+        run_->live_for(duration);
+        EXPECT_FALSE(run_->violation()) << *run_->violation();
+        return static_cast<double>(lost.count()) / static_cast<double>((line_.time - begins).count());
+    }
+
+    std::uint64_t transactions_in(Time duration)
+    {
+        const std::uint64_t before = run_->transactions();
+        run_->live_for(duration);
+        return run_->transactions() - before;
+    }
+
+    std::uint16_t tag(std::size_t drive, unsigned number) const
+    {
+        const unsigned first = line_.drives[drive].tags.front().number;
+        return static_cast<std::uint16_t>(first + number - 100);
+    }
+
+private:
+    Chance chance_{7};
+    Line line_;
+    std::vector<drive::TagTable> tables_;
+    std::unique_ptr<drive::Backend> backend_;
+    std::optional<LineRun> run_;
+};
+
+// ---- dead drives
+
+template <class Line, class Make>
+void expect_two_time_outs_at_most(const Make& make, bool is_modbus)
+{
+    const Time alone = Bench<Line>{calm_line(1), 1, make, is_modbus}.slowest_change(100);
+    for (std::size_t dead = 1; dead <= 6; ++dead) {
+        const Time beside = Bench<Line>{calm_line(1 + dead), 1, make, is_modbus}.slowest_change(100);
+        EXPECT_LE(beside, alone + 2 * calm_line(1).line.timeout + 100ms) << dead << " dead drives";
+    }
+}
+
+TEST(DeadDrivesOfAnEiAsciiLine, DelayAChangedOutputByTwoTimeOutsAtMost)
+{
+    expect_two_time_outs_at_most<EiLine>(ei_client, false);
+}
+
+TEST(DeadDrivesOfAModbusLine, DelayAChangedOutputByTwoTimeOutsAtMost)
+{
+    expect_two_time_outs_at_most<ModbusFrames>(modbus_client, true);
+}
+
+/// Three living drives with two inputs each; four are dead.
+template <class Line, class Make>
+void expect_a_round_between_silences(const Make& make, bool is_modbus)
+{
+    constexpr std::size_t kLiving = 3;
+    Bench<Line> bench{calm_line(7), kLiving, make, is_modbus};
+    std::map<std::pair<std::size_t, std::uint16_t>, int> reads;
+    int silences = 0, too_soon = 0;
+    bench.run().on_transaction = [&](const drive::Transaction& transaction, AccessError error, Instant) {
+        if (transaction.unit < kLiving) {
+            if (error == AccessError::none && transaction.kind == drive::Transaction::Kind::read)
+                ++reads[{transaction.unit, transaction.tag->number}];
+            return;
+        }
+        if (++silences > 1 && reads.size() < kLiving * (is_modbus ? 3 : 2))
+            ++too_soon; // Modbus reads its output, too
+        reads.clear();
+    };
+    bench.run().live_for(300s);
+    EXPECT_GT(silences, 10);
+    EXPECT_EQ(too_soon, 0) << "of " << silences;
+    EXPECT_FALSE(bench.run().violation()) << *bench.run().violation();
+}
+
+TEST(DeadDrivesOfAnEiAsciiLine, AreProbedOnceInARoundOfTheLivingOnesAtMost)
+{
+    expect_a_round_between_silences<EiLine>(ei_client, false);
+}
+
+TEST(DeadDrivesOfAModbusLine, AreProbedOnceInARoundOfTheLivingOnesAtMost)
+{
+    expect_a_round_between_silences<ModbusFrames>(modbus_client, true);
+}
+
+// ---- cost
+
+template <class Line, class Make, class Naive>
+void expect_no_cost(const Make& make, const Naive& naive, bool is_modbus)
+{
+    Bench<Line> judged{calm_line(2), 2, make, is_modbus}, naively{calm_line(2), 2, naive, is_modbus};
+    const auto with = static_cast<double>(judged.transactions_in(120s));
+    const auto without = static_cast<double>(naively.transactions_in(120s));
+    EXPECT_GE(with / without, 0.98);
+}
+
+TEST(JudgementOfAnswers, CostsNothingOnAnUndisturbedEiAsciiLine)
+{
+    expect_no_cost<EiLine>(ei_client, naive_ei, false);
+}
+
+TEST(JudgementOfAnswers, CostsNothingOnAnUndisturbedModbusLine)
+{
+    expect_no_cost<ModbusFrames>(modbus_client, naive_modbus, true);
+}
+
+/// With 1 % loss each way; without rules 19 % of the time is lost to time-outs on this line.
+template <class Line, class Make, class Naive>
+void expect_no_more_lost(const Make& make, const Naive& naive, bool is_modbus, double most)
+{
+    const auto part_lost = [&](const auto& with) {
+        Bench<Line> bench{calm_line(1), 1, with, is_modbus};
+        bench.line().faults.question_lost = bench.line().faults.answer_lost = 100;
+        return bench.part_lost(3600s);
+    };
+    const double with = part_lost(make), without = part_lost(naive);
+    ::testing::Test::RecordProperty("with", std::to_string(with));
+    ::testing::Test::RecordProperty("without", std::to_string(without));
+    EXPECT_LE(with, most) << "without rules " << without;
+    EXPECT_LE(with, without * 1.1);
+}
+
+TEST(JudgementOfAnswers, HoldsInputsOfALossyModbusLineNoLongerThanWithoutRules)
+{
+    expect_no_more_lost<ModbusFrames>(modbus_client, naive_modbus, true, 0.27);
+}
+
+} // namespace
+} // namespace dpslave::drive_line

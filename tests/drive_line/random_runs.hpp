@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Lines, drives and faults drawn from a seed, and what became of a run on them.
+#pragma once
+
+#include "ei_line.hpp"
+#include "line_run.hpp"
+#include "modbus_frames.hpp"
+
+#include "dpslave/drive/ei_ascii_client.hpp"
+#include "dpslave/modbus/modbus_client.hpp"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dpslave::drive_line {
+
+/// What a seed makes of a line; the rest comes from its Chance while it runs.
+struct Conditions {
+    LineRules line;
+    Faults faults;
+    drive::EchoMode echo = drive::EchoMode::off; ///< as configured
+    std::uint32_t baud = 9600;
+    std::size_t drives = 1;
+    bool tags_are_shared = true;
+    void make_calm(); ///< no faults but those of the drives themselves
+    std::string text() const;
+};
+Conditions conditions(Chance& chance);
+
+/// Drives with inputs, outputs and tags for orders.
+void add_drives(SimulatedLine& line, const Conditions& conditions, bool is_modbus);
+/// The tables that describe them.
+std::vector<drive::TagTable> tables_of(const SimulatedLine& line);
+
+struct RunResult {
+    std::string violation; ///< empty: everything was true
+    std::uint64_t transactions = 0;
+    std::vector<std::string> trace; ///< the last lines, if they were wanted
+};
+
+using MakeEiBackend = std::function<std::unique_ptr<drive::Backend>(EiLine&, const Conditions&)>;
+using MakeModbusBackend = std::function<std::unique_ptr<drive::Backend>(ModbusFrames&, const Conditions&)>;
+
+/// The clients of the program.
+std::unique_ptr<drive::Backend> ei_client(EiLine& line, const Conditions& conditions);
+std::unique_ptr<drive::Backend> modbus_client(ModbusFrames& line, const Conditions& conditions);
+
+struct RunOptions {
+    std::uint64_t transactions = 2'000;
+    bool calm = false;
+    bool traces = false;
+};
+
+/// One line under faults for so many transactions, then without until all is right again.
+RunResult run_ei(std::uint64_t seed, const MakeEiBackend& backend, RunOptions options = {});
+RunResult run_modbus(std::uint64_t seed, const MakeModbusBackend& backend, RunOptions options = {});
+
+} // namespace dpslave::drive_line
