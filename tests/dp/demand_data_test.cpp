@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// HA389815 ch. 7 and rows: Demand Data in the first eight octets.
+/// HA389815 ch. 7 and the acceptance rows: Demand Data in the first eight octets.
 #include "demand_bench.hpp"
 
 namespace test {

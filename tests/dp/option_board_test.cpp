@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// HA389815 ch. 6, and rows: how a master chooses the parameters of the option board.
+/// HA389815 ch. 6, and the acceptance rows: how a master chooses the parameters of the option
+/// board.
 #include "bench.hpp"
 
 namespace test {

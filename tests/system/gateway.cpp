@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kStationNames[] = {"unwinder", "rewinder"};
+constexpr const char* kStationNames[] = {"unwinder", "rewinder", "dancer", "printer", "cutter", "stacker"};
 const fs::path kConfigFolder = fs::path{DPSLAVE_SOURCE_DIR} / "config";
 
 /// The simulated masters wait 20 ms beyond the slot time; the daemon may take three quarters of that.
@@ -107,7 +107,8 @@ void Gateway::start_drive()
         drive.push_back(kConfigFolder / (is_instrument ? "tags/2400.csv" : "tags/example.csv"));
     drive.insert(drive.end(), wiring_.drive.begin(), wiring_.drive.end());
     drive.push_back("--unit");
-    drive.insert(drive.end(), wiring_.units.begin(), wiring_.units.end());
+    const auto& present = wiring_.present.empty() ? wiring_.units : wiring_.present;
+    drive.insert(drive.end(), present.begin(), present.end());
     drive_ = std::make_unique<Process>(std::move(drive));
     must(drive_->says("ready"));
 }
@@ -158,6 +159,7 @@ std::string Gateway::config_text() const
                     wiring_.max_tsdr.value_or(patient_max_tsdr(wiring_.bus_baud)), lamp_folder().string(),
                     socket().string(), own_group(), (folder_ / "drive-gateway").string(), wiring_.protocol,
                     wiring_.drive_baud);
+    text += wiring_.line_keys;
     for (std::size_t i = 0; i < wiring_.units.size(); ++i) {
         text +=
             fmt::format("[[station]]\n"

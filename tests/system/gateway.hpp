@@ -42,6 +42,7 @@ struct Wiring {
     unsigned drive_baud = 38'400; ///< faster than usual: no test waits longer than it must
     std::string profile = "590";
     std::vector<std::string> units{"00"};
+    std::vector<std::string> present{}; ///< of the units, those that are really there; empty: all
     /// Bit times. Nothing: as long as the simulated masters wait, so that a loaded machine is no fault; 0:
     /// what the profile says, as on a real bus.
     std::optional<unsigned> max_tsdr{};
@@ -51,6 +52,7 @@ struct Wiring {
     Arguments drive{};   ///< more options of dpsim drive
     std::string table{}; ///< a tag table of the test, for the drive and the daemon; empty: that of the drive
     std::string profiles{};    ///< folder of the profiles; empty: those that are shipped
+    std::string line_keys{};   ///< more lines of the drive line
     std::string keys{};        ///< more lines of each station, its tables last
     bool simulated = true;     ///< false: the test brings a drive of its own to drive_end()
     bool lamps = false;        ///< red on GPIO 23, green on the LED class, both in lamp_folder()
