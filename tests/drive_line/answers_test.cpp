@@ -89,5 +89,26 @@ TEST(Judge, AcquitsEvenThatClientWhereNothingIsLateOrLost)
     }
 }
 
+// ---- what the judge has found, by the seed that found it
+
+/// Noise that looks like an ACK answered a write of dpctl that the drive had refused.
+TEST(FoundOnTheLine, AWriteOfTheOperatorIsDoneOnlyWhenTheDriveHoldsIt)
+{
+    EXPECT_EQ(run_ei(232, ei_client).violation, "");
+}
+
+/// The tag was denied as the write was read back, and that counted as its proof.
+TEST(FoundOnTheLine, AWriteOfDemandDataThatIsDeniedBehindItsAckIsNotDone)
+{
+    EXPECT_EQ(run_ei(394, ei_client).violation, "");
+}
+
+/// A refused block was cut at a tag that was not read at present: refused again for ever.
+TEST(FoundOnTheLine, ARefusedBlockIsCutUntilWhatTheDriveHasIsRead)
+{
+    EXPECT_EQ(run_modbus(12, modbus_client).violation, "");
+    EXPECT_EQ(run_modbus(35, modbus_client).violation, "");
+}
+
 } // namespace
 } // namespace dpslave::drive_line
