@@ -11,6 +11,7 @@ _dpctl_options()
         doctor) echo "$_dpctl_common --all" ;;
         reload) echo "$_dpctl_common --dry-run" ;;
         read | write | 'tec set') echo "$_dpctl_common --station" ;;
+        survey) echo "$_dpctl_common --only --table --for --passes --resume" ;;
         tag) echo '--json --all --table --profile --profiles --help' ;;
         hex) echo '--json --help' ;;
         decode) echo '--json --profile --profiles --help' ;;
@@ -66,12 +67,12 @@ _dpctl()
             mapfile -t COMPREPLY < <(compgen -f -- "$cur"); return ;;
         --profile) _dpctl_offer "$cur" < <(_dpctl_profiles); return ;;
         --station) _dpctl_offer "$cur" < <(_dpctl_stations); return ;;
-        --timeout | --in | --out | --in-out | --ident | --max-tsdr | --description | --model) return ;;
+        --timeout | --only | --for | --passes | --in | --out | --in-out | --ident | --max-tsdr | --description | --model) return ;;
     esac
     for ((i = 1; i < COMP_CWORD; i++)); do
         word=${COMP_WORDS[i]}
         case $word in
-            --socket | --timeout) i=$((i + 1)) ;;
+            --socket | --timeout | --only | --table | --for | --passes) i=$((i + 1)) ;;
             -*) ;;
             *)
                 case "$command" in
@@ -86,9 +87,9 @@ _dpctl()
         words=$(_dpctl_options "$command")
     else
         case $command in
-            '') words='status stations info io diag doctor counters read write tec leds watch version is-exchanging
+            '') words='status stations info io diag doctor counters read write survey tec leds watch version is-exchanging
                        reload tune tag hex decode gsd' ;;
-            info | io | diag | doctor | leds | watch | is-exchanging) _dpctl_offer "$cur" < <(_dpctl_stations); return ;;
+            info | io | diag | doctor | survey | leds | watch | is-exchanging) _dpctl_offer "$cur" < <(_dpctl_stations); return ;;
             tec) _dpctl_offer "$cur" < <(echo set && _dpctl_stations); return ;;
             'tec set') words='TYPE ADDRESS EXT_DIAGNOSTIC INT_DIAG_SELECT RIDE_THROUGH UNUSED_1' ;;
             gsd) words='check show make types' ;;

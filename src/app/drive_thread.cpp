@@ -127,7 +127,9 @@ void DriveThread::operate(LineOrder order)
     const auto unit = std::find_if(units_.begin(), units_.end(),
                                    [&](const Unit& one) { return one.number == order.station; });
     order.order.unit = static_cast<std::size_t>(unit - units_.begin());
-    if (!poller_.operate(order.order)) // also where the station has left the line in the meantime
+    const bool taken = order.is_survey ? poller_.survey(order.order.unit, order.order.number, order.order.tag)
+                                       : poller_.operate(order.order);
+    if (!taken) // also where the station has left the line in the meantime
         link_.answers.push({.number = order.order.number, .error = AccessError::no_answer, .word = 0});
 }
 
@@ -157,6 +159,11 @@ drive::Outcome DriveThread::exchange_with(const Unit& unit, const drive::Transac
         case Kind::probe:
             outcome.error = backend.probe(address) ? AccessError::none : AccessError::no_answer;
             break;
+    }
+    if (transaction.purpose == drive::Purpose::survey) {
+        trouble_ = backend.last_trouble();
+        outcome.trouble = trouble_;
+        return outcome; // a survey is no trouble
     }
     if (transaction.tag != nullptr && transaction.count == 1) {
         if (outcome.error == AccessError::none)

@@ -66,6 +66,10 @@ control::Handlers MainThread::handlers()
         {"Watch", [this](const Json& parameters, const control::Caller&) { return on_watch(parameters); }},
         {"ReadTag", [this](const Json& parameters,
                            const control::Caller& who) { return on_tag(parameters, who, false); }},
+        {"GetSurveyScope",
+         [this](const Json& parameters, const control::Caller&) { return on_survey_scope(parameters); }},
+        {"Survey",
+         [this](const Json& parameters, const control::Caller& who) { return on_survey(parameters, who); }},
         {"WriteTag", [this](const Json& parameters,
                             const control::Caller& who) { return on_tag(parameters, who, true); }},
         {"SetTec",
@@ -311,6 +315,26 @@ void MainThread::log_unanswered() const
         if (asked.is_write) log_write(asked, "the program ended before the drive answered");
 }
 
+/// What became of a read or a write.
+Reply MainThread::answer_of(const Asked& asked, const drive::OperateAnswer& answer) const
+{
+    if (answer.error != AccessError::none) {
+        const auto code = dp::demand_code(answer.error);
+        return Error{"DriveRefused",
+                     {{"tag", asked.tag},
+                      {"reason", text(answer.error)},
+                      {"code", code ? Json(*code) : Json(nullptr)}}};
+    }
+    const StationConfig& station = *asked.config;
+    const drive::Tag* row = station.tags->find(asked.tag);
+    const std::uint16_t word = asked.is_write ? asked.word : answer.word;
+    return Done{{{"station", station.name},
+                 {"tag", asked.tag},
+                 {"name", row != nullptr ? Json(row->name) : Json(nullptr)},
+                 {"raw", word},
+                 {"value", shown_value(*station.tags, asked.tag, word)}}};
+}
+
 void MainThread::answer_asked()
 {
     for (const auto& line : plant_.lines()) {
@@ -318,25 +342,10 @@ void MainThread::answer_asked()
             const auto found = asked_.find(answer->number);
             if (found == asked_.end()) continue;
             const Asked& asked = found->second;
-            const StationConfig& station = *asked.config;
-            const drive::Tag* row = station.tags->find(asked.tag);
-            const bool is_done = answer->error == AccessError::none;
-            if (asked.is_write) log_write(asked, is_done ? "done" : text(answer->error));
-            if (!is_done) {
-                const auto code = dp::demand_code(answer->error);
-                server_->complete(answer->number, Error{"DriveRefused",
-                                                        {{"tag", asked.tag},
-                                                         {"reason", text(answer->error)},
-                                                         {"code", code ? Json(*code) : Json(nullptr)}}});
-            } else {
-                const std::uint16_t word = asked.is_write ? asked.word : answer->word;
-                server_->complete(answer->number,
-                                  Done{{{"station", station.name},
-                                        {"tag", asked.tag},
-                                        {"name", row != nullptr ? Json(row->name) : Json(nullptr)},
-                                        {"raw", word},
-                                        {"value", shown_value(*station.tags, asked.tag, word)}}});
-            }
+            if (asked.is_write)
+                log_write(asked, answer->error == AccessError::none ? "done" : text(answer->error));
+            server_->complete(answer->number,
+                              asked.is_survey ? survey_answer_of(asked, *answer) : answer_of(asked, *answer));
             asked_.erase(found);
         }
     }

@@ -5,6 +5,8 @@
 #include "json_forms.hpp"
 #include "subcommands.hpp"
 
+#include "dpslave/profile/survey.hpp"
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -51,6 +53,7 @@ void port_argument(CLI::App&, Options&);
 void number_arguments(CLI::App&, Options&);
 void octet_arguments(CLI::App&, Options&);
 void reload_arguments(CLI::App&, Options&);
+void survey_arguments(CLI::App&, Options&);
 
 constexpr std::array kSubcommands = std::to_array<Subcommand>({
     {"status", "The bus and each station in one line", "GetStatus", Needs::daemon, "", no_arguments,
@@ -77,6 +80,14 @@ constexpr std::array kSubcommands = std::to_array<Subcommand>({
     {"read", "Reads a tag from the drive now", "ReadTag", Needs::daemon, "", tag_argument, do_read},
     {"write", "Writes a tag of the drive now (root and the operator group)", "WriteTag", Needs::daemon,
      "dpctl write 56 -12.5 --station unwinder", tag_and_value_arguments, do_write},
+    {"survey",
+     "Reads every tag of a drive and writes a tag table for a person to confirm (root and the operator "
+     "group)",
+     kSurveyJson, Needs::daemon_to_judge,
+     "dpctl survey unwinder                          every tag once, into unwinder.csv\n"
+     "dpctl survey unwinder --resume                 goes on after Ctrl-C\n"
+     "dpctl survey unwinder --only 1-600 --for 10m   the extremes of ten minutes",
+     survey_arguments, do_survey},
     {"tec", "The TEC OPTION function block of a technology box: shows it, sets its inputs",
      "GetTec or SetTec", Needs::daemon,
      "dpctl tec                            the function block of every technology box\n"
@@ -123,14 +134,15 @@ constexpr const char* kFooter =
     "Their description is the Varlink interface org.dpslaved.Control: see\n" DPSLAVE_DATA_FOLDER
     "/org.dpslaved.Control.varlink, or ask the daemon:\n"
     "varlinkctl introspect /run/dpslaved/control.sock org.dpslaved.Control\n"
-    "What needs no daemon (tag, hex, decode) or judges its replies (doctor, tune) says the form of its "
+    "What needs no daemon (tag, hex, decode) or judges its replies (doctor, survey, tune) says the form of "
+    "its "
     "--json in "
     "its\n"
     "own --help.\n"
     "Exit codes:\n"
     "  0  fine\n"
     "  1  refused by the daemon or the drive, a faulty answer or input, not found, or not so (is-exchanging, "
-    "doctor, tune)\n"
+    "doctor, survey, tune)\n"
     "  2  usage\n"
     "  3  no daemon";
 
@@ -264,6 +276,33 @@ void octet_arguments(CLI::App& app, Options& options)
         ->required()
         ->type_name("");
     profile_options(app, options, "Take tags, modules and the extended diagnosis for those of this device");
+}
+
+void survey_arguments(CLI::App& app, Options& options)
+{
+    app.add_option("STATION", options.station, "Name or address; needed when there are several")
+        ->type_name("");
+    app.add_option("--only", options.only, "Ask these tags only: 1-600,1000-1127")
+        ->type_name("TAGS")
+        ->check([](const std::string& text) {
+            const auto spans = profile::parse_tag_spans(text);
+            return spans ? std::string{} : spans.error();
+        });
+    app.add_option("--table", options.table,
+                   "The tag table to write; one that is there is joined. Without it: STATION.csv")
+        ->type_name("FILE");
+    auto* duration = app.add_option("--for", options.duration, "Go on for so long: 90s, 10m, 2h")
+                         ->type_name("TIME")
+                         ->check([](const std::string& text) {
+                             return profile::parse_duration(text) ? std::string{}
+                                                                  : text + ": write a time as 90s, 10m or 2h";
+                         });
+    app.add_option("--passes", options.passes, "Ask each tag so often")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1'000'000).description(""))
+        ->capture_default_str()
+        ->excludes(duration);
+    app.add_flag("--resume", options.resume, "Go on where the survey before this one ended");
 }
 
 /// CLI11 takes -12.5 as a number, but -.5 as an option.

@@ -10,6 +10,11 @@ FINDING = {"station": null or name, "rule", "condition", "cause", "evidence", "s
 LINE = {"baud", "cable_a_m", "cable_b_m": null or metres};
 with --all {"rules": [RULE], "lines": [LINE]}, where RULE is FINDING with "note", without "station" and "evidence")";
 
+inline constexpr const char* kSurveyJson =
+    R"({"station", "table", "record": files, "complete": true or false, "tags": how many there are to ask,
+"asked", "answering", "denied": [{"reason", "tags": [number]}], "silent": [number], "added": [number],
+"waiting": [number], "contradictions": [text]})";
+
 inline constexpr const char* kTuneJson =
     R"({"machine": {"kernel", "preempt_rt", "threaded_irqs", "rt_runtime_us", "processors", "isolated",
 "governors": [name], "idle_exit_us", "latency_limit_us", "virtual_machine"},

@@ -5,6 +5,7 @@
 #include "terminal.hpp"
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -22,6 +23,12 @@ struct Options {
     bool set = false;     ///< `tec set`
     bool dry_run = false; ///< `reload`
     bool all = false;     ///< `tag`: also names that say more than the query; `doctor`: every rule
+
+    // Of survey; `table` below is the file that it writes.
+    std::string only;         ///< tags as parse_tag_spans() reads them; empty = all
+    std::string duration;     ///< as parse_duration() reads it; empty = not said
+    std::uint32_t passes = 1; ///< how often each tag is asked
+    bool resume = false;      ///< goes on with the record that is there
 
     // Of the subcommands that need no daemon.
     std::vector<std::string> words; ///< query, numbers or octets
@@ -59,6 +66,9 @@ int do_reload(const Options&, Terminal&);
 
 // watch.cpp
 int do_watch(const Options&, Terminal&);
+
+// survey.cpp
+int do_survey(const Options&, Terminal&);
 
 // doctor.cpp
 int do_doctor(const Options&, Terminal&);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ask.hpp"
+#include "end_signals.hpp"
 #include "render.hpp"
 #include "subcommands.hpp"
 #include "words.hpp"
@@ -7,45 +8,13 @@
 #include "dpslave/base/printable.hpp"
 
 #include <sys/ioctl.h>
-#include <sys/signalfd.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
 #include <string>
 
 namespace dpslave::dpctl {
 namespace {
-
-/// SIGINT and SIGTERM as a descriptor: the end of watch is something to read, and no moment is lost before
-/// the wait.
-class EndSignals {
-public:
-    EndSignals()
-    {
-        sigset_t signals;
-        sigemptyset(&signals);
-        sigaddset(&signals, SIGINT);
-        sigaddset(&signals, SIGTERM);
-        ::sigprocmask(SIG_BLOCK, &signals, &before_);
-        fd_ = ::signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK);
-    }
-    EndSignals(const EndSignals&) = delete;
-    EndSignals& operator=(const EndSignals&) = delete;
-    ~EndSignals()
-    {
-        signalfd_siginfo fetched;
-        while (fd_ >= 0 && ::read(fd_, &fetched, sizeof fetched) > 0) {
-        } // else it strikes when it is unblocked
-        if (fd_ >= 0) ::close(fd_);
-        ::sigprocmask(SIG_SETMASK, &before_, nullptr);
-    }
-    int fd() const { return fd_; }
-
-private:
-    sigset_t before_{};
-    int fd_ = -1;
-};
 
 /// Draws over the last picture: from the top, line by line, without wrapping, no more than there are rows.
 void redraw(const std::string& picture, std::ostream& out)

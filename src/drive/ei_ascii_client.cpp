@@ -58,6 +58,7 @@ std::optional<ei::Mnemonic> EiAsciiClient::mnemonic_for(UnitAddress unit, const 
 AccessError EiAsciiClient::read(UnitAddress unit, const Tag& tag, std::span<std::uint16_t> words)
 {
     trouble_.clear();
+    answer_.clear();
     if (words.size() != 1 || tag.type == TagType::string) {
         trouble_ = words.size() != 1 ? "EI-ASCII reads one tag at a time" : "a STRING is not transported";
         return AccessError::unsupported_type;
@@ -75,12 +76,12 @@ AccessError EiAsciiClient::read(UnitAddress unit, const Tag& tag, std::span<std:
 AccessError EiAsciiClient::take_value(UnitAddress unit, const Tag& tag, const std::string& text,
                                       std::uint16_t& word)
 {
+    answer_ = text;
     EiForms::Taken taken = forms_->take(unit, tag, text);
     if (taken.error == AccessError::none) {
         word = taken.word;
         return taken.error;
     }
-    answer_ = text;
     trouble_ = std::move(taken.trouble);
     return taken.error;
 }

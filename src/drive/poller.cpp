@@ -58,13 +58,19 @@ bool Poller::operate(const OperateOrder& order)
     return order.unit < units_.size() && units_[order.unit]->operate(order);
 }
 
+bool Poller::survey(std::size_t unit, std::uint32_t number, std::uint16_t tag)
+{
+    return unit < units_.size() && units_[unit]->survey(number, tag);
+}
+
 /// One transaction a turn, the drives in a circle: what one of them costs, the others do not pay. Between two
 /// rounds of the living drives at most one transaction that can time out, whatever its reason.
 std::optional<Transaction> Poller::next(Instant now)
 {
     for (const auto& unit : units_) unit->tell_time(now);
     if (doing_) return std::nullopt;
-    doing_ = next_of(now);
+    doing_ = next_survey(now);
+    if (!doing_) doing_ = next_of(now);
     if (!doing_)
         doing_ = next_of(now); // the living drives have nothing to do: that is the end of their round
     return doing_;
@@ -107,6 +113,21 @@ std::optional<Transaction> Poller::probe(std::size_t unit, Instant now)
     if (now < probe_due(unit)) return std::nullopt;
     probes_ = true;
     return units_[unit]->probe();
+}
+
+/// A survey read may time out as well. It takes the place of a probe, but never goes before one.
+std::optional<Transaction> Poller::next_survey(Instant now)
+{
+    if (!may_time_out()) return std::nullopt;
+    for (std::size_t i = 0; i < units_.size(); ++i)
+        if (units_[i]->is_in_doubt() && (!units_[i]->is_lost() || now >= probe_due(i))) return std::nullopt;
+    for (std::size_t i = 0; i < units_.size(); ++i) {
+        const auto transaction = units_[(turn_ + i) % units_.size()]->next_survey(now);
+        if (!transaction) continue;
+        for (const auto& unit : units_) unit->owe_round();
+        return transaction;
+    }
+    return std::nullopt;
 }
 
 void Poller::done(const Outcome& outcome, Instant now)

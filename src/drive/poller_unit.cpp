@@ -177,6 +177,13 @@ bool Poller::Unit::operate(const OperateOrder& order)
     return true;
 }
 
+bool Poller::Unit::survey(std::uint32_t number, std::uint16_t tag)
+{
+    if (!survey_.set(number, *tags_.row(tag))) return false;
+    if (lost_) survey_.done({.error = AccessError::no_answer, .words = {}}, {});
+    return true;
+}
+
 // ---- what next
 
 std::optional<Transaction> Poller::Unit::next(Instant now)
@@ -234,6 +241,12 @@ std::optional<Transaction> Poller::Unit::ordered()
                    : make_read(Purpose::operate, waiting.row);
     }
     return std::nullopt;
+}
+
+std::optional<Transaction> Poller::Unit::next_survey(Instant now) const
+{
+    return survey_.due() <= now && !lost_ ? std::optional{make_read(Purpose::survey, survey_.row())}
+                                          : std::nullopt;
 }
 
 /// Outputs before inputs. As an output is written once a round at most, one that changes all the time takes
@@ -325,9 +338,9 @@ Instant Poller::Unit::next_deadline() const
 {
     if (lost_) return safe_state_.untold() ? kAtOnce : kNever;
     const bool at_once = !ever_asked_ || silences_ > 0 || demand_.front() != nullptr || !operates_.empty();
-    const Instant next =
-        at_once ? kAtOnce
-                : std::min({probe_due(), outputs_.next_due(), safe_state_.next_due(), reads_.next_due()});
+    const Instant next = at_once ? kAtOnce
+                                 : std::min({probe_due(), survey_.due(), outputs_.next_due(),
+                                             safe_state_.next_due(), reads_.next_due()});
     return std::max(next, rests_until_);
 }
 

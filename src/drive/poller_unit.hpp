@@ -6,6 +6,7 @@
 #include "output_plan.hpp"
 #include "read_plan.hpp"
 #include "safe_state.hpp"
+#include "survey_slot.hpp"
 #include "unit_tags.hpp"
 
 #include "dpslave/drive/poller.hpp"
@@ -23,6 +24,7 @@ public:
     void left_data_exchange(Generation generation);
     void set_demand(const DemandOrder& order);
     bool operate(const OperateOrder& order);
+    bool survey(std::uint32_t number, std::uint16_t tag);
 
     void set_zero_after(ZeroAfter after) { safe_state_.set_zero_after(after); }
     void ride_no_longer() { safe_state_.ride_no_longer(); }
@@ -33,6 +35,7 @@ public:
     void tell_time(Instant now) { safe_state_.tell_time(now); } ///< before next(), of this drive or another
     std::optional<Transaction> next(Instant now);               ///< precondition: not lost
     Transaction probe() const;
+    std::optional<Transaction> next_survey(Instant now) const;
     void done(const Transaction& transaction, const Outcome& outcome, Instant now);
     Instant next_deadline() const;
 
@@ -120,6 +123,7 @@ private:
     DemandQueue demand_;
     std::deque<WaitingOperate> operates_;
     std::deque<OperateAnswer> operate_answers_;
+    SurveySlot survey_;
     Job job_;
     std::array<std::uint16_t, 1> word_{}; ///< of a single write under way
 

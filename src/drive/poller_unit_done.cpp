@@ -53,6 +53,8 @@ AccessError with_reason(const Transaction& transaction, AccessError error)
 
 void Poller::Unit::done(const Transaction& transaction, const Outcome& outcome, Instant now)
 {
+    if (transaction.purpose == Purpose::survey)
+        return survey_.done(outcome, now); // nothing else follows from it
     Outcome what = outcome;
     if (transaction.kind == Transaction::Kind::read && what.error == AccessError::none &&
         what.words.size() < transaction.count)
@@ -78,7 +80,8 @@ void Poller::Unit::done(const Transaction& transaction, const Outcome& outcome, 
         case Purpose::safe_state: done_zero(transaction.tag, what.error, now); break;
         case Purpose::demand: done_demand(transaction, what); break;
         case Purpose::operate: done_operate(transaction, what); break;
-        case Purpose::probe: break;
+        case Purpose::probe:
+        case Purpose::survey: break;
     }
     link(what.error != AccessError::no_answer, now);
     show();
@@ -102,7 +105,8 @@ void Poller::Unit::defer(const Transaction& transaction, Instant now)
         case Purpose::safe_state: zero_waits_ = true; break;
         case Purpose::demand:
         case Purpose::operate:
-        case Purpose::probe: break;
+        case Purpose::probe:
+        case Purpose::survey: break;
     }
 }
 
@@ -274,6 +278,7 @@ void Poller::Unit::lose()
     for (const WaitingOperate& waiting : operates_)
         operate_answers_.push_back({waiting.order.number, AccessError::no_answer, 0});
     operates_.clear();
+    survey_.done({.error = AccessError::no_answer, .words = {}}, {});
 }
 
 // ---- what can be seen
@@ -298,7 +303,7 @@ std::optional<InputImage> Poller::Unit::take_inputs()
 
 std::optional<OperateAnswer> Poller::Unit::take_operate_answer()
 {
-    if (operate_answers_.empty()) return std::nullopt;
+    if (operate_answers_.empty()) return survey_.take();
     const OperateAnswer first = operate_answers_.front();
     operate_answers_.pop_front();
     return first;

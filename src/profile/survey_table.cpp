@@ -114,6 +114,9 @@ public:
     SurveyedTable merge(const Survey& seen)
     {
         const auto rows = rows_by_tag(table_);
+        for (const auto& [tag, row] : rows)
+            if (const std::string mnemonic{table_.cell(row, "mnemonic")}; !mnemonic.empty())
+                mnemonics_.emplace(mnemonic, tag);
         for (std::size_t i = 1; i < table_.rows(); ++i)
             if (waits(table_, i))
                 waiting_.push_back(
@@ -142,9 +145,17 @@ private:
 
     void add(std::uint16_t tag, const Sighting& one)
     {
-        if (const auto why = no_row_for(one))
+        if (one.answers == 0) return;
+        auto why = no_row_for(one);
+        const auto same = mnemonics_.find(one.mnemonic);
+        if (!why && same != mnemonics_.end())
+            why = "its mnemonic is that of tag " + std::to_string(same->second) +
+                  ": they are one parameter, and one row is enough";
+        if (why) {
             contradictions_.push_back("tag " + std::to_string(tag) + ": " + *why);
-        if (one.answers == 0 || no_row_for(one)) return;
+            return;
+        }
+        if (!one.mnemonic.empty()) mnemonics_.emplace(one.mnemonic, tag);
         need_columns();
         Cells cells = new_row(one);
         cells["tag"] = std::to_string(tag);
@@ -166,6 +177,9 @@ private:
             cells[std::string{column}] = table_.cell(row, column);
         const Cells before = cells;
         widen_row(cells, one);
+        const std::string mnemonic = cells["mnemonic"];
+        if (mnemonic != before.at("mnemonic") && !mnemonics_.try_emplace(mnemonic, tag).second)
+            cells["mnemonic"].clear(); // another row has it; the rule of the family gives it all the same
         if (cells != before) table_.replace(row, cells);
     }
 
@@ -185,6 +199,7 @@ private:
 
     TableText table_;
     const drive::TagTable& tags_;
+    std::map<std::string, std::uint16_t> mnemonics_; ///< that rows have, with their tags
     std::vector<std::uint16_t> added_, waiting_;
     std::vector<std::string> contradictions_;
 };

@@ -98,6 +98,7 @@ control::Handlers FixtureDaemon::handlers()
         }
         return tag(parameters);
     };
+    all["Survey"] = [this](const Json& parameters, const control::Caller&) { return survey(parameters); };
     all["SetTec"] = [this](const Json& parameters, const control::Caller&) -> Reply {
         if (parameters.at("parameter") == "FAULT")
             return Error{
@@ -112,6 +113,29 @@ control::Handlers FixtureDaemon::handlers()
         return control::Stream{++last_number_, reply("Watch")};
     };
     return all;
+}
+
+Reply FixtureDaemon::survey(const Json& parameters)
+{
+    const int tag = parameters.at("tag").get<int>();
+    ++surveyed_[tag];
+    if (tag == 5 && surveyed_[tag] == 1) return Error{"Busy", Json::object()};
+    const std::map<int, const char*> texts{{1, "12.5"}, {4, ">1B0B"}, {5, "30."}, {9, "7."}};
+    const auto found = texts.find(tag);
+    const bool lost = tag == 5 && surveyed_[tag] == 2;
+    Json reply = {{"station", "unwinder"},
+                  {"tag", tag},
+                  {"mnemonic", "a" + std::to_string(tag)},
+                  {"outcome", lost                   ? "lost"
+                              : found != texts.end() ? "value"
+                              : tag == 3             ? "silence"
+                                                     : "denied"},
+                  {"text", nullptr},
+                  {"raw", nullptr},
+                  {"reason", nullptr}};
+    if (found != texts.end() && !lost) reply["text"] = found->second;
+    if (reply["outcome"] == "denied") reply["reason"] = "invalid tag";
+    return Done{reply};
 }
 
 Reply FixtureDaemon::tag(const Json& parameters)

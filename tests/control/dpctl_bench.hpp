@@ -4,6 +4,7 @@
 
 #include "bench.hpp"
 
+#include <map>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -13,8 +14,9 @@ namespace dpslave::test {
 
 /// Serves the fixtures. Stations "unwinder" and "rewinder"; tags are answered later, as a drive does: tag 1
 /// is read only, tag 2 never gets an answer. FAULT of
-/// TEC OPTION cannot be set. Watch gives a first picture at once and a second one, in which
-/// the unwinder has left Data_Exch, as soon as somebody watches.
+/// TEC OPTION cannot be set. A survey of tags 1 to 5 and 9 finds 12.5, no such tag, silence, >1B0B, 30.
+/// and 7.; tag 5 is Busy and then lost before it answers. Watch gives a first picture at once and a second
+/// one, in which the unwinder has left Data_Exch, as soon as somebody watches.
 class FixtureDaemon {
 public:
     /// `behind_each_text`: is added to each text of each reply.
@@ -35,6 +37,7 @@ private:
     control::Handlers handlers();
     control::Reply tag(const Json& parameters);
     Json reply(const std::string& method) const;
+    control::Reply survey(const Json& parameters);
 
     std::string behind_each_text_;
     TempFolder folder_;
@@ -42,6 +45,7 @@ private:
     std::vector<std::pair<std::uint64_t, control::Reply>> answers_;
     bool second_picture_due_ = false;
     std::uint64_t last_number_ = 0;
+    std::map<int, int> surveyed_; ///< by tag, how often; only the thread's
     mutable std::mutex mutex_;
     Json written_;
     int stop_;

@@ -284,7 +284,7 @@ TEST(DpctlHelp, TellsExitCodesAndWhereTheSchemaIs)
     EXPECT_THAT(ran.out, HasSubstr("  0  fine\n"));
     EXPECT_THAT(ran.out,
                 HasSubstr("  1  refused by the daemon or the drive, a faulty answer or input, not found, "
-                          "or not so (is-exchanging, doctor, tune)\n"));
+                          "or not so (is-exchanging, doctor, survey, tune)\n"));
     EXPECT_THAT(ran.out, HasSubstr("  2  usage\n"));
     EXPECT_THAT(ran.out, HasSubstr("  3  no daemon"));
     EXPECT_THAT(ran.out, HasSubstr("org.dpslaved.Control.varlink"));

@@ -80,6 +80,15 @@ TEST(SurveyTable, of_modbus_the_row_is_a_word_and_says_what_is_not_known)
         "55,,WORD,,,,,,,,Modbus shows 16 bits only: type and decimals are in the manual,no,1234,1234\n");
 }
 
+TEST(SurveyTable, tags_without_a_mnemonic_are_parameters_of_their_own)
+{
+    const std::string before = std::string{kHeader} + "1,,WORD,,,,,,,,,no,1,1\n";
+    Survey seen;
+    for (const std::uint16_t tag : {1, 2, 3}) seen[tag].add(said(std::uint16_t{7}));
+
+    EXPECT_THAT(merged(before, seen).added, ElementsAre(2, 3));
+}
+
 TEST(SurveyTable, what_was_denied_or_silent_gets_no_row)
 {
     Survey seen;
@@ -202,6 +211,20 @@ TEST(SurveyTable, a_table_to_which_nothing_is_added_keeps_its_columns)
 {
     const std::string before = "tag,type,decimals\r\n55,INT,2\r\n";
     EXPECT_EQ(merged(before, {{55, saw({"1.25"})}}).text, before);
+}
+
+TEST(SurveyTable, two_tags_that_one_mnemonic_reaches_get_one_row)
+{
+    const std::string before = std::string{kHeader} + "140,FIELD CURRENT,INT,1,,,,0F,,,,yes,,\n";
+
+    const SurveyedTable table =
+        merged(before, {{140, saw({"85."}, "0F")}, {1015, saw({"85."}, "0F")}, {1016, saw({"1."}, "10")}});
+
+    EXPECT_EQ(table.text, before + "1016,,INT,0,,,,10,,,,no,1,1\n");
+    EXPECT_THAT(
+        table.contradictions,
+        ElementsAre(
+            "tag 1015: its mnemonic is that of tag 140: they are one parameter, and one row is enough"));
 }
 
 TEST(SurveyTable, the_same_survey_twice_changes_nothing)

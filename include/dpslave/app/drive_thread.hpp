@@ -85,6 +85,7 @@ private:
     TroubleList troubles_;
     LimitedLog log_;
     std::vector<std::uint16_t> words_;
+    std::string trouble_; ///< of the survey read under way
 };
 
 } // namespace dpslave::app

@@ -167,6 +167,7 @@ struct LineWork {
 struct LineOrder {
     std::uint32_t station = 0; ///< DriveUnit::number
     drive::OperateOrder order;
+    bool is_survey = false; ///< Poller::survey() in place of operate()
 };
 
 /// A drive line and the main thread.

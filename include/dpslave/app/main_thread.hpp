@@ -63,6 +63,8 @@ private:
         std::uint16_t tag = 0;
         std::uint16_t word = 0;
         bool is_write = false;
+        bool is_survey = false;
+        bool has_text = false; ///< of a survey: the protocol carries texts, not words
         control::Caller who;
         std::optional<std::string> before; ///< the value of the tag when it was asked, if it was known
     };
@@ -71,13 +73,17 @@ private:
         std::string seen;                   ///< what it was shown last, without the ages
     };
 
-    // main_control.cpp, main_tec.cpp
+    // main_control.cpp, main_survey.cpp, main_tec.cpp
     control::Handlers handlers();
     control::Reply on_status();
     control::Reply on_each_station(const control::Json& parameters,
                                    control::Json (MainThread::*one)(std::size_t));
     control::Reply on_watch(const control::Json& parameters);
     control::Reply on_tag(const control::Json& parameters, const control::Caller& who, bool is_write);
+    control::Reply on_survey_scope(const control::Json& parameters);
+    control::Reply on_survey(const control::Json& parameters, const control::Caller& who);
+    control::Reply answer_of(const Asked& asked, const drive::OperateAnswer& answer) const;
+    control::Reply survey_answer_of(const Asked& asked, const drive::OperateAnswer& answer) const;
     control::Reply on_tec(const control::Json& parameters);
     control::Reply on_set_tec(const control::Json& parameters, const control::Caller& who);
     control::Json info_of(std::size_t station);

@@ -38,6 +38,8 @@ inline constexpr std::array kMethods = std::to_array<MethodEntry>({
     {"GetTec", Right::look},
     {"Watch", Right::look},
     {"ReadTag", Right::look},
+    {"GetSurveyScope", Right::look},
+    {"Survey", Right::operate},
     {"WriteTag", Right::operate},
     {"SetTec", Right::operate},
     {"Reload", Right::operate},

@@ -63,7 +63,8 @@ public:
         return {};
     }
 
-    /// The text of the value behind no_scale or contradicted of the last call; valid until the next one.
+    /// The text of the value that the last read got, whatever became of it (EI-ASCII); empty: it got none.
+    /// Valid until the next call.
     virtual std::string_view last_answer() const { return {}; }
 };
 

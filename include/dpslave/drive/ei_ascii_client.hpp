@@ -50,8 +50,8 @@ public:
     AccessError write(UnitAddress unit, const Tag& tag, std::span<const std::uint16_t> words) override;
     bool probe(UnitAddress unit) override;
     std::string last_trouble() const override { return trouble_; }
-    std::string_view last_answer() const override { return answer_; }
     AnswerCounts counts(UnitAddress unit) const override;
+    std::string_view last_answer() const override { return answer_; }
 
 private:
     std::optional<ei::Mnemonic> mnemonic_for(UnitAddress unit, const Tag& tag);
@@ -62,7 +62,7 @@ private:
     std::vector<EiUnit> units_;
     std::unique_ptr<EiForms> forms_;
     std::string trouble_;
-    std::string answer_; ///< behind the last no_scale or contradicted
+    std::string answer_; ///< of the last read
 };
 
 } // namespace dpslave::drive

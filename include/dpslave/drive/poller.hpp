@@ -58,7 +58,8 @@ struct UnitSettings {
 
 /// Who asked for a transaction. output: a write, or a read that shows what became of compared outputs; watch:
 /// a read that serves watched tags only.
-enum class Purpose : std::uint8_t { input, output, safe_state, demand, operate, watch, probe };
+/// survey: a read that nothing follows from but its answer.
+enum class Purpose : std::uint8_t { input, output, safe_state, demand, operate, watch, probe, survey };
 
 /// The next thing to do on the line. Handed to a Backend, its outcome to Poller::done().
 struct Transaction {
@@ -75,7 +76,8 @@ struct Transaction {
 struct Outcome {
     AccessError error = AccessError::none;
     std::span<const std::uint16_t> words;
-    std::string_view answer{}; ///< with no_scale and contradicted: what the drive has answered
+    std::string_view answer{};  ///< of a read: the text of the value (Backend::last_answer())
+    std::string_view trouble{}; ///< of a survey: why there is none (Backend::last_trouble())
 };
 
 /// A watched tag as it was read last. untried: not yet.
@@ -114,10 +116,15 @@ struct OperateOrder {
     std::uint16_t tag = 0;
     std::uint16_t word = 0;
 };
+
+/// What a drive said in a survey; ends with NUL.
+using SaidText = std::array<char, 96>;
+
 struct OperateAnswer {
     std::uint32_t number = 0;
     AccessError error = AccessError::none;
     std::uint16_t word = 0;
+    SaidText said{}; ///< of a survey: the text of the value, empty with Modbus; with an error why
 };
 
 class Poller {
@@ -142,6 +149,10 @@ public:
     /// False: too many wait already, or there is no such drive. A lost drive is answered for at once:
     /// no_answer. The limits of the tag table are not looked at: parse_value() has done it.
     bool operate(const OperateOrder& order);
+    /// Reads a tag for a survey, whatever the table says of it: once, behind everything else, and one such
+    /// read in a round of the living drives. Its answer, silence included, changes nothing else. False: one
+    /// waits for this drive already, or there is no such drive. A lost drive is answered for at once.
+    bool survey(std::size_t unit, std::uint32_t number, std::uint16_t tag);
 
     /// What to do now; nothing = wait until next_deadline() or until something new is set.
     std::optional<Transaction> next(Instant now);
@@ -182,6 +193,7 @@ public:
 
 private:
     class Unit; ///< one drive: what is wanted of it and what is known of it
+    std::optional<Transaction> next_survey(Instant now);
 
     std::optional<Transaction> next_of(Instant now);
     bool may_time_out() const;

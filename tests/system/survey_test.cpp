@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a bare drive to a table that a person has confirmed, with the real programs: survey, Ctrl-C, resume,
+// confirm, check, exchange.
+#include "gateway.hpp"
+
+#include <gmock/gmock.h>
+
+namespace dpslave::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// A 590 of which nothing is known: its table is empty.
+class BareDrive : public ::testing::Test {
+protected:
+    BareDrive() : gateway{{.keys = "tags = \"unwinder.csv\"\n", .started = false}}
+    {
+        write_file(table, "tag,name,type,decimals\n");
+        gateway.start_daemon();
+        EXPECT_TRUE(gateway.daemon().says("the drive answers"));
+    }
+    Arguments survey(Arguments more) const
+    {
+        Arguments all{"survey", "unwinder", "--table", table};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+    std::string row(int tag) const
+    {
+        const std::string text = '\n' + content(table) + '\n';
+        const auto at = text.find('\n' + std::to_string(tag) + ',');
+        return at == std::string::npos ? "" : text.substr(at + 1, text.find('\n', at + 1) - at - 1);
+    }
+    /// A person writes into the table.
+    void change(const std::string& from, const std::string& to)
+    {
+        std::string text = content(table) + '\n';
+        ASSERT_NE(text.find(from), std::string::npos) << text;
+        write_file(table, text.replace(text.find(from), from.size(), to));
+    }
+
+    Gateway gateway;
+    const std::filesystem::path table = gateway.folder("unwinder.csv");
+    const std::filesystem::path record = gateway.folder("unwinder.survey.csv");
+};
+
+TEST_F(BareDrive, IsSurveyedInterruptedResumedConfirmedAndExchanged)
+{
+    gateway.drive().tell("set 55 12.34");
+    gateway.drive().tell("set 56 -7.5");
+    {
+        Process first{gateway.dpctl_command(survey({"--only", "50-145"}))};
+        ASSERT_TRUE(first.says("96 tags to ask"));
+        EXPECT_EQ(first.end(SIGINT), 1);
+        EXPECT_TRUE(first.ever_said("--resume"));
+    }
+    EXPECT_THAT(content(record), HasSubstr("tag,mnemonic,answers"));
+
+    const Outcome all = gateway.dpctl(survey({"--only", "50-145", "--resume"}));
+
+    EXPECT_EQ(all.status, 0) << all.out << all.err;
+    EXPECT_THAT(all.out, AllOf(HasSubstr("96 of 96 tags asked: 18 answer"), HasSubstr("0 silent")));
+    EXPECT_EQ(row(55), "55,,INT,2,,,bj,,no,12.34,12.34");
+    EXPECT_EQ(row(56), "56,,INT,1,,,bk,,no,-7.5,-7.5")
+        << "its second decimal was 0, and the drive leaves zeros out";
+    EXPECT_EQ(row(91), "91,,INT,0,0,65535,cj,,no,40000,40000");
+    EXPECT_EQ(row(100), "100,,WORD,,,,cs,,no,>0000,>0000");
+    EXPECT_EQ(row(102), "102,,BOOL,,,,cu,,no,1,1");
+    EXPECT_EQ(row(130), "130,,STRING,,,,dm,,no,,");
+    EXPECT_EQ(row(120), "") << "it can only be written";
+    EXPECT_THAT(content(record), HasSubstr("\n120,dc,0,0,1,"));
+
+    // A person compares two rows with the manual, which prints two decimals for both.
+    change("55,,INT,2,,,bj,,no", "55,SPEED FEEDBACK,INT,2,,,bj,,yes");
+    change("56,,INT,1,,,bk,,no", "56,SPEED SETPOINT,INT,2,,,bk,,yes");
+    const Outcome checked = gateway.run_daemon({"--check"});
+    EXPECT_EQ(checked.status, 0) << checked.err;
+    EXPECT_EQ(gateway.dpctl({"reload"}).status, 0);
+    Master master{gateway, {"--tags", "55,56w"}};
+    ASSERT_TRUE(master.does("start 30s"));
+    EXPECT_TRUE(master.does("wait 10s for in 1 = 1234"));
+    EXPECT_TRUE(master.does("out 1 = 4200"));
+    EXPECT_TRUE(gateway.drive().says("tag 56 written 42.00"));
+
+    // The survey goes on beside the exchange, contradicts what was confirmed wrongly and leaves it alone.
+    change("SPEED FEEDBACK,INT,2", "SPEED FEEDBACK,INT,1");
+    const Outcome again = gateway.dpctl(survey({"--only", "55-62", "--passes", "2"}));
+    EXPECT_EQ(again.status, 1);
+    EXPECT_THAT(
+        again.out,
+        HasSubstr("tag 55 (SPEED FEEDBACK), line 2: its row says 1 decimal, the drive answers with 2"));
+    EXPECT_THAT(row(55), HasSubstr("SPEED FEEDBACK,INT,1"));
+    EXPECT_TRUE(gateway.is_exchanging_says(0));
+    EXPECT_FALSE(gateway.daemon().ever_said("does not answer"));
+    EXPECT_EQ(gateway.station().at("left_count"), 0);
+}
+
+TEST_F(BareDrive, ThatIsSwitchedOffIsWaitedForAndNotHeldForADriveWithoutTags)
+{
+    gateway.drive().tell("silence");
+    ASSERT_TRUE(gateway.daemon().says("does not answer"));
+    Process running{gateway.dpctl_command(survey({"--only", "55-57"}))};
+    ASSERT_TRUE(running.says("3 tags to ask"));
+    gateway.drive().tell("ok");
+
+    EXPECT_EQ(running.wait(), 0);
+
+    EXPECT_TRUE(running.ever_said("3 of 3 tags asked: 3 answer, 0 denied, 0 silent"));
+}
+
+TEST_F(BareDrive, LeavesNoWordInTheLogForATagThatItDoesNotHave)
+{
+    const Outcome all = gateway.dpctl(survey({"--only", "1-20"}));
+
+    EXPECT_THAT(all.out, HasSubstr("20 of 20 tags asked: 0 answer, 20 denied, 0 silent"));
+    EXPECT_EQ(gateway.daemon().how_often("tag"), 0U);
+    EXPECT_EQ(gateway.diagnosis().at("trouble"), Json::array());
+    EXPECT_EQ(gateway.station().at("drive").at("refusals"), 0);
+}
+
+TEST(Survey, OfAnInstrumentSaysThatModbusShowsSixteenBitsOnly)
+{
+    const Gateway gateway{{.profile = "2408f", .units = {"1"}, .protocol = "modbus-rtu"}};
+    const auto table = gateway.folder("own.csv");
+    write_file(table, "tag,name,type,decimals\n");
+
+    const Outcome all = gateway.dpctl({"survey", "unwinder", "--table", table, "--only", "1-3"});
+
+    EXPECT_EQ(all.status, 0) << all.err;
+    EXPECT_THAT(all.out, AllOf(HasSubstr("Modbus shows 16 bits"), HasSubstr("3 of 3 tags asked: 3 answer")));
+    EXPECT_THAT(content(table), HasSubstr("\n1,,WORD,,"));
+}
+
+} // namespace
+} // namespace dpslave::test
