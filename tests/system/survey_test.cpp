@@ -15,9 +15,13 @@ using ::testing::Not;
 /// A 590 of which nothing is known: its table is empty.
 class BareDrive : public ::testing::Test {
 protected:
-    BareDrive() : gateway{{.keys = "tags = \"unwinder.csv\"\n", .started = false}}
+    BareDrive()
     {
         write_file(table, "tag,name,type,decimals\n");
+        std::string config = gateway.config_text();
+        const auto at = config.find("tags = ");
+        write_file(gateway.config(),
+                   config.replace(at, config.find('\n', at) - at, "tags = \"unwinder.csv\""));
         gateway.start_daemon();
         EXPECT_TRUE(gateway.daemon().says("the drive answers"));
     }
@@ -41,7 +45,7 @@ protected:
         write_file(table, text.replace(text.find(from), from.size(), to));
     }
 
-    Gateway gateway;
+    Gateway gateway{{.started = false}};
     const std::filesystem::path table = gateway.folder("unwinder.csv");
     const std::filesystem::path record = gateway.folder("unwinder.survey.csv");
 };
@@ -77,6 +81,7 @@ TEST_F(BareDrive, IsSurveyedInterruptedResumedConfirmedAndExchanged)
     change("56,,INT,1,,,bk,,no", "56,SPEED SETPOINT,INT,2,,,bk,,yes");
     const Outcome checked = gateway.run_daemon({"--check"});
     EXPECT_EQ(checked.status, 0) << checked.err;
+    EXPECT_THAT(checked.out + checked.err, HasSubstr("confirmation")) << "the other rows still wait";
     EXPECT_EQ(gateway.dpctl({"reload"}).status, 0);
     Master master{gateway, {"--tags", "55,56w"}};
     ASSERT_TRUE(master.does("start 30s"));
