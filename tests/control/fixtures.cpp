@@ -99,9 +99,11 @@ std::map<std::string, json> all()
             "pending":["station unwinder: address 7 counts from the next start on"],"warnings":[],"faults":[]})")},
         {"Watch", {{"bus", bus}, {"stations", stations}, {"words", watched_words}}},
         {"ReadTag", tag},
-        {"GetSurveyScope", json::parse(R"({"station":"unwinder","protocol":"ei-ascii","tag_table":"/none/empty.csv",
+        {"GetSurveyScope",
+         json::parse(R"({"station":"unwinder","protocol":"ei-ascii","tag_table":"/none/empty.csv",
             "tags":[{"first":1,"last":5},{"first":9,"last":9}]})")},
-        {"Survey", json::parse(R"({"station":"unwinder","tag":1,"mnemonic":"a1","outcome":"value","text":"12.5",
+        {"Survey",
+         json::parse(R"({"station":"unwinder","tag":1,"mnemonic":"a1","outcome":"value","text":"12.5",
             "raw":null,"reason":null})")},
         {"WriteTag", tag},
     };
