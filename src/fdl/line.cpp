@@ -244,10 +244,12 @@ void Station::forget_all()
 void Station::on_telegram(const Telegram& telegram, Instant read_at, bool newest)
 {
     ++counters_.telegrams;
+    const bool ours = telegram.has_fc() && telegram.da < kAddresses && places_[telegram.da].user != nullptr;
+    if (!ours) asked_.on_telegram(telegram, read_at);
     if (!telegram.has_fc()) return; // SC and token: no checksum, no evidence, nobody asked
+    ++counters_.checked;
     last_telegram_ = read_at;
 
-    const bool ours = telegram.da < kAddresses && places_[telegram.da].user != nullptr;
     if (search_) {
         const bool silent = search_->state() == BaudState::baud_search;
         search_->on_telegram(ours, read_at);

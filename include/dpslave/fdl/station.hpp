@@ -5,6 +5,7 @@
 #pragma once
 
 #include "dpslave/base/units.hpp"
+#include "dpslave/fdl/asked_addresses.hpp"
 #include "dpslave/fdl/baud_search.hpp"
 #include "dpslave/fdl/sap_user.hpp"
 #include "dpslave/fdl/telegram.hpp"
@@ -33,6 +34,7 @@ struct StationSettings {
 struct Counters {
     std::uint64_t octets = 0;
     std::uint64_t telegrams = 0; ///< valid ones, of anybody
+    std::uint64_t checked = 0;   ///< those of them that have a checksum: noise cannot make them
     std::uint64_t requests = 0;  ///< valid, to one of our addresses or to all
     std::uint64_t replies = 0;   ///< handed to the edge
     std::uint64_t retries = 0;   ///< answered with the stored reply
@@ -98,6 +100,8 @@ public:
     Baud baud() const;
     BaudState baud_state() const;
     const Counters& counters() const;
+    /// Addresses of others that are asked and do not answer.
+    AskedAddresses::List unanswered() const { return asked_.unanswered(); }
 
 private:
     static constexpr std::size_t kAddresses = 127; // 0..126
@@ -185,6 +189,7 @@ private:
     Frame unstored_;         // a reply that belongs to no frame count sequence
     ReplyData scratch_;
     Counters counters_;
+    AskedAddresses asked_;
 };
 
 } // namespace dpslave::fdl
