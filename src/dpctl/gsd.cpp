@@ -19,6 +19,7 @@ constexpr const char* kExamples =
     "  dpctl gsd make --profile 590 --in 55,57 --out 56 --demand --output UNWI0533.GSD\n"
     "  dpctl gsd make --mapping gain-scheduling.toml --ident 0x1234 --output GAIN1234.GSD\n"
     "  dpctl gsd show UNWI0533.GSD --profile 590\n"
+    "  dpctl gsd make --profile 605 --ident 0x1649 --table mine.csv --in 1,2 --output MINE1649.GSD\n"
     "  dpctl gsd types --output /media/disc\n";
 
 void add_profiles(CLI::App& app, GsdOptions& options)
@@ -26,6 +27,12 @@ void add_profiles(CLI::App& app, GsdOptions& options)
     app.add_option("--profiles", options.profiles, "Folder of the device profiles")
         ->type_name("DIR")
         ->capture_default_str();
+}
+
+void add_table(CLI::App& app, GsdOptions& options)
+{
+    app.add_option("--table", options.table, "A tag table of your own (CSV), whose names the file gets")
+        ->type_name("FILE");
 }
 
 void add_tags(CLI::App& app, const char* name, std::vector<std::string>& tags, const char* help)
@@ -36,7 +43,9 @@ void add_tags(CLI::App& app, const char* name, std::vector<std::string>& tags, c
 void add_check(CLI::App& app, GsdOptions& options)
 {
     app.add_option("FILE", options.file, "A GSD file")->required()->type_name("");
-    app.add_flag("--strict", options.strict, "Every deviation from the standard is an error");
+    app.add_flag("--strict", options.strict,
+                 "Every deviation from the standard is an error, also those that many public files have and "
+                 "masters live with");
 }
 
 void add_show(CLI::App& app, GsdOptions& options)
@@ -45,12 +54,14 @@ void add_show(CLI::App& app, GsdOptions& options)
     app.add_option("--profile", options.profile, "Name the tags as the tag table of this profile does")
         ->type_name("NAME");
     add_profiles(app, options);
+    add_table(app, options);
 }
 
 void add_make(CLI::App& app, GsdOptions& options)
 {
     app.add_option("--profile", options.profile, "Profile of the device")->type_name("NAME");
     add_profiles(app, options);
+    add_table(app, options);
     app.add_option(
            "--mapping", options.mapping,
            "A TOML file that says profile, in, out, in_out, demand, ident, max_tsdr, description, model; "

@@ -2,6 +2,7 @@
 #include "gsd_commands.hpp"
 
 #include "gsd_files.hpp"
+#include "tag_search.hpp"
 
 #include "dpslave/base/printable.hpp"
 #include "dpslave/gsd/check.hpp"
@@ -79,6 +80,15 @@ std::optional<profile::Profile> load(const std::string& folder, const std::strin
     return std::nullopt;
 }
 
+/// The names of a tag table of the user; nothing, and it was said why, if it cannot be read.
+std::optional<drive::TagTable> own_table(const std::string& file, Terminal& terminal)
+{
+    TagFiles tables = load_table(file);
+    for (const std::string& fault : tables.faults) fmt::print(terminal.err, "dpctl: {}\n", fault);
+    if (tables.files.empty() || !tables.faults.empty()) return std::nullopt;
+    return std::move(tables.files.front().tags);
+}
+
 // ---- make
 // ---------------------------------------------------------------------------------------------------
 
@@ -142,14 +152,18 @@ void print_direction(std::ostream& out, const char* title, const std::vector<gsd
 {
     fmt::print(out, "\n{}: {} octets, {} words\n", title, octets, octets / 2);
     if (values.empty()) return;
+    std::size_t behind = 0; // octets of Demand Data
+    for (const gsd::IoValue& value : values) behind += value.is_demand ? value.octets : 0;
     fmt::print(out, "  {:<9} {:<7} {:<6} {}\n", "octets", "word", "tag", "value");
     for (const gsd::IoValue& value : values) {
         const std::size_t last = value.octet + value.octets - 1;
         const std::string place =
             last == value.octet ? std::to_string(last) : fmt::format("{}-{}", value.octet, last);
-        const std::size_t first_word = value.octet / 2, last_word = last / 2;
-        const std::string word = first_word == last_word ? std::to_string(first_word)
-                                                         : fmt::format("{}-{}", first_word, last_word);
+        // As dpctl io and dpsim count: from 1, behind Demand Data, whose registers count by themselves.
+        const std::size_t first = (value.octet - (value.is_demand ? 0 : behind)) / 2 + 1;
+        const std::size_t end = (last - (value.is_demand ? 0 : behind)) / 2 + 1;
+        const std::string word = (value.is_demand ? "D" : "") +
+                                 (first == end ? std::to_string(first) : fmt::format("{}-{}", first, end));
         fmt::print(out, "  {:<9} {:<7} {:<6} {}\n", place, word, value.tag ? std::to_string(*value.tag) : "-",
                    printable(value.what));
     }
@@ -198,7 +212,13 @@ int gsd_show(const GsdOptions& options, Terminal& terminal)
         if (!profile) return kNo;
         hints.tags_at = profile->personality.prm.tags_at;
         hints.demand_identifier = profile->personality.demand_identifier;
+        hints.extended_tags = profile->personality.demand == dp::DemandForm::extended;
         for (const drive::Tag& tag : profile->tags.all()) hints.names.emplace(tag.number, tag.name);
+    }
+    if (!options.table.empty()) {
+        const auto table = own_table(options.table, terminal);
+        if (!table) return kNo;
+        for (const drive::Tag& tag : table->all()) hints.names[tag.number] = tag.name;
     }
     const gsd::IoMap map = gsd::io_map(document, hints);
     fmt::print(terminal.out, "{}, {}, Ident_Number 0x{:04X}\n", printable(document.text("Vendor_Name")),
@@ -208,6 +228,9 @@ int gsd_show(const GsdOptions& options, Terminal& terminal)
     if (map.fixed) {
         print_direction(terminal.out, "Inputs, from the slave to the master", map.inputs, map.in_octets);
         print_direction(terminal.out, "Outputs, from the master to the slave", map.outputs, map.out_octets);
+        fmt::print(terminal.out, "\noctets: places in the Data_Exchange telegram, counted from 0\n"
+                                 "word: counted from 1 behind Demand Data, as dpctl io and dpsim do; D1 to "
+                                 "D4 are Demand Data\n");
     } else {
         print_modules(terminal.out, document);
     }
@@ -228,8 +251,13 @@ int gsd_make(const GsdOptions& options, Terminal& terminal)
         mapping = *std::move(loaded);
     }
     if (!SelectionReader{mapping, terminal}.read(options)) return kUsage;
-    const auto profile = load(options.profiles, mapping.profile, terminal);
+    auto profile = load(options.profiles, mapping.profile, terminal);
     if (!profile) return mapping.profile.empty() ? kUsage : kNo;
+    if (!options.table.empty()) {
+        auto table = own_table(options.table, terminal);
+        if (!table) return kNo;
+        profile->tags = *std::move(table);
+    }
 
     const auto made = profile::device_of(*profile, mapping.selection);
     if (!made) {

@@ -15,6 +15,7 @@ struct GsdOptions {
     bool strict = false;
 
     std::string profile, profiles = DPSLAVE_DATA_FOLDER "/profiles"; ///< given by CMake
+    std::string table;                                               ///< a CSV file
     std::string mapping;                                             ///< a file with a selection
     std::vector<std::string> in, out, in_out;                        ///< tags
     bool demand = false;

@@ -15,7 +15,7 @@ void check_identifiers(Judge& judge, const Module& module)
 {
     if (module.identifiers.empty()) return; // the parser has told why
     if (module.identifiers.size() > kMaxModuleOctets)
-        judge.say(module.line, Weight::error,
+        judge.say(module.line, kLivesInTheField,
                   "the module " + in_quotes(module.name) + " has " +
                       std::to_string(module.identifiers.size()) +
                       " identifier octets: the standard allows 17. Split it.");
@@ -50,7 +50,7 @@ void check_names(Judge& judge)
                           " characters: the standard allows 32.");
         const auto [first, is_first] = names.try_emplace(module.name, module.line);
         if (!is_first && !module.name.empty())
-            judge.say(module.line, Weight::error,
+            judge.say(module.line, kLivesInTheField,
                       "the module " + in_quotes(module.name) + " is there already (line " +
                           std::to_string(first->second) + "): give it a name of its own.");
         if (!module.reference) {
@@ -78,10 +78,10 @@ void check_station(Judge& judge)
     const bool modular = judge.on("Modular_Station");
     const auto max = document.number("Max_Module");
     if (!modular && document.modules.size() != 1)
-        judge.say(document.modules[1].line, Weight::error,
+        judge.say(document.modules[1].line, kLivesInTheField,
                   "a compact station has one module: remove the others, or write Modular_Station = 1.");
     if (!modular && max && *max != 1)
-        judge.say(judge.line_of("Max_Module"), Weight::error,
+        judge.say(judge.line_of("Max_Module"), kLivesInTheField,
                   "a compact station has one module: write Max_Module = 1, or Modular_Station = 1.");
 
     const auto plugged = document.plugged();

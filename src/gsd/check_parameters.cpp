@@ -168,11 +168,13 @@ private:
                 }
                 octets = known->second.octets;
                 if (overlaps(taken, *entry.index, known->second))
-                    error(entry.line,
-                          "this parameter lies on bits that another one has already: correct its offset.");
+                    judge_.say(
+                        entry.line, kLivesInTheField,
+                        "this parameter lies on bits that another one has already: correct its offset.");
             }
             if (!length)
-                error(entry.line, std::string{length_keyword} + " is missing: add the length in octets.");
+                judge_.say(entry.line, kLivesInTheField,
+                           std::string{length_keyword} + " is missing: add the length in octets.");
             else if (std::uint64_t{*entry.index} + octets > *length)
                 error(entry.line, "this reaches beyond " + std::string{length_keyword} + " = " +
                                       std::to_string(*length) + ": correct one of the two.");

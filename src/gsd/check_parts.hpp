@@ -10,6 +10,9 @@
 
 namespace dpslave::gsd {
 
+/// What public files of many makers show and masters live with (wire reference 9.4): never in files of ours.
+inline constexpr Weight kLivesInTheField = Weight::warning;
+
 /// What is judged and where the verdict goes.
 class Judge {
 public:

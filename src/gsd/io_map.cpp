@@ -19,6 +19,9 @@ constexpr std::array<std::string_view, 4> kDemandOut{"Demand Data: command and t
                                                      "Demand Data: extended tag", "Demand Data: reserved",
                                                      "Demand Data: value"};
 
+constexpr std::size_t kExtendedTag = 1; ///< place of it
+constexpr std::string_view kUnused{"Demand Data: reserved"};
+
 class MapMaker {
 public:
     MapMaker(const Document& document, const MapHints& hints)
@@ -70,8 +73,12 @@ private:
     void demand()
     {
         for (std::size_t i = 0; i < kDemandIn.size(); ++i) {
-            put(map_.inputs, map_.in_octets, 2, std::string{kDemandIn[i]}, std::nullopt);
-            put(map_.outputs, map_.out_octets, 2, std::string{kDemandOut[i]}, std::nullopt);
+            const bool is_unused = i == kExtendedTag && !hints_.extended_tags;
+            put(map_.inputs, map_.in_octets, 2, std::string{is_unused ? kUnused : kDemandIn[i]},
+                std::nullopt);
+            put(map_.outputs, map_.out_octets, 2, std::string{is_unused ? kUnused : kDemandOut[i]},
+                std::nullopt);
+            map_.inputs.back().is_demand = map_.outputs.back().is_demand = true;
         }
     }
 
@@ -90,7 +97,7 @@ private:
     static void put(std::vector<IoValue>& values, std::size_t& length, std::size_t octets, std::string what,
                     std::optional<std::uint16_t> tag)
     {
-        values.push_back({length, octets, std::move(what), tag});
+        values.push_back({length, octets, std::move(what), tag, false});
         length += octets;
     }
 

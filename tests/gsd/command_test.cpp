@@ -231,22 +231,50 @@ TEST(GsdShowCommand, PrintsTheMapWithNamesOctetsAndWords)
     const Ran ran =
         gsd_command({"show", file, "--profile", "2408f", "--profiles", kSource / "config/profiles"});
     EXPECT_EQ(ran.exit, dpctl::kFine) << ran.err;
-    EXPECT_EQ(ran.out, "EUROTHERM CONTROLS, 2408f/2404f, Ident_Number 0x7EA5\n"
-                       "Standard parameter mapping\n"
-                       "\n"
-                       "Inputs, from the slave to the master: 8 octets, 4 words\n"
-                       "  octets    word    tag    value\n"
-                       "  0-1       0       1      Process variable\n"
-                       "  2-3       1       5      Working setpoint\n"
-                       "  4-5       2       3      Output power %\n"
-                       "  6-7       3       75     Summary output status word\n"
-                       "\n"
-                       "Outputs, from the master to the slave: 8 octets, 4 words\n"
-                       "  octets    word    tag    value\n"
-                       "  0-1       0       24     Setpoint 1\n"
-                       "  2-3       1       25     Setpoint 2\n"
-                       "  4-5       2       15     Select setpoint\n"
-                       "  6-7       3       274    Acknowledge all alarms\n");
+    EXPECT_EQ(ran.out,
+              "EUROTHERM CONTROLS, 2408f/2404f, Ident_Number 0x7EA5\n"
+              "Standard parameter mapping\n"
+              "\n"
+              "Inputs, from the slave to the master: 8 octets, 4 words\n"
+              "  octets    word    tag    value\n"
+              "  0-1       1       1      Process variable\n"
+              "  2-3       2       5      Working setpoint\n"
+              "  4-5       3       3      Output power %\n"
+              "  6-7       4       75     Summary output status word\n"
+              "\n"
+              "Outputs, from the master to the slave: 8 octets, 4 words\n"
+              "  octets    word    tag    value\n"
+              "  0-1       1       24     Setpoint 1\n"
+              "  2-3       2       25     Setpoint 2\n"
+              "  4-5       3       15     Select setpoint\n"
+              "  6-7       4       274    Acknowledge all alarms\n"
+              "\n"
+              "octets: places in the Data_Exchange telegram, counted from 0\n"
+              "word: counted from 1 behind Demand Data, as dpctl io and dpsim do; D1 to D4 are Demand "
+              "Data\n");
+}
+
+TEST(GsdShowCommand, OfADriveSpeaksOfNoExtendedTagsAndCountsDemandDataByItself)
+{
+    const test::Folder folder;
+    const auto file = folder.write("UNWI0533.GSD", make({"--profile", "590", "--in", "55", "--demand"}).out);
+    const Ran ran =
+        gsd_command({"show", file, "--profile", "590", "--profiles", kSource / "config/profiles"});
+    EXPECT_EQ(ran.out.find("extended tag"), std::string::npos) << ran.out;
+    EXPECT_THAT(ran.out, AllOf(HasSubstr("  0-1       D1      -      Demand Data: answer and tag"),
+                               HasSubstr("  2-3       D2      -      Demand Data: reserved"),
+                               HasSubstr("  8-9       1       55 ")));
+}
+
+TEST(GsdShowCommand, NamesTheParametersOfATableOfTheUser)
+{
+    const test::Folder folder;
+    const auto table = folder.write("mine.csv", "tag,name,type,decimals\n55,Dancer position,INT,2\n");
+    const Ran made = make({"--profile", "590", "--table", table, "--in", "55"});
+    EXPECT_EQ(made.exit, dpctl::kFine) << made.err;
+    const auto file = folder.write("UNWI0533.GSD", made.out);
+    EXPECT_THAT(gsd_command({"show", file, "--table", table}).out, HasSubstr("Dancer position"));
+    EXPECT_EQ(gsd_command({"show", file, "--table", kSource / "none.csv"}).exit, dpctl::kNo);
 }
 
 TEST(GsdShowCommand, ListsTheModulesWhereThereIsNoMapYet)

@@ -19,6 +19,7 @@ struct IoValue {
     std::size_t octets = 2;
     std::string what; ///< the tag's name, the place in Demand Data, or the module's name
     std::optional<std::uint16_t> tag;
+    bool is_demand = false; ///< a register of Demand Data
 };
 
 struct IoMap {
@@ -34,7 +35,8 @@ struct MapHints {
     /// then tags), else 0; and no tags at all where the octets do not look like those of this file's
     /// parameters.
     std::optional<std::size_t> tags_at = {};
-    std::uint8_t demand_identifier = 0x73;           ///< Demand Data, in first position
+    std::uint8_t demand_identifier = 0x73; ///< Demand Data, in first position
+    bool extended_tags = true; ///< register 2 of Demand Data takes a tag (2408f/2404f); drives have none
     std::map<std::uint16_t, std::string> names = {}; ///< of tags
 };
 
