@@ -7,17 +7,19 @@ _dpctl_common='--json --socket --timeout --help'
 _dpctl_options()
 {
     case $1 in
-        '') echo "$_dpctl_common" ;;
-        doctor) echo "$_dpctl_common --all" ;;
+        '') echo "$_dpctl_common --version" ;;
+        doctor) echo "$_dpctl_common --all --probe --yes" ;;
+        is-exchanging) echo "$_dpctl_common --healthy" ;;
+        'tec set') echo "$_dpctl_common --station --yes" ;;
+        read | write) echo "$_dpctl_common --station" ;;
         reload) echo "$_dpctl_common --dry-run" ;;
-        read | write | 'tec set') echo "$_dpctl_common --station" ;;
         survey) echo "$_dpctl_common --only --table --for --passes --resume" ;;
         tag) echo '--json --all --table --profile --profiles --help' ;;
         hex) echo '--json --help' ;;
-        decode) echo '--json --profile --profiles --help' ;;
+        decode) echo '--json --as --profile --profiles --help' ;;
         'gsd check') echo '--strict --help' ;;
-        'gsd show') echo '--profile --profiles --help' ;;
-        'gsd make') echo '--profile --profiles --mapping --in --out --in-out --demand --ident --max-tsdr --description
+        'gsd show') echo '--profile --profiles --table --help' ;;
+        'gsd make') echo '--profile --profiles --table --mapping --in --out --in-out --demand --ident --max-tsdr --description
                           --model --output --force --help' ;;
         'gsd types') echo '--output --brief --force --help' ;;
         gsd) echo '--help' ;;

@@ -294,6 +294,7 @@ void BusThread::show_bus(Instant now)
                             .taken_at = now,
                             .last_telegram = station_.last_telegram(),
                             .counters = station_.counters(),
+                            .unanswered = station_.unanswered(),
                             .write_errors = sender_.write_errors(),
                             .unsent = unsent_,
                             .turnaround_us = turnaround_us_,

@@ -110,6 +110,13 @@ void read_tec(Document& document, Table& table, StationConfig& station, Faults& 
                                 "outputs then outlive the connection to the master."});
     }
     if (!station.profile || !station.profile->has_tec) return;
+    if (const OptionFault fault = tec::fault(config.start, {}); fault != OptionFault::none)
+        warnings.push_back(
+            {document.name(), table.place_of("tec").line, table.place_of("tec").column,
+             "station " + in_quotes(station.name) + " will be silent on the bus: FAULT of TEC OPTION is " +
+                 std::string{dpslave::text(fault)} +
+                 (fault == OptionFault::type_mismatch ? ", for 'type' is not 2 (PROFIBUS DP)."
+                                                      : ", for a value is out of its range.")});
     station.zero_after = tec::zero_after(config.start);
     station.tec = config;
     warn_of_unknown_trips(document, table, station, warnings);

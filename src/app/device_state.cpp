@@ -244,14 +244,19 @@ std::optional<bool> DeviceState::tripped() const
     return seen_trip() != nullptr ? std::optional{trip_octet() != 0} : std::nullopt;
 }
 
+std::string DeviceState::silent_because() const
+{
+    if (fault_ == OptionFault::none) return {};
+    return fmt::format("FAULT is {}, the station is silent on the bus. {}", dpslave::text(fault_),
+                       remedy(fault_, settings_));
+}
+
 std::vector<std::string> DeviceState::notes() const
 {
     std::vector<std::string> notes;
     if (!config_->tec) return notes;
     if (settings_.ride_through != 0) notes.push_back(fmt::format("WARNING: {}", kRideThroughWarning));
-    if (std::string next = remedy(fault_, settings_); !next.empty())
-        notes.push_back(
-            fmt::format("FAULT is {}, the station is silent on the bus. {}", dpslave::text(fault_), next));
+    if (std::string why = silent_because(); !why.empty()) notes.push_back(std::move(why));
     if (settings_.address >= 0 && settings_.address <= 2)
         notes.push_back(
             fmt::format("ADDRESS {}: 0, 1 and 2 are usually reserved for PROFIBUS masters and should "
@@ -301,6 +306,13 @@ std::optional<std::uint8_t> DeviceState::address_after(std::string_view paramete
     if (!is_done || after.address == settings_.address) return std::nullopt;
     if (after.address < 0 || after.address > kHighestAddress) return std::nullopt;
     return static_cast<std::uint8_t>(after.address);
+}
+
+std::optional<OptionFault> DeviceState::fault_after(std::string_view parameter, std::string_view value) const
+{
+    tec::Settings after = settings_;
+    if (tec::set(after, parameter, value) != tec::SetResult::done) return std::nullopt;
+    return tec::fault(after, hardware_);
 }
 
 std::vector<Sentence> DeviceState::take_news()

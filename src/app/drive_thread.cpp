@@ -165,10 +165,12 @@ drive::Outcome DriveThread::exchange_with(const Unit& unit, const drive::Transac
         outcome.trouble = trouble_;
         return outcome; // a survey is no trouble
     }
+    // What a person asked for by hand was answered to that person: it says nothing about the plant.
+    const bool is_by_hand = transaction.purpose == drive::Purpose::operate;
     if (transaction.tag != nullptr && transaction.count == 1) {
         if (outcome.error == AccessError::none)
             forget_trouble(unit, transaction);
-        else if (outcome.error != AccessError::no_answer)
+        else if (outcome.error != AccessError::no_answer && !is_by_hand)
             remember_trouble(unit, transaction, outcome.error, backend.last_trouble());
     }
     return outcome;
@@ -183,6 +185,7 @@ void DriveThread::publish()
         drive::UnitSnapshot snapshot = poller_.snapshot(i);
         if (backend_) snapshot.heard = backend_->backend().counts(units_[i].config->unit);
         link.drive_snapshot.publish(snapshot);
+        say_ride(i);
     }
     while (const auto answer = poller_.take_operate_answer()) link_.answers.push(*answer);
     say_link_changes();
@@ -204,6 +207,29 @@ void DriveThread::say_link_changes()
         unit.was_known = true;
         unit.answered = now.answers;
     }
+}
+
+/// The outputs of a lost master stand for a while: a person at the machine has to know that it begins and
+/// how it ends.
+void DriveThread::say_ride(std::size_t index)
+{
+    Unit& unit = units_[index];
+    const auto ends = poller_.snapshot(index).ride_ends;
+    const auto before = std::exchange(unit.ride_ends, ends);
+    if (ends == before) return;
+    const std::string& name = unit.config->name;
+    const Instant now = io::monotonic_now();
+    if (ends == kNever)
+        spdlog::warn("{}: the master is lost; the outputs stand until it returns (RIDE THROUGH)", name);
+    else if (ends)
+        spdlog::warn("{}: the master is lost; the outputs stand for {:.1f} s more (RIDE THROUGH)", name,
+                     std::chrono::duration<double>(*ends - now).count());
+    else if (now >= *before)
+        spdlog::warn("{}: RIDE THROUGH is over: 0 was written to the outputs", name);
+    else if (poller_.safe_state_pending(index))
+        spdlog::warn("{}: RIDE THROUGH was ended: 0 is written to the outputs", name);
+    else
+        spdlog::info("{}: the outputs of RIDE THROUGH are taken over by the master, or were zeroed", name);
 }
 
 /// Said once in the log, shown by `dpctl diag` until the access works. A value that never fits is a new text
@@ -229,7 +255,7 @@ void DriveThread::remember_trouble(const Unit& unit, const drive::Transaction& a
         --troubles_.count;
     }
     Trouble& trouble = troubles_.troubles[troubles_.count++];
-    trouble = {.station = unit.number, .tag = tag, .is_write = is_write, .text = {}};
+    trouble = {.station = unit.number, .tag = tag, .is_write = is_write, .error = cause, .text = {}};
     line.copy(trouble.text.data(), trouble.text.size() - 1);
     link_.troubles.publish(troubles_);
 }

@@ -54,13 +54,15 @@ control::Handlers MainThread::handlers()
         {"GetStatus", [this](const Json&, const control::Caller&) { return on_status(); }},
         {"ListStations",
          [this](const Json&, const control::Caller&) -> Reply {
-             return Done{{{"stations", stations_json(view_)}}};
+             return Done{{{"stations", stations_json(view_, io::monotonic_now())}}};
          }},
         {"GetInfo", each(&MainThread::info_of)},
         {"GetIo", each(&MainThread::io_of)},
         {"GetDiagnosis", each(&MainThread::diagnosis_of)},
         {"GetCounters",
-         [this](const Json&, const control::Caller&) -> Reply { return Done{counters_json(view_)}; }},
+         [this](const Json&, const control::Caller&) -> Reply {
+             return Done{counters_json(view_, io::monotonic_now())};
+         }},
         {"GetLeds", each(&MainThread::leds_of)},
         {"GetTec", [this](const Json& parameters, const control::Caller&) { return on_tec(parameters); }},
         {"Watch", [this](const Json& parameters, const control::Caller&) { return on_watch(parameters); }},
@@ -82,7 +84,7 @@ Reply MainThread::on_status()
 {
     const Instant now = io::monotonic_now();
     return Done{{{"bus", bus_json(view_, now)},
-                 {"stations", stations_json(view_)},
+                 {"stations", stations_json(view_, now)},
                  {"uptime_ms", std::chrono::duration_cast<std::chrono::milliseconds>(now - started_).count()},
                  {"pid", ::getpid()}}};
 }
@@ -181,7 +183,7 @@ Json MainThread::watch_reply(std::optional<std::size_t> station, Instant now) co
     Json words = Json::array();
     for (std::size_t i = 0; i < view_.stations.size(); ++i) {
         if (station && *station != i) continue;
-        stations.push_back(station_json(view_.stations[i]));
+        stations.push_back(station_json(view_.stations[i], now));
         words.push_back({{"name", config_of(i).name}, {"words", words_json(view_.stations[i], now)}});
     }
     return {{"bus", bus_json(view_, now)}, {"stations", std::move(stations)}, {"words", std::move(words)}};
@@ -194,8 +196,9 @@ std::string MainThread::fingerprint(std::optional<std::size_t> station) const
     for (std::size_t i = 0; i < view_.stations.size(); ++i) {
         if (station && *station != i) continue;
         const StationView& one = view_.stations[i];
-        all += fmt::format("{}/{}/{}/{}/{}/{}:", one.address, static_cast<int>(one.bus.state), one.bus.master,
-                           one.drive.known, one.drive.answers, one.line_open);
+        all += fmt::format("{}/{}/{}/{}/{}/{}/{}/{}:", one.address, static_cast<int>(one.bus.state),
+                           one.bus.master, one.bus.clear, one.drive.known, one.drive.answers, one.line_open,
+                           one.drive.ride_ends.has_value());
         for (std::size_t k = 0; k < one.bus.layout.count; ++k)
             all += fmt::format("{}.{}.{}.{};", one.bus.layout.parameters[k].tag, one.bus.inputs[k],
                                one.bus.outputs[k], static_cast<int>(one.drive.states[k]));
@@ -318,21 +321,43 @@ void MainThread::log_unanswered() const
 /// What became of a read or a write.
 Reply MainThread::answer_of(const Asked& asked, const drive::OperateAnswer& answer) const
 {
-    if (answer.error != AccessError::none) {
-        const auto code = dp::demand_code(answer.error);
-        return Error{"DriveRefused",
-                     {{"tag", asked.tag},
-                      {"reason", text(answer.error)},
-                      {"code", code ? Json(*code) : Json(nullptr)}}};
-    }
     const StationConfig& station = *asked.config;
     const drive::Tag* row = station.tags->find(asked.tag);
+    if (answer.error != AccessError::none) {
+        const auto code = dp::demand_code(answer.error);
+        std::string reason{text(answer.error)};
+        if (row == nullptr && answer.error != AccessError::no_answer)
+            reason += fmt::format("; the tag table {} has no line for tag {}: add one with name, type and "
+                                  "decimals, or check the number",
+                                  station.tag_file, asked.tag);
+        return Error{"DriveRefused",
+                     {{"tag", asked.tag},
+                      {"reason", std::move(reason)},
+                      {"code", code ? Json(*code) : Json(nullptr)}}};
+    }
     const std::uint16_t word = asked.is_write ? asked.word : answer.word;
-    return Done{{{"station", station.name},
+    Json done = {{"station", station.name},
                  {"tag", asked.tag},
                  {"name", row != nullptr ? Json(row->name) : Json(nullptr)},
                  {"raw", word},
-                 {"value", shown_value(*station.tags, asked.tag, word)}}};
+                 {"value", shown_value(*station.tags, asked.tag, word)}};
+    if (asked.is_write) {
+        const auto master = master_that_writes(asked.station, asked.tag);
+        done["master"] = master ? Json(*master) : Json(nullptr);
+    }
+    return Done{std::move(done)};
+}
+
+/// The master whose cyclic outputs have this tag; nothing: no master writes it.
+std::optional<std::uint8_t> MainThread::master_that_writes(std::uint32_t station, std::uint16_t tag) const
+{
+    for (const StationView& one : view_.stations) {
+        if (one.number != station || one.bus.state != dp::State::data_exch) continue;
+        for (std::size_t i = 0; i < one.bus.layout.count; ++i)
+            if (one.bus.layout.parameters[i].tag == tag && one.bus.layout.parameters[i].writes)
+                return one.bus.master;
+    }
+    return std::nullopt;
 }
 
 void MainThread::answer_asked()

@@ -57,6 +57,16 @@ Reply MainThread::on_set_tec(const Json& parameters, const control::Caller& who)
             if (i != *choice.station && posts_[i].device.address() == *address)
                 return refused(fmt::format("address {} is that of station {}: choose another", *address,
                                            config_of(i).name));
+    const bool is_sure =
+        parameters.contains("yes") && parameters["yes"].is_boolean() && parameters["yes"].get<bool>();
+    const bool exchanges = view_.stations[*choice.station].bus.state == dp::State::data_exch;
+    if (const auto fault = device.fault_after(parameter, value);
+        exchanges && !is_sure && fault && *fault != OptionFault::none)
+        return Error{"WouldSilence",
+                     {{"station", station.name},
+                      {"parameter", parameter},
+                      {"value", value},
+                      {"reason", fmt::format("FAULT would be {}", dpslave::text(*fault))}}};
     const std::string before = input_value(device, parameter);
     if (const auto reason = device.set(parameter, value)) return refused(*reason);
     spdlog::info("{}: {} set to {} by {}, before {}", station.name, parameter, input_value(device, parameter),

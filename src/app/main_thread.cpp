@@ -152,6 +152,7 @@ void MainThread::tick(Instant now)
 {
     mind_reload();
     refresh();
+    count_recent(now);
     log_news();
     show_lamps(now);
     answer_asked();
@@ -187,11 +188,19 @@ void MainThread::refresh()
         StationLink& link = *posts_[i].station.link;
         if (link.bus_snapshot.fresh()) station.bus = link.bus_snapshot.latest();
         if (link.drive_snapshot.fresh()) station.drive = link.drive_snapshot.latest();
+        station.ever_answered = station.ever_answered || station.drive.answers;
         station.line_open = posts_[i].station.line->link.port_open.load(std::memory_order_relaxed);
         view_.lost_events += link.events.refused();
         refresh_troubles(i);
         follow_device(i);
     }
+}
+
+void MainThread::count_recent(Instant now)
+{
+    if (now < next_count_) return;
+    next_count_ = now + kCountInterval;
+    view_.history.sample(view_, now);
 }
 
 void MainThread::refresh_troubles(std::size_t station)
@@ -200,8 +209,7 @@ void MainThread::refresh_troubles(std::size_t station)
     view.troubles.clear();
     const TroubleList& troubles = posts_[station].station.line->link.troubles.latest();
     for (std::size_t k = 0; k < troubles.count; ++k)
-        if (troubles.troubles[k].station == view.number)
-            view.troubles.emplace_back(troubles.troubles[k].text.data());
+        if (troubles.troubles[k].station == view.number) view.troubles.push_back(troubles.troubles[k]);
 }
 
 /// What the device makes of what is the case now goes to the bus and to the drive line, if it is news.
@@ -211,6 +219,7 @@ void MainThread::follow_device(std::size_t station)
     StationLink& link = *post.station.link;
     post.device.look(view_.stations[station], view_.bus);
     view_.stations[station].address = post.device.address();
+    view_.stations[station].silent_because = post.device.silent_because();
     link.zero_after_ms.store(post.device.zero_after_ms(), std::memory_order_relaxed);
     const BusOrders orders = post.device.bus_orders();
     if (orders == post.ordered) return;

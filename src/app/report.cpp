@@ -50,6 +50,12 @@ std::string_view text(WordState state)
     return "?";
 }
 
+/// "7E1"
+std::string format_text(const LineFormat& format)
+{
+    return fmt::format("{}{}{}", format.data_bits, format.parity, format.stop_bits);
+}
+
 json drive_json(const StationView& station)
 {
     const drive::UnitSnapshot& drive = station.drive;
@@ -58,13 +64,39 @@ json drive_json(const StationView& station)
             {"protocol", station.line->protocol},
             {"unit", station.config->unit_text},
             {"link", link_text(station)},
+            {"port_open", station.line_open},
+            {"ever_answered", station.ever_answered},
+            {"baud", station.line->baud},
+            {"format", format_text(station.line->format)},
+            {"timeout_ms", station.line->timeout.count()},
             {"cycle_ms", drive.cycle.count() > 0 ? json(milliseconds(drive.cycle)) : json(nullptr)},
             {"reads", drive.reads},
             {"writes", drive.writes},
             {"silences", drive.silences},
             {"refusals", drive.refusals},
             {"losses", drive.losses},
-            {"last_trouble", station.troubles.empty() ? json(nullptr) : json(station.troubles.back())}};
+            {"last_trouble",
+             station.troubles.empty() ? json(nullptr) : json(station.troubles.back().text.data())}};
+}
+
+/// Null: the outputs do not outlive a master. `ends_in_ms` null: they do for ever.
+json ride_json(const StationView& station, Instant now)
+{
+    const auto ends = station.drive.ride_ends;
+    if (!ends) return nullptr;
+    return {{"ends_in_ms", *ends == kNever ? json(nullptr) : json(milliseconds(std::max(*ends, now) - now))}};
+}
+
+json unanswered_json(const View& view, Instant now)
+{
+    json all = json::array();
+    for (const fdl::UnansweredAddress& one : view.bus.unanswered)
+        if (one.requests != 0)
+            all.push_back({{"address", one.address},
+                           {"master", one.master},
+                           {"requests", one.requests},
+                           {"age_ms", milliseconds(now - one.last)}});
+    return all;
 }
 
 /// The four registers of Demand Data in words: commands 1 and 2 have the tag in register 1, 3 and 4 in
@@ -105,6 +137,14 @@ std::string names_of_values(const drive::Tag& tag)
         names += (names.empty() ? " or one of " : ", ") + label.text;
     }
     return names;
+}
+
+/// "an INT", "a WORD".
+std::string with_article(std::string_view type)
+{
+    const bool is_vowel =
+        !type.empty() && std::string_view{"AEIOU"}.find(type.front()) != std::string_view::npos;
+    return fmt::format("{} {}", is_vowel ? "an" : "a", type);
 }
 
 /// As a controller shows it in its Comms list (C-007).
@@ -152,12 +192,18 @@ json bus_json(const View& view, Instant now)
     return {{"port", view.config->bus.port},
             {"baud", static_cast<std::uint32_t>(view.bus.baud)},
             {"baud_state", fdl::text(view.bus.baud_state)},
+            {"configured_baud", view.config->bus.baud
+                                    ? json(static_cast<std::uint32_t>(*view.config->bus.baud))
+                                    : json(nullptr)},
+            {"port_open", view.bus.port_open},
+            {"driver_works", view.bus.driver_works},
+            {"unanswered", unanswered_json(view, now)},
             {"stations", view.stations.size()},
             {"exchanging", exchanging},
             {"last_telegram_age_ms", age_json(view.bus.last_telegram, now)}};
 }
 
-json station_json(const StationView& station)
+json station_json(const StationView& station, Instant now)
 {
     const dp::Snapshot& bus = station.bus;
     return {{"name", station.config->name},
@@ -171,6 +217,9 @@ json station_json(const StationView& station)
             {"groups", bus.groups},
             {"sync", bus.sync},
             {"freeze", bus.freeze},
+            {"clear", bus.clear},
+            {"ride", ride_json(station, now)},
+            {"silent_because", station.silent_because.empty() ? json(nullptr) : json(station.silent_because)},
             {"stat_diag", bus.stat_diag},
             {"diag_pending", bus.diag_pending},
             {"parameters", bus.layout.count},
@@ -178,13 +227,15 @@ json station_json(const StationView& station)
             {"left_count", bus.counters.left_data_exchange},
             {"left_because",
              bus.left_because == dp::LeaveReason::none ? json(nullptr) : json(dp::text(bus.left_because))},
+            {"left_code",
+             bus.left_because == dp::LeaveReason::none ? json(nullptr) : json(code(bus.left_because))},
             {"drive", drive_json(station)}};
 }
 
-json stations_json(const View& view)
+json stations_json(const View& view, Instant now)
 {
     json all = json::array();
-    for (const StationView& one : view.stations) all.push_back(station_json(one));
+    for (const StationView& one : view.stations) all.push_back(station_json(one, now));
     return all;
 }
 
@@ -277,9 +328,13 @@ json io_json(const StationView& station, Instant now)
         demand = {{"request", bus.demand_request},
                   {"reply", bus.demand_reply},
                   {"words", demand_words(*station.config, bus.demand_request, bus.demand_reply)}};
-    return {{"name", station.config->name},      {"address", station.address},
-            {"state", dp::text(bus.state)},      {"may_write", bus.may_write},
-            {"words", words_json(station, now)}, {"demand", demand}};
+    return {{"name", station.config->name},
+            {"address", station.address},
+            {"state", dp::text(bus.state)},
+            {"may_write", bus.may_write},
+            {"clear", bus.clear},
+            {"words", words_json(station, now)},
+            {"demand", demand}};
 }
 
 std::string status_line(const View& view)
@@ -288,12 +343,26 @@ std::string status_line(const View& view)
         std::count_if(view.stations.begin(), view.stations.end(),
                       [](const StationView& one) { return one.bus.state == dp::State::data_exch; });
     std::string line = fmt::format("{} of {} in Data_Exch", exchanging, view.stations.size());
+    if (view.bus.valid && !view.bus.port_open) line += "; port of the bus gone";
     for (const StationView& one : view.stations) {
         line += fmt::format("; {}: {}", one.config->name, dp::text(one.bus.state));
         if (one.bus.master != 0xFF) line += fmt::format(" with master {}", one.bus.master);
-        if (one.drive.known && !one.drive.answers) line += ", drive silent";
+        if (one.bus.clear) line += " in Clear";
+        if (one.drive.ride_ends) line += ", RIDE THROUGH";
+        if (!one.line_open)
+            line += ", port of the drive gone";
+        else if (one.drive.known && !one.drive.answers)
+            line += ", drive silent";
     }
     return line;
+}
+
+/// HEALTH and RUN of a technology box mirror a bit of the drive, where one is configured.
+bool is_fed(const StationConfig& station, std::string_view lamp)
+{
+    if (!station.tec) return true;
+    if (lamp == "health") return station.tec->health.tag != 0;
+    return lamp != "run" || station.tec->run.tag != 0;
 }
 
 json leds_json(const StationConfig& station, const led::Condition& condition, Instant now)
@@ -302,10 +371,12 @@ json leds_json(const StationConfig& station, const led::Condition& condition, In
     for (const led::Lamp& lamp : led::lamps(station.profile->leds, condition)) {
         const auto wired = std::find_if(station.leds.begin(), station.leds.end(),
                                         [&lamp](const LedConfig& one) { return one.lamp == lamp.name; });
+        const bool has_source = is_fed(station, lamp.name);
         leds.push_back({{"name", lamp.name},
                         {"sink", wired == station.leds.end() ? "none" : wired->sink},
                         {"lit", led::lit(lamp.pattern, now)},
-                        {"pattern", led::words(station.profile->leds, lamp.pattern)}});
+                        {"pattern", has_source ? led::words(station.profile->leds, lamp.pattern)
+                                               : "not configured: no bit of the drive feeds it"}});
     }
     return {
         {"name", station.name}, {"meaning", led::meaning(station.profile->leds, condition)}, {"leds", leds}};
@@ -321,9 +392,10 @@ std::string bad_value_words(const drive::Tag& tag, AccessError error)
             if (tag.min && tag.max) return fmt::format("takes {} to {}", limit(*tag.min), limit(*tag.max));
             return "does not fit into 16 bit with the decimals of the tag table";
         case AccessError::unsupported_type:
-            return fmt::format("{} is a {}, which is not transported", tag.name, drive::text(tag.type));
+            return fmt::format("{} is {}, which is not transported", tag.name,
+                               with_article(drive::text(tag.type)));
         default:
-            return fmt::format("takes a {}{}{}", drive::text(tag.type),
+            return fmt::format("takes {}{}{}", with_article(drive::text(tag.type)),
                                tag.decimals > 0 ? fmt::format(" with up to {} decimals", tag.decimals)
                                                 : std::string{},
                                names_of_values(tag));
@@ -336,6 +408,7 @@ json diagnosis_json(const StationView& station)
     if (station.bus.refusal.why != dp::Refusal::none) {
         const Explanation why = explain(station.bus.refusal);
         refusal = {
+            {"code", code(station.bus.refusal.why)},
             {"telegram", why.telegram},
             {"what", why.what},
             {"octet", station.bus.refusal.octet == 0 ? json(nullptr) : json(station.bus.refusal.octet)},
@@ -350,7 +423,14 @@ json diagnosis_json(const StationView& station)
     if (station.config->tec && station.config->tec->trip.bit.tag == 0)
         trouble.push_back("trips are not known: no tag tells them, so \"no trip\" above means nothing; set "
                           "trip_tag in [station.tec]");
-    for (const std::string& one : station.troubles) trouble.push_back(one);
+    json refused = json::array();
+    for (const Trouble& one : station.troubles) {
+        trouble.push_back(one.text.data());
+        refused.push_back({{"tag", one.tag},
+                           {"write", one.is_write},
+                           {"code", code(one.error)},
+                           {"text", one.text.data()}});
+    }
 
     json result = diagnosis_octets_json(*station.config, station.bus.diagnosis.bytes());
     result["name"] = station.config->name;
@@ -361,6 +441,7 @@ json diagnosis_json(const StationView& station)
     result["last_prm"] = hex(station.bus.prm.bytes());
     result["last_cfg"] = hex(station.bus.cfg.bytes());
     result["trouble"] = trouble;
+    result["refused"] = refused;
     return result;
 }
 

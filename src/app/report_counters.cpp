@@ -4,28 +4,36 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace dpslave::app {
 
 using nlohmann::json;
 
 namespace {
 
-void add(json& counters, std::string_view name, std::uint64_t value, std::string_view meaning)
+struct Counter {
+    std::string name;
+    std::uint64_t value = 0;
+    std::string_view meaning;
+};
+struct Group {
+    std::string name;
+    std::vector<Counter> counters; ///< the same in the same order each time
+};
+
+void add(std::vector<Counter>& counters, std::string name, std::uint64_t value, std::string_view meaning)
 {
-    counters.push_back({{"name", name}, {"value", value}, {"meaning", meaning}});
+    counters.push_back({std::move(name), value, meaning});
 }
 
-json group(std::string name, json counters)
-{
-    return {{"name", std::move(name)}, {"counters", std::move(counters)}};
-}
-
-json bus_counters(const View& view)
+Group bus_counters(const View& view)
 {
     const fdl::Counters& fdl = view.bus.counters;
-    json c = json::array();
+    std::vector<Counter> c;
     add(c, "octets", fdl.octets, "received");
     add(c, "telegrams", fdl.telegrams, "valid ones, of anybody");
+    add(c, "checked", fdl.checked, "those of them that have a checksum: noise cannot make them");
     add(c, "requests", fdl.requests, "to one of our addresses or to all");
     add(c, "replies", fdl.replies, "sent");
     add(c, "retries", fdl.retries, "answered with the stored reply: the master had not heard the first one");
@@ -53,14 +61,14 @@ json bus_counters(const View& view)
     add(c, "search_flaws", fdl.search_flaws,
         "the same while the rate was searched: at a rate that is not the bus's all telegrams are none");
     add(c, "lost_events", view.lost_events, "events that the log could not take");
-    return group("bus", std::move(c));
+    return {"bus", std::move(c)};
 }
 
-json station_counters(const StationView& station)
+Group station_counters(const StationView& station)
 {
     const dp::Counters& dp = station.bus.counters;
     const drive::UnitSnapshot& drive = station.drive;
-    json c = json::array();
+    std::vector<Counter> c;
     add(c, "data_exchange", dp.data_exchange, "Data_Exchange telegrams carried out");
     add(c, "slave_diag", dp.slave_diag, "");
     add(c, "set_prm", dp.set_prm, "");
@@ -81,6 +89,8 @@ json station_counters(const StationView& station)
     add(c, "drive_writes", drive.writes, "");
     add(c, "drive_silences", drive.silences, "transactions without answer");
     add(c, "drive_refusals", drive.refusals, "transactions that the drive refused");
+    add(c, "drive_not_understood", drive.not_understood,
+        "those of them that the drive could not take: noise on the way to it, or a wrong format");
     add(c, "drive_losses", drive.losses, "times the drive was given up until it answered again");
     add(c, "drive_damaged", drive.heard.damaged, "answers with a wrong check sum, a parity fault or no form");
     add(c, "drive_late", drive.heard.late, "answers that came after their time-out");
@@ -92,7 +102,29 @@ json station_counters(const StationView& station)
     add(c, "demand_orders_lost", dp.orders_lost, "Demand Data orders that the bus side had no room for");
     add(c, "drive_orders_dropped", drive.orders_dropped,
         "Demand Data writes that no longer stood when they could have been carried out");
-    return group(station.config->name, std::move(c));
+    return {station.config->name, std::move(c)};
+}
+
+/// The bus first, then each station.
+std::vector<Group> groups_of(const View& view)
+{
+    std::vector<Group> groups{bus_counters(view)};
+    for (const StationView& one : view.stations) groups.push_back(station_counters(one));
+    return groups;
+}
+
+json counter_json(const Counter& counter, const RecentCount* recent, Instant now)
+{
+    const auto age = [now](Instant then) {
+        if (then == Instant{}) return json(nullptr);
+        return json(std::chrono::duration<double, std::milli>(now - then).count());
+    };
+    return {{"name", counter.name},
+            {"value", counter.value},
+            {"meaning", counter.meaning},
+            {"minute", recent != nullptr ? recent->in_span() : 0},
+            {"last_age_ms", recent != nullptr ? age(recent->last()) : json(nullptr)},
+            {"since_age_ms", recent != nullptr ? age(recent->since()) : json(nullptr)}};
 }
 
 json distribution(std::string_view unit, const Histogram& counted)
@@ -117,11 +149,43 @@ json distribution(std::string_view unit, const Histogram& counted)
 
 } // namespace
 
-json counters_json(const View& view)
+void CounterHistory::sample(const View& view, Instant now)
+{
+    std::vector<std::vector<RecentCount>> next;
+    const std::vector<Group> groups = groups_of(view);
+    std::vector<std::uint32_t> owners{kOfBus};
+    for (const StationView& one : view.stations) owners.push_back(one.number);
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        const auto known = std::find(owners_.begin(), owners_.end(), owners[i]);
+        std::vector<RecentCount>& counts = next.emplace_back(
+            known != owners_.end() ? std::move(counts_[static_cast<std::size_t>(known - owners_.begin())])
+                                   : std::vector<RecentCount>{});
+        counts.resize(groups[i].counters.size());
+        for (std::size_t k = 0; k < counts.size(); ++k) counts[k].sample(groups[i].counters[k].value, now);
+    }
+    owners_ = std::move(owners);
+    counts_ = std::move(next);
+}
+
+const RecentCount* CounterHistory::find(std::uint32_t owner, std::size_t counter) const
+{
+    const auto known = std::find(owners_.begin(), owners_.end(), owner);
+    if (known == owners_.end()) return nullptr;
+    const std::vector<RecentCount>& counts = counts_[static_cast<std::size_t>(known - owners_.begin())];
+    return counter < counts.size() ? &counts[counter] : nullptr;
+}
+
+json counters_json(const View& view, Instant now)
 {
     json groups = json::array();
-    groups.push_back(bus_counters(view));
-    for (const StationView& one : view.stations) groups.push_back(station_counters(one));
+    const std::vector<Group> all = groups_of(view);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const std::uint32_t owner = i == 0 ? CounterHistory::kOfBus : view.stations[i - 1].number;
+        json counters = json::array();
+        for (std::size_t k = 0; k < all[i].counters.size(); ++k)
+            counters.push_back(counter_json(all[i].counters[k], view.history.find(owner, k), now));
+        groups.push_back({{"name", all[i].name}, {"counters", std::move(counters)}});
+    }
     json turnaround = json::array();
     turnaround.push_back(distribution("us", view.bus.turnaround_us));
     turnaround.push_back(distribution("T_bit", view.bus.turnaround_tbit));

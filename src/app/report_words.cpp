@@ -120,6 +120,63 @@ Explanation explain(const dp::RefusalDetail& refusal)
     return result;
 }
 
+std::string_view code(dp::Refusal why) noexcept
+{
+    using enum dp::Refusal;
+    switch (why) {
+        case none: return "none";
+        case prm_ident: return "prm_ident";
+        case prm_watchdog: return "prm_watchdog";
+        case prm_not_supported: return "prm_not_supported";
+        case prm_length: return "prm_length";
+        case prm_dpv1: return "prm_dpv1";
+        case prm_tag_too_large: return "prm_tag_too_large";
+        case prm_zero_tag: return "prm_zero_tag";
+        case cfg_empty: return "cfg_empty";
+        case cfg_too_long: return "cfg_too_long";
+        case cfg_identifier: return "cfg_identifier";
+        case cfg_too_few: return "cfg_too_few";
+        case cfg_too_many: return "cfg_too_many";
+        case cfg_changed: return "cfg_changed";
+    }
+    return "?";
+}
+
+std::string_view code(dp::LeaveReason reason) noexcept
+{
+    using enum dp::LeaveReason;
+    switch (reason) {
+        case none: return "none";
+        case prm_fault: return "prm_fault";
+        case not_supported: return "not_supported";
+        case cfg_fault: return "cfg_fault";
+        case watchdog: return "watchdog";
+        case unlock: return "unlock";
+        case output_length: return "output_length";
+        case new_parameters: return "new_parameters";
+        case stop: return "stop";
+    }
+    return "?";
+}
+
+std::string_view code(AccessError error) noexcept
+{
+    using enum AccessError;
+    switch (error) {
+        case none: return "none";
+        case no_answer: return "no_answer";
+        case not_understood: return "not_understood";
+        case invalid_tag: return "invalid_tag";
+        case read_only: return "read_only";
+        case out_of_range: return "out_of_range";
+        case not_stopped: return "not_stopped";
+        case not_config_mode: return "not_config_mode";
+        case unsupported_type: return "unsupported_type";
+        case value_not_encoded: return "value_not_encoded";
+    }
+    return "?";
+}
+
 std::string sentence(const std::string& station, const dp::Event& event)
 {
     using Kind = dp::Event::Kind;

@@ -266,6 +266,7 @@ Snapshot Slave::snapshot() const
                   .groups = prm_.groups,
                   .sync = sync_,
                   .freeze = freeze_,
+                  .clear = clear_told_,
                   .stat_diag = stat_diag_,
                   .holds = holds(),
                   .diag_pending = diag_pending_,

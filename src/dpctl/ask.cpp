@@ -31,7 +31,7 @@ int tell(const control::ReplyMessage& error, const Options& options, Terminal& t
     const control::ReplyMessage shown{printable_texts(error.parameters), printable(error.error),
                                       error.continues};
     terminal.err << "dpctl: " << explain(shown) << '\n';
-    return kNo;
+    return error.error == "org.dpslaved.Control.NoSuchStation" ? kUsage : kNo;
 }
 
 Result<Json, int> ask(const Options& options, Terminal& terminal, std::string_view method,

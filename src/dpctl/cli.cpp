@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <string_view>
 
 namespace dpslave::dpctl {
 namespace {
@@ -22,8 +23,10 @@ enum class Needs { daemon, daemon_to_judge, machine, files };
 constexpr const char* exits_of(Needs needs)
 {
     switch (needs) {
-        case Needs::daemon: return "0 fine, 1 refused, faulty or not so, 2 usage, 3 no daemon.";
-        case Needs::daemon_to_judge: return "0 all is well, 1 something was found, 2 usage, 3 no daemon.";
+        case Needs::daemon:
+            return "0 fine, 1 refused, faulty or not so, 2 usage or no such station, 3 no daemon.";
+        case Needs::daemon_to_judge:
+            return "0 all is well, 1 something was found, 2 usage or no such station, 3 no daemon.";
         case Needs::machine:
             return "0 fine, 1 the rate of the bus cannot be held or something must be mended,\n"
                    "2 usage, 3 no PORT and no daemon.";
@@ -47,6 +50,7 @@ void station_argument(CLI::App&, Options&);
 void tag_argument(CLI::App&, Options&);
 void tag_and_value_arguments(CLI::App&, Options&);
 void tec_arguments(CLI::App&, Options&);
+void exchanging_arguments(CLI::App&, Options&);
 void doctor_arguments(CLI::App&, Options&);
 void query_arguments(CLI::App&, Options&);
 void port_argument(CLI::App&, Options&);
@@ -69,6 +73,9 @@ constexpr std::array kSubcommands = std::to_array<Subcommand>({
     {"doctor", "Names the likely cause of a fault and the next step", kDoctorJson, Needs::daemon_to_judge,
      "dpctl doctor            every station\n"
      "dpctl doctor unwinder   this one\n"
+     "dpctl doctor --probe    looks for a drive that was never heard: other rates, formats, units (root and "
+     "the "
+     "operator group)\n"
      "dpctl doctor --all      all rules, for lamps and symptoms that you see; needs no daemon",
      doctor_arguments, do_doctor},
     {"tune", "What this machine can promise at each rate, and what would make it better", kTuneJson,
@@ -106,7 +113,9 @@ constexpr std::array kSubcommands = std::to_array<Subcommand>({
     {"version", "Versions of dpctl and of the daemon", "GetVersion", Needs::daemon, "", no_arguments,
      do_version},
     {"is-exchanging", "For scripts: 0 when all stations, or this one, are in Data_Exch, 1 when not",
-     "ListStations", Needs::daemon, "", station_argument, do_is_exchanging},
+     "ListStations", Needs::daemon,
+     "dpctl is-exchanging --healthy   and their drives answer, and no master is in Clear",
+     exchanging_arguments, do_is_exchanging},
     {"tag", "Looks a parameter of a drive up in the tag tables, by number or by words", kTagJson,
      Needs::files,
      "dpctl tag                            the tables that are shipped\n"
@@ -123,6 +132,7 @@ constexpr std::array kSubcommands = std::to_array<Subcommand>({
      number_arguments, do_hex},
     {"decode", "A PROFIBUS telegram or a diagnosis in words", kDecodeJson, Needs::files,
      "dpctl decode 68 05 05 68 85 82 6D 3C 3E EE 16\n"
+     "dpctl decode --as prm 88 01 0A 0B 05 33 00    octets as dpctl diag prints them\n"
      "dpctl decode 00 0C 00 01 16 49 04 01 6A B5 --profile 605",
      octet_arguments, do_decode},
 });
@@ -143,7 +153,7 @@ constexpr const char* kFooter =
     "  0  fine\n"
     "  1  refused by the daemon or the drive, a faulty answer or input, not found, or not so (is-exchanging, "
     "doctor, survey, tune)\n"
-    "  2  usage\n"
+    "  2  usage, or there is no such station\n"
     "  3  no daemon";
 
 /// "--json prints ...", the examples, the exit codes.
@@ -221,6 +231,7 @@ void tec_arguments(CLI::App& app, Options& options)
         ->required()
         ->type_name("");
     station_option(set, options);
+    set.add_flag("--yes", options.yes, "Also if it silences a station that is in exchange");
     add_common(set, options);
     set.callback([&options] { options.set = true; });
 }
@@ -228,7 +239,18 @@ void tec_arguments(CLI::App& app, Options& options)
 void doctor_arguments(CLI::App& app, Options& options)
 {
     station_argument(app, options);
-    app.add_flag("--all", options.all, "Print every rule: lamps and symptoms, causes, steps");
+    auto* all = app.add_flag("--all", options.all, "Print every rule: lamps and symptoms, causes, steps");
+    app.add_flag("--probe", options.probe,
+                 "Let the daemon look for the drive on its line: other rates, formats and units")
+        ->excludes(all);
+    app.add_flag("--yes", options.yes, "With --probe: also while a station of this line is in exchange");
+}
+
+void exchanging_arguments(CLI::App& app, Options& options)
+{
+    station_argument(app, options);
+    app.add_flag("--healthy", options.healthy,
+                 "Count a station only if its drive answers and its master is not in Clear");
 }
 
 void port_argument(CLI::App& app, Options& options)
@@ -275,6 +297,9 @@ void octet_arguments(CLI::App& app, Options& options)
     app.add_option("HEX", options.words, "Octets: 10 05 02 49 50 16, with or without blanks")
         ->required()
         ->type_name("");
+    app.add_option("--as", options.form, "The octets are those of a Set_Prm, a Chk_Cfg or a Slave_Diag")
+        ->type_name("prm|cfg|diag")
+        ->check(CLI::IsMember({"prm", "cfg", "diag"}).description(""));
     profile_options(app, options, "Take tags, modules and the extended diagnosis for those of this device");
 }
 
@@ -305,6 +330,52 @@ void survey_arguments(CLI::App& app, Options& options)
     app.add_flag("--resume", options.resume, "Go on where the survey before this one ended");
 }
 
+/// How many letters are to be changed, added or left out to make the one of the other.
+std::size_t distance(std::string_view one, std::string_view other)
+{
+    std::vector<std::size_t> row(other.size() + 1);
+    for (std::size_t i = 0; i <= other.size(); ++i) row[i] = i;
+    for (std::size_t i = 1; i <= one.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t k = 1; k <= other.size(); ++k) {
+            const std::size_t changed = diagonal + (one[i - 1] == other[k - 1] ? 0 : 1);
+            diagonal = row[k];
+            row[k] = std::min({row[k] + 1, row[k - 1] + 1, changed});
+        }
+    }
+    return row.back();
+}
+
+/// Says which command was perhaps meant, where the word in its place is none.
+void suggest(const CLI::App& app, const std::vector<std::string>& arguments, Terminal& terminal)
+{
+    constexpr std::size_t kNear = 3;
+    const CLI::App* level = &app;
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        const std::string& word = arguments[i];
+        if (word == "--socket" || word == "--timeout") ++i; // their values
+        if (word.empty() || word.front() == '-' || i >= arguments.size()) continue;
+        const auto commands = level->get_subcommands([](const CLI::App*) { return true; });
+        if (commands.empty()) return;
+        const CLI::App* nearest = nullptr;
+        std::size_t least = kNear;
+        for (const CLI::App* command : commands) {
+            const std::size_t far = distance(word, command->get_name());
+            if (far < least) nearest = command;
+            least = std::min(least, far);
+        }
+        if (nearest != nullptr && least == 0) {
+            level = nearest;
+            continue;
+        }
+        if (nearest != nullptr)
+            terminal.err << "dpctl: there is no command '" << word << "'; did you mean '"
+                         << nearest->get_name() << "'?\n";
+        return;
+    }
+}
+
 /// CLI11 takes -12.5 as a number, but -.5 as an option.
 std::string with_leading_zero(std::string argument)
 {
@@ -321,6 +392,7 @@ int run(const std::vector<std::string>& arguments, Terminal& terminal)
     CLI::App app{"Shows and operates a running dpslaved, the PROFIBUS-DP slave.", "dpctl"};
     app.footer(kFooter);
     app.require_subcommand(1);
+    app.set_version_flag("--version", "dpctl " DPSLAVE_VERSION);
     add_common(app, options);
     Action chosen;
     for (const Subcommand& subcommand : kSubcommands) {
@@ -336,6 +408,7 @@ int run(const std::vector<std::string>& arguments, Terminal& terminal)
         std::transform(reversed.begin(), reversed.end(), reversed.begin(), with_leading_zero);
         app.parse(std::move(reversed));
     } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() != 0) suggest(app, arguments, terminal);
         return app.exit(error, terminal.out, terminal.err) == 0 ? kFine : kUsage;
     }
     if (options.json && app.got_subcommand("gsd")) {

@@ -106,6 +106,35 @@ std::vector<Decoded> decode_all(Bytes octets, DecodeContext context)
     return parts;
 }
 
+std::optional<Form> form_called(std::string_view name)
+{
+    if (name == "prm") return Form::set_prm;
+    if (name == "cfg") return Form::chk_cfg;
+    if (name == "diag") return Form::slave_diag;
+    return std::nullopt;
+}
+
+Decoded decode_as(Form form, Bytes octets, DecodeContext context)
+{
+    Decoded decoded;
+    decoded.hex = hex(octets);
+    switch (form) {
+        case Form::set_prm:
+            decoded.kind = "Set_Prm";
+            decode_set_prm(octets, context, decoded);
+            break;
+        case Form::chk_cfg:
+            decoded.kind = "Chk_Cfg";
+            decode_cfg(octets, context, true, decoded);
+            break;
+        case Form::slave_diag:
+            decoded.kind = "Slave_Diag";
+            decode_diagnosis(octets, context, decoded);
+            break;
+    }
+    return decoded;
+}
+
 Json decoded_json(const std::vector<Decoded>& parts)
 {
     Json list = Json::array();
@@ -125,22 +154,21 @@ Json decoded_json(const std::vector<Decoded>& parts)
     return {{"parts", list}};
 }
 
-std::string render_decoded(const std::vector<Decoded>& parts, bool colour)
+std::string render_decoded(const std::vector<Decoded>& parts, Look look)
 {
     std::string out;
     for (const Decoded& part : parts) {
-        out += (out.empty() ? "" : "\n") + painted(part.kind, Tone::strong, colour) + '\n';
+        out += (out.empty() ? "" : "\n") + painted(part.kind, Tone::strong, look) + '\n';
         Block block;
         block.add("octets", part.hex);
         for (const Decoded::Line& line : part.lines) block.add(line.name, line.value);
-        out += block.str();
+        out += block.str(2, look);
         Table table({">OCTET", ">OFFSET", "VALUE", "MEANING"});
         for (const Decoded::Octet& o : part.octets)
             table.add({std::to_string(o.octet), std::to_string(o.octet - 1), fmt::format("0x{:02X}", o.value),
                        o.meaning});
-        if (!table.empty()) out += table.str(colour, 2);
-        for (const std::string& fault : part.faults)
-            out += "  " + painted("wrong: " + fault, Tone::bad, colour) + '\n';
+        if (!table.empty()) out += table.str(look, 2);
+        for (const std::string& fault : part.faults) out += paragraph("  wrong: ", fault, look.width);
     }
     return out;
 }
@@ -162,9 +190,12 @@ int do_decode(const Options& options, Terminal& terminal)
         }
         device = *std::move(loaded);
     }
-    const auto parts = decode_all(*octets, {.device = device ? &*device : nullptr, .tags = {}});
+    const DecodeContext context{.device = device ? &*device : nullptr, .tags = {}};
+    const auto form = form_called(options.form); // another name does not pass the command line
+    const auto parts =
+        form ? std::vector<Decoded>{decode_as(*form, *octets, context)} : decode_all(*octets, context);
     terminal.out << (options.json ? json_text(decoded_json(parts)) + '\n'
-                                  : render_decoded(parts, terminal.colour));
+                                  : render_decoded(parts, terminal.look()));
     const bool sound =
         std::all_of(parts.begin(), parts.end(), [](const Decoded& part) { return part.faults.empty(); });
     return sound ? kFine : kNo;

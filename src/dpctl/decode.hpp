@@ -3,6 +3,7 @@
 #pragma once
 
 #include "fields.hpp"
+#include "table.hpp"
 
 #include "dpslave/base/bytes.hpp"
 #include "dpslave/base/result.hpp"
@@ -46,8 +47,14 @@ Result<std::vector<std::uint8_t>, std::string> read_octets(const std::vector<std
 /// Telegrams back to back, else one diagnosis of six octets or more, else blocks of an extended diagnosis.
 std::vector<Decoded> decode_all(Bytes octets, DecodeContext context);
 
+/// Octets without a telegram around them, as `dpctl diag` prints them.
+enum class Form : std::uint8_t { set_prm, chk_cfg, slave_diag };
+/// "prm", "cfg", "diag".
+std::optional<Form> form_called(std::string_view name);
+Decoded decode_as(Form form, Bytes octets, DecodeContext context);
+
 Json decoded_json(const std::vector<Decoded>& parts);
-std::string render_decoded(const std::vector<Decoded>& parts, bool colour);
+std::string render_decoded(const std::vector<Decoded>& parts, Look look);
 
 // Parts of the work, each in its own file.
 /// One frame; `frame` has the length that its head promises, or less.

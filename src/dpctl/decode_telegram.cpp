@@ -223,12 +223,33 @@ void decode_reply(const Telegram& telegram, const DecodeContext& context, Decode
     }
 }
 
+/// Function codes that the table of the standard has (wire reference 2.3 and 2.4).
+bool is_known_function(const Telegram& telegram)
+{
+    const std::string_view words =
+        telegram.is_request() ? kRequests[telegram.fc & 0x0FU] : kReplies[telegram.fc & 0x0FU];
+    return words != "reserved";
+}
+
+void check_fc(const Telegram& telegram, Decoded& into)
+{
+    if ((telegram.fc & 0x80) != 0)
+        into.faults.push_back(fmt::format(
+            "bit 7 of FC 0x{:02X} is set: no DP telegram has it, a slave is silent", telegram.fc));
+    if (!is_known_function(telegram))
+        into.faults.push_back(
+            fmt::format("the function code {} of FC 0x{:02X} is reserved", telegram.fc & 0x0FU, telegram.fc));
+}
+
 void check_addresses(const Telegram& telegram, Decoded& into)
 {
     if (!telegram.has_fc()) return;
+    if (telegram.sa == telegram.da)
+        into.faults.push_back(
+            fmt::format("sender and receiver are both {}: no station talks to itself", telegram.sa));
     if (telegram.da == fdl::kBroadcast && telegram.is_request() &&
         telegram.function() != fdl::Function::sdn_low && telegram.function() != fdl::Function::sdn_high)
-        into.faults.push_back("127 is only for telegrams that nobody answers (SDN)");
+        into.faults.push_back("127 is only for telegrams without an answer (SDN)");
     if (telegram.da == fdl::kBroadcast && !telegram.is_request())
         into.faults.push_back("no reply goes to all");
     if (telegram.dsap.has_value() != telegram.ssap.has_value())
@@ -260,6 +281,7 @@ void describe(const Telegram& telegram, DecodeContext& context, Decoded& into)
             {"DSAP, SSAP", telegram.is_request()
                                ? sap_words(telegram.dsap) + ", " + masters_sap(telegram.ssap)
                                : masters_sap(telegram.dsap) + ", " + sap_words(telegram.ssap)});
+    check_fc(telegram, into);
     check_addresses(telegram, into);
     if (telegram.is_request())
         decode_request(telegram, context, into);

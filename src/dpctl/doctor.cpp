@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 namespace dpslave::dpctl {
@@ -25,6 +26,26 @@ Family family_of(const Json& info, const Json& tec)
 {
     if (!tec.empty()) return Family::technology_box;
     return text(info, "comms_status", "").empty() ? Family::option_board : Family::controller;
+}
+
+/// The counters of a station: the first group is that of the bus, whatever a station is called.
+const Json& group_of(const Json& counters, const std::string& name)
+{
+    static const Json nothing = Json::object();
+    bool is_bus = true;
+    for (const Json& group : list(counters, "groups"))
+        if (!std::exchange(is_bus, false) && text(group, "name") == name) return group;
+    return nothing;
+}
+
+/// The first causes of each station and of the bus, and all notes.
+std::vector<Finding> without_the_least(std::vector<Finding> findings)
+{
+    std::map<std::string, std::size_t> causes;
+    std::erase_if(findings, [&](const Finding& one) {
+        return one.rule->rank != Rank::note && ++causes[one.station] > kMostCauses;
+    });
+    return findings;
 }
 
 bool is_known(const Json& status, const std::string& wanted)
@@ -50,8 +71,8 @@ std::vector<Finding> diagnose(const Replies& replies, const std::string& wanted)
     std::vector<Finding> findings;
     for (const Rule& rule : rules()) {
         if (rule.scope == Scope::bus) {
-            const Facts facts{bus,     counters, uptime, Family::option_board, nothing, nothing,
-                              nothing, nothing,  nothing};
+            const Facts facts{replies, bus,     counters, uptime, Family::option_board, nothing, nothing,
+                              nothing, nothing, nothing,  nothing};
             if (std::string seen = rule.seen(facts); !seen.empty())
                 findings.push_back({"", &rule, std::move(seen)});
             continue;
@@ -61,11 +82,13 @@ std::vector<Finding> diagnose(const Replies& replies, const std::string& wanted)
             const std::string name = text(station, "name");
             const Json& info = named(list(replies.info, "stations"), name);
             const Json& tec = named(list(replies.tec, "stations"), name);
-            const Facts facts{bus,
+            const Facts facts{replies,
+                              bus,
                               counters,
                               uptime,
                               family_of(info, tec),
                               station,
+                              group_of(replies.counters, name),
                               info,
                               named(list(replies.diagnosis, "stations"), name),
                               tec,
@@ -74,7 +97,10 @@ std::vector<Finding> diagnose(const Replies& replies, const std::string& wanted)
                 findings.push_back({name, &rule, std::move(seen)});
         }
     }
-    return findings;
+    std::stable_sort(findings.begin(), findings.end(), [](const Finding& one, const Finding& other) {
+        return one.rule->rank < other.rule->rank;
+    });
+    return without_the_least(std::move(findings));
 }
 
 std::optional<LineLimit> line_limit(const Json& bus)
@@ -89,7 +115,7 @@ std::optional<LineLimit> line_limit(const Json& bus)
 int do_doctor(const Options& options, Terminal& terminal)
 {
     if (options.all) {
-        terminal.out << (options.json ? json_text(rules_json()) + '\n' : render_rules(terminal.colour));
+        terminal.out << (options.json ? json_text(rules_json()) + '\n' : render_rules(terminal.look()));
         return kFine;
     }
     Replies replies;
@@ -114,14 +140,16 @@ int do_doctor(const Options& options, Terminal& terminal)
         terminal.err << (options.station.empty()
                              ? std::string{"dpctl: there is no station\n"}
                              : fmt::format("dpctl: there is no station '{}'\n", options.station));
-        return kNo;
+        return options.station.empty() ? kNo : kUsage;
     }
     const std::vector<Finding> findings = diagnose(replies, options.station);
-    terminal.out << (options.json ? json_text(doctor_json(replies, findings)) + '\n'
-                                  : render_doctor(replies, findings, options.station, terminal.colour))
+    const std::vector<Earlier> earlier = earlier_troubles(replies, options.station);
+    terminal.out << (options.json
+                         ? json_text(doctor_json(replies, findings, earlier)) + '\n'
+                         : render_doctor(replies, findings, earlier, options.station, terminal.look()))
                  << std::flush;
-    const bool well =
-        std::all_of(findings.begin(), findings.end(), [](const Finding& f) { return f.rule->note; });
+    const bool well = std::all_of(findings.begin(), findings.end(),
+                                  [](const Finding& f) { return f.rule->rank == Rank::note; });
     return well ? kFine : kNo;
 }
 

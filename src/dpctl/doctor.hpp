@@ -5,6 +5,7 @@
 #pragma once
 
 #include "fields.hpp"
+#include "table.hpp"
 
 #include <array>
 #include <cstdint>
@@ -26,11 +27,13 @@ enum class Family : std::uint8_t { option_board, technology_box, controller };
 
 /// What a rule may look at: the bus, and one station (empty objects in rules of the bus).
 struct Facts {
+    const Replies& replies;
     const Json& bus;
     const Json& counters; ///< of the bus
     std::int64_t uptime_ms = 0;
     Family family = Family::option_board;
     const Json& station;
+    const Json& station_counters;
     const Json& info;
     const Json& diagnosis;
     const Json& tec;
@@ -39,11 +42,20 @@ struct Facts {
 
 enum class Scope : std::uint8_t { bus, station };
 
+/// What comes first: what explains the rest. Within a rank the order of rules() counts.
+enum class Rank : std::uint8_t {
+    gone,      ///< a port or the driver enable is not there
+    stands,    ///< one cause that holds at this moment
+    recent,    ///< counted within the last minute
+    checklist, ///< the manual's list for what the lamps show
+    note,      ///< to know, nothing is wrong
+};
+
 /// One row of the tables: condition -> cause -> steps.
 struct Rule {
     std::string_view name;
     Scope scope;
-    bool note; ///< true: to know, nothing is wrong
+    Rank rank;
     std::string_view condition;
     std::string_view cause;
     std::span<const std::string_view> steps;
@@ -58,8 +70,21 @@ struct Finding {
     const Rule* rule = nullptr;
     std::string evidence;
 };
-/// In the order of rules(). `station`: name or address, empty = all.
+/// How many causes are named for the bus and for each station.
+inline constexpr std::size_t kMostCauses = 3;
+
+/// What holds now or held within the last minute: by rank, kMostCauses at most for the bus and for each
+/// station, and all notes. `station`: name or address, empty = all.
 std::vector<Finding> diagnose(const Replies& replies, const std::string& station);
+
+/// Trouble that was counted and has not come again for a minute.
+struct Earlier {
+    std::string station; ///< empty = the bus
+    std::string what;    ///< "ways out of Data_Exch"
+    std::int64_t count = 0;
+    double age_ms = 0; ///< of the last one
+};
+std::vector<Earlier> earlier_troubles(const Replies& replies, const std::string& station);
 
 /// Metres of a segment (HA463561U002, "Maximum Line Length Per Segment"; the handbook has the same table).
 struct LineLimit {
@@ -81,10 +106,11 @@ std::optional<LineLimit> line_limit(const Json& bus);
 
 bool is_meant(const Json& station, const std::string& wanted);
 
-Json doctor_json(const Replies& replies, const std::vector<Finding>& findings);
+Json doctor_json(const Replies& replies, const std::vector<Finding>& findings,
+                 const std::vector<Earlier>& earlier);
 std::string render_doctor(const Replies& replies, const std::vector<Finding>& findings,
-                          const std::string& station, bool colour);
+                          const std::vector<Earlier>& earlier, const std::string& station, Look look);
 Json rules_json();
-std::string render_rules(bool colour);
+std::string render_rules(Look look);
 
 } // namespace dpslave::dpctl

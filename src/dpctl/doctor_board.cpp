@@ -11,7 +11,8 @@ namespace {
 constexpr std::string_view kBoard = "HA389815 chapter 9";
 
 constexpr std::array kExternalSteps = std::to_array<std::string_view>({
-    "Check the terminal connections: B on 3, A on 4, and both continuous to the master.",
+    "Check the terminal connections: A and B of the transceiver (D-sub 8 and 3), both continuous to the "
+    "master; of the old board B was terminal 3 and A was terminal 4.",
     "Check that the master communicates at 1.5 Mbaud or less.",
     "Check that the address of the station ([[station]] address, OPTION ADDRESS of the board) is the one in "
     "the master's project.",
@@ -57,15 +58,15 @@ std::string seen_dark(const Facts& f)
 }
 
 constexpr std::array kRules = std::to_array<Rule>({
-    {"board.dark", Scope::station, false, "red off, green off", "No power or major fault", kDarkSteps, kBoard,
-     seen_dark},
-    {"board.internal", Scope::station, false,
+    {"board.dark", Scope::station, Rank::stands, "red off, green off", "No power or major fault", kDarkSteps,
+     kBoard, seen_dark},
+    {"board.internal", Scope::station, Rank::checklist,
      "red on (620: flashing 2 Hz), green flashing 2 Hz: the drive does not answer",
      "Internal communications fault", kInternalSteps, kBoard, seen_internal},
-    {"board.configuration", Scope::station, false,
+    {"board.configuration", Scope::station, Rank::checklist,
      "red on, green flashing 1 Hz: Set_Prm or Chk_Cfg was refused", "Configuration fault",
      kConfigurationSteps, kBoard, seen_configuration},
-    {"board.external", Scope::station, false, "red on, green flashing 1 Hz: nothing was refused",
+    {"board.external", Scope::station, Rank::checklist, "red on, green flashing 1 Hz: nothing was refused",
      "External communications fault", kExternalSteps, kBoard, seen_external},
 });
 

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace dpslave::dpctl {
 namespace {
 
@@ -12,13 +14,21 @@ constexpr std::string_view kBoard = "HA389815 chapter 9";
 constexpr std::string_view kBox = "HA463561U002, Troubleshooting";
 constexpr std::string_view kGateway = "dpslaved";
 
-constexpr std::int64_t kOften = 1000; ///< one in so many is more than a sound line has
+constexpr std::int64_t kOften = 1000;  ///< one in so many is more than a sound machine has
+constexpr std::int64_t kSomeFlaws = 5; ///< in a minute: a sound line has none
 
-std::int64_t flaws(const Facts& f)
+/// All kinds of them as one count.
+Count flaws(const Facts& f)
 {
-    std::int64_t sum = 0;
-    for (const Json& counter : list(f.counters, "counters"))
-        if (text(counter, "name").starts_with("flaw")) sum += integer(counter, "value").value_or(0);
+    Count sum;
+    for (const Json& counter : list(f.counters, "counters")) {
+        if (!text(counter, "name").starts_with("flaw: ")) continue;
+        const Count one = counted(f.counters, text(counter, "name"));
+        sum.total += one.total;
+        sum.minute += one.minute;
+        if (one.last_ms && (!sum.last_ms || *one.last_ms < *sum.last_ms)) sum.last_ms = one.last_ms;
+        if (one.since_ms && (!sum.since_ms || *one.since_ms > *sum.since_ms)) sum.since_ms = one.since_ms;
+    }
     return sum;
 }
 
@@ -46,77 +56,160 @@ constexpr std::array kRetrySteps = std::to_array<std::string_view>({
     "Check wiring and termination: the master hears worse than this gateway does.",
     "dpctl counters: is `late` 0? Else the machine answers too late.",
 });
+constexpr std::array kGoneSteps = std::to_array<std::string_view>({
+    "Look whether the adapter is plugged in and where it is now: ls -l /dev/serial/by-id",
+    "Name the port under [bus] by its stable path in /dev/serial/by-id.",
+    "journalctl -u dpslaved says when it went. It is opened again as soon as it returns.",
+});
+constexpr std::array kSilentSteps = std::to_array<std::string_view>({
+    "Check that the master is on and its bus is running.",
+    "Check the cable: A and B of the transceiver (D-sub 8 and 3) to the master; of the old board's terminals "
+    "B "
+    "was 3 and A was 4.",
+    "Check that the transceiver has power, and that [bus] port is the one that the cable is on.",
+});
+constexpr std::array kRateSteps = std::to_array<std::string_view>({
+    "Compare [bus] baud with the rate in the master's project; baud = \"auto\" finds it.",
+    "Swap the two wires at the transceiver if A and B are exchanged: A is D-sub 8, B is D-sub 3.",
+    "dpctl counters: which flaws grow? Bad characters only: the rate or the wires.",
+});
+constexpr std::array kOtherAddressSteps = std::to_array<std::string_view>({
+    "Compare the address of the station ([[station]] address) with the one in the master's project, and make "
+    "them the same.",
+    "If another device belongs to that address: it is switched off or not connected, and this station is "
+    "missing in the master's project.",
+});
 constexpr std::array kPortSteps = std::to_array<std::string_view>({
     "Look at the port ([bus] port): journalctl -u dpslaved says what the system answered.",
 });
 constexpr std::array kDriverSteps = std::to_array<std::string_view>({
-    "Look whether the GPIO chip is there and nobody else has the line (gpioinfo): gpio_chip and gpio_line "
+    "Look whether the GPIO chip is there and no other program has the line (gpioinfo): gpio_chip and "
+    "gpio_line "
     "under "
     "[bus].",
     "journalctl -u dpslaved says which ways of [bus] direction this port can do.",
     "dpctl counters: do `driver_errors` and `driver_guarded` still grow?",
 });
 
-std::string seen_late(const Facts& f)
+std::string seen_gone(const Facts& f)
 {
-    const std::int64_t late = counted(f, "late"), written_late = counted(f, "too_late"),
-                       overtaken = counted(f, "overtaken");
-    const std::int64_t all = late + written_late + overtaken;
-    if (all < 10 || all * kOften < counted(f, "requests")) return {};
-    return fmt::format("{} suppressed because MaxTsdr had passed, {} begun in time and written too late, {} "
-                       "dropped because something followed them",
-                       late == 1 ? "1 reply was" : fmt::format("{} replies were", late), written_late,
-                       plural(overtaken, "request"));
+    if (!f.bus.contains("port_open") || flag(f.bus, "port_open")) return {};
+    return text(f.bus, "port") + " is not there";
+}
+std::string seen_driver_gone(const Facts& f)
+{
+    if (!f.bus.contains("driver_works") || flag(f.bus, "driver_works")) return {};
+    return fmt::format("{} failed; nothing is sent until one works again",
+                       plural(counted(f.counters, "driver_errors").total, "edge"));
 }
 std::string seen_double(const Facts& f)
 {
-    const std::int64_t strange = counted(f, "own_address");
-    if (strange == 0) return {};
-    return fmt::format("{} of somebody else with one of our addresses as the sender",
-                       plural(strange, "telegram"));
+    const Count strange = counted(f.counters, "own_address");
+    if (strange.minute == 0) return {};
+    return fmt::format("{} of another device with one of our addresses as the sender {}",
+                       plural(strange.minute, "telegram"), lately(strange));
+}
+std::string seen_silent(const Facts& f)
+{
+    return bus_is_heard(f) ? std::string{} : silence(f);
+}
+std::string seen_rate(const Facts& f)
+{
+    if (!bus_is_heard(f) || telegrams_are_heard(f)) return {};
+    if (f.bus.contains("port_open") && !flag(f.bus, "port_open")) return {};
+    const auto fixed = integer(f.bus, "configured_baud");
+    return silence(f) + (fixed ? fmt::format("; the rate is fixed at {} ([bus] baud)", rate(*fixed))
+                               : std::string{"; the rate is searched, and none gives telegrams"});
+}
+std::string seen_other_address(const Facts& f)
+{
+    constexpr double kNow = 10'000;
+    constexpr std::int64_t kEnough = 3; // a master that starts asks each of its slaves
+    if (!telegrams_are_heard(f)) return {};
+    bool is_bus = true;
+    for (const Json& group : list(f.replies.counters, "groups"))
+        if (!std::exchange(is_bus, false) && is_asked(group)) return {};
+    std::string asked;
+    for (const Json& one : list(f.bus, "unanswered"))
+        if (integer(one, "requests").value_or(0) >= kEnough && real(one, "age_ms").value_or(kNow) < kNow)
+            asked += fmt::format("{}master {} asks for address {} ({}) and gets no answer",
+                                 asked.empty() ? "" : "; ", number(one, "master"), number(one, "address"),
+                                 plural(integer(one, "requests").value_or(0), "time"));
+    if (asked.empty()) return {};
+    std::string ours;
+    for (const Json& station : list(f.replies.status, "stations"))
+        ours += (ours.empty() ? "" : ", ") + number(station, "address");
+    return asked + "; no master asks for ours: " + ours;
+}
+std::string seen_late(const Facts& f)
+{
+    const Count late = counted(f.counters, "late"), written_late = counted(f.counters, "too_late"),
+                overtaken = counted(f.counters, "overtaken");
+    const std::int64_t all = late.minute + written_late.minute + overtaken.minute;
+    if (all < 10 || all * kOften < counted(f.counters, "requests").minute) return {};
+    const Count& longest = late.minute > 0 ? late : written_late.minute > 0 ? written_late : overtaken;
+    return fmt::format("{} suppressed because MaxTsdr had passed, {} begun in time and written too late, {} "
+                       "dropped because something followed them, {}",
+                       late.minute == 1 ? "1 reply was" : fmt::format("{} replies were", late.minute),
+                       written_late.minute, plural(overtaken.minute, "request"), lately(longest));
 }
 std::string seen_flaws(const Facts& f)
 {
-    const std::int64_t bad = flaws(f), good = counted(f, "telegrams");
-    if (good == 0 || bad < 10 || bad * kOften < good) return {};
-    return fmt::format("{} beside {} valid ones", plural(bad, "bad telegram"), good);
+    const Count bad = flaws(f), good = counted(f.counters, "telegrams");
+    if (bad.minute < kSomeFlaws || !telegrams_are_heard(f)) return {};
+    return fmt::format("{} beside {} valid ones {}", plural(bad.minute, "damaged telegram"), good.minute,
+                       lately(bad));
 }
 std::string seen_retries(const Facts& f)
 {
-    const std::int64_t retries = counted(f, "retries"), requests = counted(f, "requests");
-    if (retries < 10 || retries * kOften < requests) return {};
-    return fmt::format("the master asked again {} in {}", plural(retries, "time"),
-                       plural(requests, "request"));
+    const Count retries = counted(f.counters, "retries"), requests = counted(f.counters, "requests");
+    if (retries.minute < kSomeFlaws || retries.minute * kOften < requests.minute) return {};
+    return fmt::format("the master asked again {} in {} {}", plural(retries.minute, "time"),
+                       plural(requests.minute, "request"), lately(retries));
 }
 std::string seen_port(const Facts& f)
 {
-    const std::int64_t errors = counted(f, "write_errors");
-    return errors == 0 ? std::string{}
-                       : fmt::format("the port did not take {}",
-                                     errors == 1 ? "1 reply" : fmt::format("{} replies", errors));
+    const Count errors = counted(f.counters, "write_errors");
+    if (errors.minute == 0) return {};
+    return fmt::format("the port did not take {} {}",
+                       errors.minute == 1 ? "1 reply" : fmt::format("{} replies", errors.minute),
+                       lately(errors));
 }
 std::string seen_driver(const Facts& f)
 {
-    const std::int64_t failed = counted(f, "driver_errors"), guarded = counted(f, "driver_guarded");
-    if (failed + guarded == 0) return {};
-    return fmt::format("{} failed, and the guard let the driver go {}",
-                       failed == 1 ? "1 edge" : fmt::format("{} edges", failed), plural(guarded, "time"));
+    const Count failed = counted(f.counters, "driver_errors"),
+                guarded = counted(f.counters, "driver_guarded");
+    if (failed.minute + guarded.minute == 0) return {};
+    return fmt::format("{} failed, and the guard let the driver go {} {}", plural(failed.minute, "edge"),
+                       plural(guarded.minute, "time"), lately(failed.minute > 0 ? failed : guarded));
 }
 
 constexpr std::array kRules = std::to_array<Rule>({
-    {"bus.late", Scope::bus, false,
+    {"bus.gone", Scope::bus, Rank::gone, "the port of the bus has vanished",
+     "The port of the bus is gone: adapter pulled, or its driver failed", kGoneSteps, kGateway, seen_gone},
+    {"bus.driver_gone", Scope::bus, Rank::gone, "the driver enable cannot be switched",
+     "The transceiver cannot be switched to sending", kDriverSteps, kGateway, seen_driver_gone},
+    {"bus.double_address", Scope::bus, Rank::stands, "another device sends with one of our addresses",
+     "External communications fault: an address is used twice", kDoubleSteps, kBoard, seen_double},
+    {"bus.silent", Scope::bus, Rank::stands, "not one octet comes from the bus",
+     "Nothing is heard on the bus: cable, transceiver, or the master is off", kSilentSteps, kGateway,
+     seen_silent},
+    {"bus.rate", Scope::bus, Rank::stands, "octets come from the bus, but no telegram with a checksum",
+     "The rate is wrong, or the two wires of the bus are swapped", kRateSteps, kGateway, seen_rate},
+    {"bus.other_address", Scope::bus, Rank::stands,
+     "a master asks for an address where no station answers, and for none of ours",
+     "The address in the master's project is another one", kOtherAddressSteps, kGateway, seen_other_address},
+    {"bus.driver", Scope::bus, Rank::recent, "the driver enable cannot be switched, or is not let go in time",
+     "The transceiver is not switched as it should be", kDriverSteps, kGateway, seen_driver},
+    {"bus.port", Scope::bus, Rank::recent, "the port does not take replies", "The port of the bus fails",
+     kPortSteps, kGateway, seen_port},
+    {"bus.flaws", Scope::bus, Rank::recent, "five telegrams in a minute are damaged",
+     "The line of the bus is disturbed", kLineSteps, kBox, seen_flaws},
+    {"bus.late", Scope::bus, Rank::recent,
      "more than one reply in a thousand came too late, or its request was overtaken",
      "This machine answers too late", kLateSteps, kGateway, seen_late},
-    {"bus.double_address", Scope::bus, false, "somebody else sends with one of our addresses",
-     "External communications fault: an address is used twice", kDoubleSteps, kBoard, seen_double},
-    {"bus.flaws", Scope::bus, false, "more than one telegram in a thousand is damaged",
-     "Intermittent failure: the line", kLineSteps, kBox, seen_flaws},
-    {"bus.retries", Scope::bus, false, "the master repeats more than one request in a thousand",
+    {"bus.retries", Scope::bus, Rank::recent, "the master repeats more than one request in a thousand",
      "The master does not hear the replies", kRetrySteps, kGateway, seen_retries},
-    {"bus.port", Scope::bus, false, "the port does not take replies", "The port of the bus fails", kPortSteps,
-     kGateway, seen_port},
-    {"bus.driver", Scope::bus, false, "the driver enable cannot be switched, or is not let go in time",
-     "The transceiver is not switched as it should be", kDriverSteps, kGateway, seen_driver},
 });
 
 } // namespace

@@ -76,15 +76,16 @@ std::string seen_format(const Facts& f)
 }
 
 constexpr std::array kRules = std::to_array<Rule>({
-    {"controller.no_communications", Scope::station, false, "status rdY, REM dark: no data exchange",
-     "No communications", kControllerSilentSteps, kHandbook, seen_controller_silent},
-    {"controller.intermittent", Scope::station, false,
+    {"controller.no_communications", Scope::station, Rank::checklist,
+     "status rdY, REM dark: no data exchange", "No communications", kControllerSilentSteps, kHandbook,
+     seen_controller_silent},
+    {"controller.intermittent", Scope::station, Rank::recent,
      "the status flickers between rdY and run, or the diagnosis changes though the controller has no alarm",
      "Intermittent failure to communicate", kIntermittentSteps, kHandbook, seen_intermittent},
-    {"controller.jammed", Scope::station, true,
+    {"controller.jammed", Scope::station, Rank::note,
      "setpoint, output power or auto/manual cannot be altered at the front panel",
      "The master writes its outputs continuously", kJammedSteps, kHandbook, seen_jammed},
-    {"controller.format", Scope::station, true, "data format or parameter data seem incorrect",
+    {"controller.format", Scope::station, Rank::note, "data format or parameter data seem incorrect",
      "Resolution, or the GSD", kFormatSteps, kHandbook, seen_format},
 });
 

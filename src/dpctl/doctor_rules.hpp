@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The tables of rules, one a family, and what they look at. Steps are those of the manuals, with what the
-/// gateway has in the place of the board's own switches and with the command that shows more.
+/// The tables of rules, one a family, and what they look at. They go by states, codes and counters of the
+/// daemon, never by its sentences. Steps are those of the manuals, with what the gateway has in the place of
+/// the board's own switches and with the command that shows more.
 #pragma once
 
 #include "doctor.hpp"
@@ -10,6 +11,7 @@
 namespace dpslave::dpctl {
 
 std::span<const Rule> bus_rules();
+std::span<const Rule> drive_rules();
 std::span<const Rule> board_rules();
 std::span<const Rule> box_rules();
 std::span<const Rule> controller_rules();
@@ -17,20 +19,38 @@ std::span<const Rule> station_rules();
 
 bool is_in(const Facts& f, std::string_view state);
 bool exchanges(const Facts& f);
-/// A counter of the bus.
-std::int64_t counted(const Facts& f, std::string_view name);
+
+/// One counter: since the start, within the last minute, and when.
+struct Count {
+    std::int64_t total = 0;
+    std::int64_t minute = 0;
+    std::optional<double> last_ms;  ///< age of the last one; none = never
+    std::optional<double> since_ms; ///< how long it has counted without a quiet minute
+    /// It counted within this time; told to the second.
+    bool within(double ms) const { return last_ms && *last_ms <= ms; }
+};
+Count counted(const Json& group, std::string_view name);
+/// "in the last minute, since 12 min": for how long it has counted.
+std::string lately(const Count& count);
+
+/// Has a master asked this station for anything but its FDL status within the last ten seconds?
+bool is_asked(const Json& station_counters);
+/// Octets come from the bus, or the port is not there: what is wrong then is no silence.
+bool bus_is_heard(const Facts& f);
+/// Telegrams with a checksum come from the bus.
+bool telegrams_are_heard(const Facts& f);
 
 // Each of these says what it sees in words, or nothing.
-/// Nothing is heard on the bus.
+/// Nothing, or nothing that has a checksum, is heard on the bus.
 std::string silence(const Facts& f);
 /// Silence of the bus, or what the master does not do.
 std::string no_exchange(const Facts& f);
 /// The last refused telegram.
 std::string refusal(const Facts& f);
-/// The sentences of the diagnosis about tags.
+/// What the drive or the tag table said no to, for the master.
 std::string tag_trouble(const Facts& f);
 std::string drive_silence(const Facts& f);
-/// How often Data_Exch was left, where that is more than once in an hour.
+/// How often Data_Exch was left, where that is more than once in the last minute.
 std::string restlessness(const Facts& f);
 
 } // namespace dpslave::dpctl

@@ -11,6 +11,53 @@ namespace {
 constexpr std::string_view kBox = "HA463561U002, Troubleshooting";
 constexpr std::string_view kGateway = "dpslaved";
 
+constexpr std::array kPrmSteps = std::to_array<std::string_view>({
+    "dpctl diag shows what came and what was expected, octet by octet.",
+    "dpctl decode --as prm OCTETS explains each octet.",
+    "Compare the slave in the master's project with the GSD that dpctl gsd make writes for this device.",
+});
+constexpr std::array kCfgSteps = std::to_array<std::string_view>({
+    "dpctl diag shows what came and what was expected, identifier by identifier.",
+    "Put the modules of the slave in the master's project in the order of the tags, one for each tag.",
+});
+constexpr std::array kNotAskedSteps = std::to_array<std::string_view>({
+    "Check that the slave is in the master's project, under this address, and that the project was loaded "
+    "into the master.",
+    "Check that the master is in operation and its bus is started.",
+});
+constexpr std::array kAskedOnlySteps = std::to_array<std::string_view>({
+    "Look whether the one who asks is a diagnostic tool (master class 2): it starts no slave.",
+    "Check that the slave is switched on in the master's project and the master is not in STOP.",
+});
+constexpr std::array kReadOnlySteps = std::to_array<std::string_view>({
+    "Put the modules in the master's project in the order of the tags: the first module belongs to the first "
+    "tag.",
+    "Take an input module for a tag that the drive only lets read: dpctl tag NUMBER says which.",
+});
+constexpr std::array kRangeSteps = std::to_array<std::string_view>({
+    "Let the master send a value within the limits of the tag: dpctl tag NUMBER has them.",
+    "Check the scaling in the master's program: 12.34 with two decimals goes over the bus as 1234.",
+});
+constexpr std::array kTagSteps = std::to_array<std::string_view>({
+    "Check the tag numbers in the master's project: dpctl tag NUMBER, dpctl io.",
+    "Check that the profile of the station is that of the drive: dpctl info.",
+});
+constexpr std::array kStateSteps = std::to_array<std::string_view>({
+    "Stop the drive, or put it into its configuration mode, as the tag wants it: dpctl tag NUMBER.",
+});
+constexpr std::array kRefusedSteps = std::to_array<std::string_view>({
+    "dpctl diag says what the drive answered.",
+    "dpctl tag NUMBER tells type, limits and access of the tag.",
+});
+constexpr std::array kClearSteps = std::to_array<std::string_view>({
+    "Put the master into RUN (Operate). Many masters go to Clear when the PLC is in STOP, or when one slave "
+    "of "
+    "the project is missing (Auto-Clear).",
+});
+constexpr std::array kWatchdogSteps = std::to_array<std::string_view>({
+    "Set the watchdog of this slave in the master's project to several times the bus cycle.",
+    "Look whether the master pauses: a download, a restart, a slave that is missing and is asked for again.",
+});
 constexpr std::array kRestlessSteps = std::to_array<std::string_view>({
     "Check wiring: continuity of A and B to the master, the correct terminals, the integrity of the "
     "screening.",
@@ -18,14 +65,9 @@ constexpr std::array kRestlessSteps = std::to_array<std::string_view>({
     "Ensure that the last unit on the line is terminated correctly.",
     "Look at the master too: does it go to STOP, or is its watchdog time for this slave too short?",
 });
-constexpr std::array kDriveSteps = std::to_array<std::string_view>({
-    "Check port, baud, format and unit of the line in the configuration against the settings of the drive.",
-    "Check the cable between gateway and drive, and that the drive has power.",
-    "dpctl read TAG asks the drive at once; dpctl stations shows what became of it.",
-});
-constexpr std::array kTagSteps = std::to_array<std::string_view>({
-    "Check the tag numbers in the master's project: dpctl tag NUMBER, dpctl io.",
-    "Add what the tag table lacks: a line with number, type and decimals from the drive's product manual.",
+constexpr std::array kRideSteps = std::to_array<std::string_view>({
+    "The outputs of the lost master still stand at the drive: keep clear of the machine.",
+    "dpctl tec set RIDE_THROUGH 0 ends it.",
 });
 constexpr std::array kScaleSteps = std::to_array<std::string_view>({
     "dpctl io names each tag and what the drive has answered.",
@@ -50,21 +92,122 @@ constexpr std::array kPendingSteps = std::to_array<std::string_view>({
 constexpr std::array kLowAddressSteps = std::to_array<std::string_view>({
     "Addresses 0, 1 and 2 are usually those of masters: choose another one if you can.",
 });
-constexpr std::array kLeftSteps = std::to_array<std::string_view>({
-    "dpctl counters and journalctl -u dpslaved tell how often and when.",
-});
 
+/// Has the master tried to start this station within the last minute?
+bool is_tried(const Facts& f)
+{
+    return counted(f.station_counters, "set_prm").minute > 0 ||
+           counted(f.station_counters, "chk_cfg").minute > 0;
+}
+
+std::string seen_refused(const Facts& f, std::string_view telegram)
+{
+    if (exchanges(f) || !is_tried(f) || text(part(f.diagnosis, "refusal"), "telegram") != telegram) return {};
+    return refusal(f);
+}
+std::string seen_prm(const Facts& f)
+{
+    return seen_refused(f, "Set_Prm");
+}
+std::string seen_cfg(const Facts& f)
+{
+    return seen_refused(f, "Chk_Cfg");
+}
+/// Telegrams come, but none for this station: what the bus has to say about it comes first.
+std::string seen_not_asked(const Facts& f)
+{
+    const bool waits = is_in(f, "Wait_Prm") || is_in(f, "Wait_Cfg");
+    if (!waits || !silence(f).empty() || is_asked(f.station_counters)) return {};
+    return "telegrams are heard, but no master asks address " + number(f.station, "address");
+}
+std::string seen_asked_only(const Facts& f)
+{
+    if (!is_in(f, "Wait_Prm") || is_tried(f) || !is_asked(f.station_counters)) return {};
+    const Count diag = counted(f.station_counters, "slave_diag");
+    return fmt::format("{} for its diagnosis {} and no Set_Prm",
+                       diag.minute == 1 ? "1 question" : fmt::format("{} questions", diag.minute),
+                       lately(diag));
+}
+
+/// The words of `direction` that are in `state`, each with its tag and value.
+std::string words_that_are(const Facts& f, std::string_view direction, std::string_view state)
+{
+    std::string all;
+    for (const Json& word : list(f.io, "words")) {
+        if (text(word, "state") != state || (!direction.empty() && text(word, "direction") != direction))
+            continue;
+        const std::string name = text(word, "name", "");
+        all += fmt::format("{}tag {}{} = {} ({} octet {})", all.empty() ? "" : ", ", number(word, "tag"),
+                           name.empty() ? "" : " " + name, text(word, "value"), text(word, "direction"),
+                           number(word, "octet"));
+    }
+    return all;
+}
+
+/// What the drive said about tags for this reason.
+std::string said(const Facts& f, std::string_view code)
+{
+    std::string all;
+    for (const Json& one : list(f.diagnosis, "refused"))
+        if (text(one, "code") == code) all += (all.empty() ? "" : "; ") + text(one, "text");
+    return all;
+}
+
+/// The words that are so, else what was said for this reason (Demand Data has no words).
+std::string either(std::string words, std::string reasons)
+{
+    if (words.empty() || reasons.empty()) return words + reasons;
+    return words + "; " + reasons;
+}
+
+std::string seen_read_only(const Facts& f)
+{
+    return exchanges(f) ? either(words_that_are(f, "out", "read only"), said(f, "read_only")) : "";
+}
+std::string seen_range(const Facts& f)
+{
+    return exchanges(f) ? either(words_that_are(f, "out", "out of range"), said(f, "out_of_range")) : "";
+}
+std::string seen_invalid(const Facts& f)
+{
+    return exchanges(f) ? either(words_that_are(f, "", "invalid tag"), said(f, "invalid_tag")) : "";
+}
+std::string seen_not_now(const Facts& f)
+{
+    return exchanges(f) ? either(said(f, "not_stopped"), said(f, "not_config_mode")) : std::string{};
+}
+std::string seen_other_refusal(const Facts& f)
+{
+    if (!exchanges(f)) return {};
+    return either(words_that_are(f, "", "refused"),
+                  either(said(f, "unsupported_type"), said(f, "value_not_encoded")));
+}
+std::string seen_clear(const Facts& f)
+{
+    if (!exchanges(f) || !flag(f.station, "clear")) return {};
+    return fmt::format("master {} is in Clear: 0 goes to every output of the drive",
+                       number(f.station, "master"));
+}
+std::string seen_watchdog(const Facts& f)
+{
+    const Count expired = counted(f.station_counters, "watchdog_expired");
+    if (expired.minute < 2 || counted(f.station_counters, "set_prm").minute < 2) return {};
+    return fmt::format("it expired {} {}, and each time the master came back{}",
+                       plural(expired.minute, "time"), lately(expired),
+                       integer(f.station, "watchdog_ms")
+                           ? fmt::format("; it is {} ms", number(f.station, "watchdog_ms"))
+                           : std::string{});
+}
 std::string seen_restless(const Facts& f)
 {
-    return f.family == Family::controller ? std::string{} : restlessness(f);
+    return f.family == Family::controller || !seen_watchdog(f).empty() ? std::string{} : restlessness(f);
 }
-std::string seen_drive(const Facts& f)
+std::string seen_ride(const Facts& f)
 {
-    return f.family == Family::option_board ? std::string{} : drive_silence(f);
-}
-std::string seen_tags(const Facts& f)
-{
-    return f.family == Family::technology_box ? std::string{} : tag_trouble(f);
+    const Json& ride = part(f.station, "ride");
+    if (ride.empty()) return {};
+    const auto ends = real(ride, "ends_in_ms");
+    return ends ? "the outputs stand for " + age(ends) + " more" : "the outputs stand until it returns";
 }
 std::string seen_unscaled(const Facts& f)
 {
@@ -98,34 +241,52 @@ std::string seen_low_address(const Facts& f)
                ? fmt::format("the address is {}", *address)
                : std::string{};
 }
-std::string seen_left(const Facts& f)
-{
-    const std::int64_t left = integer(f.station, "left_count").value_or(0);
-    if (left == 0 || !restlessness(f).empty()) return {};
-    return fmt::format("Data_Exch was left {} since the start, the last time: {}", plural(left, "time"),
-                       text(f.station, "left_because"));
-}
 
 constexpr std::array kRules = std::to_array<Rule>({
-    {"station.drive", Scope::station, false, "the drive or controller does not answer on its line",
-     "The link to the drive has failed", kDriveSteps, kGateway, seen_drive},
-    {"station.tags", Scope::station, false, "a tag is refused, or is in no table", "A tag number is wrong",
-     kTagSteps, kBox, seen_tags},
-    {"station.unscaled", Scope::station, false, "a chosen tag answers with a number whose scale is not known",
+    {"station.prm_refused", Scope::station, Rank::stands, "the master's Set_Prm is refused",
+     "The master's project does not fit this device: parameters", kPrmSteps, kGateway, seen_prm},
+    {"station.cfg_refused", Scope::station, Rank::stands, "the master's Chk_Cfg is refused",
+     "The master's project does not fit this device: modules", kCfgSteps, kGateway, seen_cfg},
+    {"station.not_asked", Scope::station, Rank::stands,
+     "telegrams are heard, and no master asks this address",
+     "No master has this address in its project, or the master is not running", kNotAskedSteps, kGateway,
+     seen_not_asked},
+    {"station.asked_only", Scope::station, Rank::stands, "the diagnosis is read, and no Set_Prm comes",
+     "The master asks, but does not start this slave", kAskedOnlySteps, kGateway, seen_asked_only},
+    {"station.clear", Scope::station, Rank::stands, "Data_Exch, and the last Global_Control was Clear_Data",
+     "The master is in Clear (STOP): the drive gets 0", kClearSteps, kGateway, seen_clear},
+    {"station.ride_through", Scope::station, Rank::stands, "the master is lost and the outputs stand",
+     "RIDE THROUGH is running", kRideSteps, "HA463561U002, MMI parameter descriptions", seen_ride},
+    {"station.watchdog", Scope::station, Rank::stands, "the watchdog expires and the master starts again",
+     "The watchdog of this slave is shorter than the master's cycle, or the master pauses", kWatchdogSteps,
+     kGateway, seen_watchdog},
+    {"station.read_only", Scope::station, Rank::stands, "an output word belongs to a tag that is read only",
+     "Modules in the wrong order, or an output where the drive has only something to read", kReadOnlySteps,
+     kGateway, seen_read_only},
+    {"station.range", Scope::station, Rank::stands, "an output word is outside the limits of its tag",
+     "The master sends a value outside the limits", kRangeSteps, kGateway, seen_range},
+    {"station.tags", Scope::station, Rank::stands, "the drive does not know a tag", "A tag number is wrong",
+     kTagSteps, kGateway, seen_invalid},
+    {"station.unscaled", Scope::station, Rank::stands,
+     "a chosen tag answers with a number whose scale is not known",
      "The tag table does not say the decimals of a tag, or says too few", kScaleSteps, kGateway,
      seen_unscaled},
-    {"station.no_table", Scope::station, true, "the station has no tag table",
+    {"station.no_table", Scope::station, Rank::note, "the station has no tag table",
      "The scale of the drive's numbers is not known", kNoTableSteps, kGateway, seen_no_table},
-    {"station.no_trip", Scope::station, true, "no tag tells the trip of the drive",
+    {"station.no_trip", Scope::station, Rank::note, "no tag tells the trip of the drive",
      "Trips are not known: the diagnosis says no trip whatever the drive does", kNoTripSteps,
      "HA463561U002, PROFIBUS Diagnostics", seen_no_trip},
-    {"station.restless", Scope::station, false, "data exchange is left more than once in an hour",
+    {"station.not_now", Scope::station, Rank::stands, "a tag cannot be written in this state of the drive",
+     "The drive takes this parameter only stopped, or in configuration mode", kStateSteps, kGateway,
+     seen_not_now},
+    {"station.refused", Scope::station, Rank::stands, "the drive refuses a tag for another reason",
+     "The drive refuses a parameter", kRefusedSteps, kGateway, seen_other_refusal},
+    {"station.restless", Scope::station, Rank::recent, "data exchange is left more than once in a minute",
      "Intermittent failure", kRestlessSteps, kBox, seen_restless},
-    {"station.left", Scope::station, true, "data exchange was left",
-     "The master went, or changed its parameters", kLeftSteps, kGateway, seen_left},
-    {"station.address_pending", Scope::station, true, "the address was changed in the configuration file",
-     "A changed address waits for the next start", kPendingSteps, "HA389815 chapter 5", seen_pending},
-    {"station.low_address", Scope::station, true, "the address is 0, 1 or 2",
+    {"station.address_pending", Scope::station, Rank::note,
+     "the address was changed in the configuration file", "A changed address waits for the next start",
+     kPendingSteps, "HA389815 chapter 5", seen_pending},
+    {"station.low_address", Scope::station, Rank::note, "the address is 0, 1 or 2",
      "The address may be that of a master", kLowAddressSteps, "HA463561U002, MMI parameter descriptions",
      seen_low_address},
 });

@@ -51,6 +51,13 @@ std::string bad_tec_value(const Json& p)
     return fmt::format("{} cannot be set to '{}': {}", text(p, "parameter"), text(p, "value"),
                        text(p, "reason"));
 }
+std::string would_silence(const Json& p)
+{
+    return fmt::format(
+        "{} = {} would take station '{}' off the bus while a master exchanges data with it ({}); "
+        "if that is wanted: --yes",
+        text(p, "parameter"), text(p, "value"), text(p, "station"), text(p, "reason"));
+}
 std::string busy(const Json&)
 {
     return "the daemon has too many callers or orders at once; try again";
@@ -84,6 +91,7 @@ constexpr std::array kSentences = std::to_array<Row>({
     {"org.dpslaved.Control.BadValue", bad_value},
     {"org.dpslaved.Control.NoTecOption", no_tec_option},
     {"org.dpslaved.Control.BadTecValue", bad_tec_value},
+    {"org.dpslaved.Control.WouldSilence", would_silence},
     {"org.dpslaved.Control.Busy", busy},
     {"org.varlink.service.InvalidParameter", invalid_parameter},
     {"org.varlink.service.MethodNotFound", method_not_found},

@@ -103,16 +103,16 @@ Json hex_json(const std::vector<Number16>& numbers)
     return {{"numbers", list}};
 }
 
-std::string render_numbers(const std::vector<Number16>& numbers, bool colour)
+std::string render_numbers(const std::vector<Number16>& numbers, Look look)
 {
     Table table({">NUMBER", ">DECIMAL", ">SIGNED", "HEX", "OCTETS"});
     for (const Number16& n : numbers)
         table.add({n.text, std::to_string(n.word), std::to_string(as_signed(n.word)),
                    fmt::format("{:04X}", n.word), fmt::format("{:02X} {:02X}", high(n.word), low(n.word))});
-    return table.str(colour);
+    return table.str(look);
 }
 
-std::string render_range(const std::vector<Number16>& numbers, bool colour)
+std::string render_range(const std::vector<Number16>& numbers, Look look)
 {
     Table table({">", ">0", ">1", ">2", ">3", ">4", ">5", ">6", ">7", ">8", ">9"});
     std::vector<Cell> line;
@@ -128,7 +128,7 @@ std::string render_range(const std::vector<Number16>& numbers, bool colour)
         }
     }
     if (!line.empty()) table.add(std::move(line));
-    return table.str(colour);
+    return table.str(look);
 }
 
 int do_hex(const Options& options, Terminal& terminal)
@@ -145,12 +145,12 @@ int do_hex(const Options& options, Terminal& terminal)
         if (numbers->size() == 1)
             single.push_back(numbers->front());
         else
-            ranges += (ranges.empty() ? "" : "\n") + render_range(*numbers, terminal.colour);
+            ranges += (ranges.empty() ? "" : "\n") + render_range(*numbers, terminal.look());
     }
     if (options.json)
         terminal.out << json_text(hex_json(all)) << '\n';
     else
-        terminal.out << (single.empty() ? "" : render_numbers(single, terminal.colour))
+        terminal.out << (single.empty() ? "" : render_numbers(single, terminal.look()))
                      << (single.empty() || ranges.empty() ? "" : "\n") << ranges;
     return kFine;
 }

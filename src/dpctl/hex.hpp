@@ -4,6 +4,7 @@
 #pragma once
 
 #include "fields.hpp"
+#include "table.hpp"
 
 #include "dpslave/base/result.hpp"
 
@@ -25,8 +26,8 @@ Result<std::vector<Number16>, std::string> read_numbers(std::string_view argumen
 
 Json hex_json(const std::vector<Number16>& numbers);
 /// Single numbers, a line each.
-std::string render_numbers(const std::vector<Number16>& numbers, bool colour);
+std::string render_numbers(const std::vector<Number16>& numbers, Look look);
 /// Adjoining numbers, ten in a line, as the manuals print them.
-std::string render_range(const std::vector<Number16>& numbers, bool colour);
+std::string render_range(const std::vector<Number16>& numbers, Look look);
 
 } // namespace dpslave::dpctl

@@ -11,10 +11,10 @@ namespace dpslave::dpctl {
 namespace {
 
 int plain(const Options& options, Terminal& terminal, std::string_view method, const Json& parameters,
-          std::string (*render)(const Json&, bool))
+          std::string (*render)(const Json&, Look))
 {
     return show(options, terminal, method, parameters,
-                [&](const Json& reply) { return render(reply, terminal.colour); });
+                [&](const Json& reply) { return render(reply, terminal.look()); });
 }
 
 } // namespace
@@ -55,8 +55,9 @@ int do_info(const Options& options, Terminal& terminal)
             terminal.err << "OPTION VERSION 0.00: without dpslaved there is no option board.\n";
         return version.error();
     }
-    return show(options, terminal, "GetInfo", station_parameter(options),
-                [&](const Json& reply) { return render_info(reply, text(*version, "version")); });
+    return show(options, terminal, "GetInfo", station_parameter(options), [&](const Json& reply) {
+        return render_info(reply, text(*version, "version"), terminal.look());
+    });
 }
 
 int do_version(const Options& options, Terminal& terminal)
@@ -90,9 +91,11 @@ int do_is_exchanging(const Options& options, Terminal& terminal)
     for (const Json& station : list(*reply, "stations")) {
         if (!is_meant(station, options.station)) continue;
         ++meant;
-        if (text(station, "state") == "Data_Exch") ++exchanging;
-        lines += fmt::format("{} (address {}): {}\n", text(station, "name"), number(station, "address"),
-                             text(station, "state"));
+        const bool is_healthy = text(part(station, "drive"), "link") == "answers" && !flag(station, "clear");
+        if (text(station, "state") == "Data_Exch" && (is_healthy || !options.healthy)) ++exchanging;
+        lines += fmt::format("{} (address {}): {}{}, drive {}\n", text(station, "name"),
+                             number(station, "address"), text(station, "state"),
+                             flag(station, "clear") ? " in Clear" : "", text(part(station, "drive"), "link"));
     }
     if (options.json) lines = json_text(*reply) + '\n';
     terminal.out << lines << std::flush;
@@ -100,7 +103,7 @@ int do_is_exchanging(const Options& options, Terminal& terminal)
         terminal.err << (options.station.empty()
                              ? std::string{"dpctl: there is no station\n"}
                              : fmt::format("dpctl: there is no station '{}'\n", options.station));
-        return kNo;
+        return options.station.empty() ? kNo : kUsage;
     }
     return meant == exchanging ? kFine : kNo;
 }

@@ -1,16 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli.hpp"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <iostream>
 #include <string>
+#include <string_view>
 #include <vector>
+
+namespace {
+
+std::string_view environment(const char* name)
+{
+    const char* value = std::getenv(name);
+    return value != nullptr ? value : "";
+}
+
+/// https://no-color.org: a value that is not empty forbids colours.
+bool takes_colours()
+{
+    return environment("NO_COLOR").empty() && environment("TERM") != "dumb";
+}
+
+constexpr std::size_t kUsualWidth = 80;
+
+/// What is printed fits 80 columns; a wider terminal is used.
+std::size_t width_of_terminal()
+{
+    winsize size{};
+    if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0) return kUsualWidth;
+    return std::max<std::size_t>(size.ws_col, kUsualWidth);
+}
+
+} // namespace
 
 int main(int argc, char** argv)
 {
     const bool tty = ::isatty(STDOUT_FILENO) == 1;
-    dpslave::dpctl::Terminal terminal{std::cout, std::cerr, tty, tty && std::getenv("NO_COLOR") == nullptr};
+    dpslave::dpctl::Terminal terminal{std::cout, std::cerr, tty, tty && takes_colours(), width_of_terminal()};
     return dpslave::dpctl::run(std::vector<std::string>(argv + 1, argv + argc), terminal);
 }

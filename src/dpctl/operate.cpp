@@ -29,9 +29,10 @@ int do_tec(const Options& options, Terminal& terminal)
     if (options.set) {
         parameters["parameter"] = options.parameter;
         parameters["value"] = options.value;
+        if (options.yes) parameters["yes"] = true;
     }
     return show(options, terminal, options.set ? "SetTec" : "GetTec", parameters,
-                [&](const Json& reply) { return render_tec(reply, terminal.colour); });
+                [&](const Json& reply) { return render_tec(reply, terminal.look()); });
 }
 
 /// Says first what it is going to do. Refused is not fine, though the daemon has answered.

@@ -64,32 +64,32 @@ Table classes(const Json& distribution)
     return table;
 }
 
-std::string turnaround(const Json& distributions, bool colour)
+std::string turnaround(const Json& distributions, Look look)
 {
     const std::int64_t replies =
         distributions.empty() ? 0 : integer(distributions.front(), "count").value_or(0);
-    if (replies <= 0) return painted("turnaround", Tone::strong, colour) + ": no reply was sent yet\n";
+    if (replies <= 0) return painted("turnaround", Tone::strong, look) + ": no reply was sent yet\n";
     std::string out = fmt::format("{} of {} {}, from the end of the request to the end of the write\n{}",
-                                  painted("turnaround", Tone::strong, colour), replies,
-                                  replies == 1 ? "reply" : "replies", figures(distributions).str(colour, 2));
+                                  painted("turnaround", Tone::strong, look), replies,
+                                  replies == 1 ? "reply" : "replies", figures(distributions).str(look, 2));
     for (const Json& one : distributions)
-        if (const Table table = classes(one); !table.empty()) out += '\n' + table.str(colour, 2);
+        if (const Table table = classes(one); !table.empty()) out += '\n' + table.str(look, 2);
     return out;
 }
 
 } // namespace
 
-std::string render_counters(const Json& reply, bool colour)
+std::string render_counters(const Json& reply, Look look)
 {
     std::string out;
     for (const Json& group : list(reply, "groups")) {
-        Table table({">COUNT", "OF", "MEANING"});
+        Table table({">COUNT", ">LAST MINUTE", "OF", "MEANING"});
         for (const Json& c : list(group, "counters"))
-            table.add({number(c, "value"), text(c, "name"), text(c, "meaning")});
+            table.add({number(c, "value"), number(c, "minute"), text(c, "name"), text(c, "meaning")});
         out += fmt::format("{}{}\n{}", out.empty() ? "" : "\n",
-                           painted(text(group, "name"), Tone::strong, colour), table.str(colour, 2));
+                           painted(text(group, "name"), Tone::strong, look), table.str(look, 2));
     }
-    return out + (out.empty() ? "" : "\n") + turnaround(list(reply, "turnaround"), colour);
+    return out + (out.empty() ? "" : "\n") + turnaround(list(reply, "turnaround"), look);
 }
 
 } // namespace dpslave::dpctl

@@ -16,47 +16,45 @@ Table octet_table(const Json& octets)
     return table;
 }
 
-std::string refusal_lines(const Json& refusal, bool colour)
+std::string refusal_lines(const Json& refusal, Look look)
 {
     const auto octet = integer(refusal, "octet");
     const std::string where = octet ? fmt::format(", octet {} (offset {})", *octet, *octet - 1) : "";
-    std::string out =
-        "  " +
-        painted(fmt::format("{} refused{}: {}", text(refusal, "telegram"), where, text(refusal, "what")),
-                Tone::bad, colour) +
-        '\n';
+    std::string out = paragraph(
+        "  ", fmt::format("{} refused{}: {}", text(refusal, "telegram"), where, text(refusal, "what")),
+        look.width);
     Block block;
     if (const std::string expected = text(refusal, "expected", ""); !expected.empty())
         block.add("expected", expected);
     if (const std::string got = text(refusal, "got", ""); !got.empty()) block.add("came", got);
     block.add("what to do", text(refusal, "advice"));
-    return out + block.str(4);
+    return out + block.str(4, look);
 }
 
 } // namespace
 
-std::string render_diagnosis(const Json& reply, bool colour)
+std::string render_diagnosis(const Json& reply, Look look)
 {
     std::string out;
     for (const Json& d : list(reply, "stations")) {
         const std::string bits = joined(list(d, "bits"), ", ");
-        out +=
-            fmt::format("{}{}: {}\n", out.empty() ? "" : "\n", painted(text(d, "name"), Tone::strong, colour),
-                        bits.empty() ? "no bit set" : bits);
-        out += octet_table(list(d, "octets")).str(colour, 2);
-        if (const Json& refusal = part(d, "refusal"); !refusal.empty()) out += refusal_lines(refusal, colour);
+        out += (out.empty() ? "" : "\n") +
+               paragraph(text(d, "name") + ": ", bits.empty() ? "no bit set" : bits, look.width);
+        out += octet_table(list(d, "octets")).str(look, 2);
+        if (const Json& refusal = part(d, "refusal"); !refusal.empty()) out += refusal_lines(refusal, look);
         for (const Json& trouble : list(d, "trouble"))
-            if (trouble.is_string())
-                out += "  " + painted(trouble.get<std::string>(), Tone::bad, colour) + '\n';
+            if (trouble.is_string()) out += paragraph("  ", trouble.get<std::string>(), look.width);
         Block block;
         block.add("Slave_Diag", text(d, "hex"));
         block.add("last Set_Prm", text(d, "last_prm"));
         block.add("last Chk_Cfg", text(d, "last_cfg"));
-        out += block.str();
+        out += block.str(2, look);
     }
     if (!out.empty())
-        out += "\noctet: counted from 1, as the PROFIBUS standard does; offset: counted from 0, as PLC "
-               "programs do\n";
+        out += '\n' + paragraph("",
+                                "octet: counted from 1, as the PROFIBUS standard does; offset: counted from "
+                                "0, as PLC programs do",
+                                look.width);
     return out;
 }
 

@@ -49,7 +49,7 @@ std::string rates(const Json& info)
 
 } // namespace
 
-std::string render_info(const Json& reply, std::string_view version)
+std::string render_info(const Json& reply, std::string_view version, Look look)
 {
     std::string out;
     for (const Json& info : list(reply, "stations")) {
@@ -78,7 +78,7 @@ std::string render_info(const Json& reply, std::string_view version)
                                            plural(integer(info, "tags_in_table").value_or(0), "tag")));
         if (const std::string notes = joined(list(info, "notes"), "\n"); !notes.empty())
             block.add("notes", notes);
-        out += (out.empty() ? "" : "\n") + text(info, "name") + '\n' + block.str();
+        out += (out.empty() ? "" : "\n") + text(info, "name") + '\n' + block.str(2, look);
     }
     return out;
 }

@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
+
 namespace dpslave::dpctl {
 namespace {
 
@@ -17,47 +20,80 @@ std::string hex_words(const Json& words)
     return result;
 }
 
-std::string demand_lines(const Json& demand)
+std::string outputs_text(const Json& s)
+{
+    if (!flag(s, "may_write")) return "nothing is written to the drive";
+    return flag(s, "clear") ? "the master is in Clear, 0 goes to every output" : "outputs go to the drive";
+}
+
+std::string demand_lines(const Json& demand, Look look)
 {
     Block block;
     block.add("Demand Data", text(demand, "words"));
     block.add("request", hex_words(list(demand, "request")));
     block.add("reply", hex_words(list(demand, "reply")));
-    return block.str();
+    return block.str(2, look);
+}
+
+/// Where the words of parameters begin: behind Demand Data, if there are any.
+std::int64_t first_octet(const Json& words)
+{
+    std::int64_t first = std::numeric_limits<std::int64_t>::max();
+    for (const Json& w : words) first = std::min(first, integer(w, "octet").value_or(first));
+    return first;
+}
+
+/// Words of a direction are counted from 1, without Demand Data: as gsd make and dpsim count.
+std::string word_number(const Json& w, std::int64_t first)
+{
+    const auto octet = integer(w, "octet");
+    return octet ? std::to_string((*octet - first) / 2 + 1) : "-";
+}
+
+/// "5000 (1388h)".
+std::string raw_text(const Json& w)
+{
+    const auto raw = integer(w, "raw");
+    return raw ? fmt::format("{} ({:04X}h)", *raw, *raw) : "-";
 }
 
 } // namespace
 
 Table word_table(const Json& words)
 {
-    Table table({"DIR", ">OCTET", ">TAG", "NAME", ">VALUE", ">RAW", "STATE", ">AGE"});
+    Table table({"DIR", ">OCTET", ">WORD", ">TAG", "NAME", ">VALUE", ">RAW", "STATE", ">AGE"});
+    const std::int64_t first = first_octet(words);
     for (const Json& w : words) {
         const std::string state = text(w, "state");
         const std::string answer = text(w, "answer", "");
         const Tone tone = state == "good" ? Tone::good : state == "untried" ? Tone::plain : Tone::bad;
-        table.add({text(w, "direction"), number(w, "octet"), number(w, "tag"), text(w, "name", ""),
-                   text(w, "value"), word(integer(w, "raw")),
+        table.add({text(w, "direction"), number(w, "octet"), word_number(w, first), number(w, "tag"),
+                   text(w, "name", ""), text(w, "value"), raw_text(w),
                    Cell{answer.empty() ? state : fmt::format("{} '{}'", state, answer), tone},
                    age(real(w, "age_ms"))});
     }
     return table;
 }
 
-std::string render_io(const Json& reply, bool colour)
+std::string render_io(const Json& reply, Look look)
 {
     std::string out;
     for (const Json& s : list(reply, "stations")) {
-        out += fmt::format(
-            "{}{}, address {}: {}; {}\n", out.empty() ? "" : "\n",
-            painted(text(s, "name"), Tone::strong, colour), number(s, "address"), text(s, "state"),
-            flag(s, "may_write") ? "outputs go to the drive" : "nothing is written to the drive");
+        out += fmt::format("{}{}, address {}: {}; {}\n", out.empty() ? "" : "\n",
+                           painted(text(s, "name"), Tone::strong, look), number(s, "address"),
+                           text(s, "state"), outputs_text(s));
         const Table table = word_table(list(s, "words"));
-        out += table.empty() ? "  no parameters: no master has chosen any\n" : table.str(colour, 2);
-        if (const Json& demand = part(s, "demand"); !demand.empty()) out += demand_lines(demand);
+        out += table.empty() ? "  no parameters: no master has chosen any\n" : table.str(look, 2);
+        if (const Json& demand = part(s, "demand"); !demand.empty()) out += demand_lines(demand, look);
     }
     if (!out.empty())
-        out += "\nin: drive to master, out: master to drive; octet: place in the Data_Exchange telegram, "
-               "counted from 0\n";
+        out += '\n' +
+               paragraph(
+                   "",
+                   "in: drive to master, out: master to drive; octet: place in the Data_Exchange telegram, "
+                   "counted from 0; word: place among the words of its direction, counted from 1 "
+                   "behind Demand Data, as gsd make and dpsim count",
+                   look.width);
     return out;
 }
 

@@ -7,17 +7,17 @@
 
 namespace dpslave::dpctl {
 
-std::string render_leds(const Json& reply, bool colour)
+std::string render_leds(const Json& reply, Look look)
 {
     std::string out;
     for (const Json& s : list(reply, "stations")) {
         Table table({"LED", "NOW", "PATTERN", "SINK"});
         for (const Json& led : list(s, "leds"))
             table.add({text(led, "name"), flag(led, "lit") ? "lit" : "dark", text(led, "pattern"),
-                       text(led, "sink")});
+                       text(led, "sink") == "none" ? "no lamp is configured" : text(led, "sink")});
         out += fmt::format("{}{}: {}\n", out.empty() ? "" : "\n",
-                           painted(text(s, "name"), Tone::strong, colour), text(s, "meaning"));
-        if (!table.empty()) out += table.str(colour, 2);
+                           painted(text(s, "name"), Tone::strong, look), text(s, "meaning"));
+        if (!table.empty()) out += table.str(look, 2);
     }
     return out;
 }
@@ -25,9 +25,13 @@ std::string render_leds(const Json& reply, bool colour)
 std::string render_tag(const Json& reply, std::string_view verb)
 {
     const std::string name = text(reply, "name", "");
-    return fmt::format("{}: tag {}{} {} {}, raw {}\n", text(reply, "station"), number(reply, "tag"),
-                       name.empty() ? "" : " " + name, verb, text(reply, "value"),
-                       word(integer(reply, "raw")));
+    std::string out =
+        fmt::format("{}: tag {}{} {} {}, raw {}\n", text(reply, "station"), number(reply, "tag"),
+                    name.empty() ? "" : " " + name, verb, text(reply, "value"), word(integer(reply, "raw")));
+    if (const auto master = integer(reply, "master"))
+        out += fmt::format("master {} writes this tag cyclically and will overwrite it with its own value\n",
+                           *master);
+    return out;
 }
 
 std::string render_reload(const Json& reply, bool is_dry_run)
@@ -52,14 +56,14 @@ std::string render_reload(const Json& reply, bool is_dry_run)
     return out + "Nothing was done: this is what a reload would do.\n";
 }
 
-std::string render_watch(const Json& reply, bool colour)
+std::string render_watch(const Json& reply, Look look)
 {
     std::string out =
-        bus_line(part(reply, "bus")) + "\n\n" + station_table(list(reply, "stations")).str(colour);
+        bus_line(part(reply, "bus")) + "\n\n" + station_table(list(reply, "stations")).str(look);
     for (const Json& s : list(reply, "words")) {
         const Table table = word_table(list(s, "words"));
         if (!table.empty())
-            out += '\n' + painted(text(s, "name"), Tone::strong, colour) + '\n' + table.str(colour, 2);
+            out += '\n' + painted(text(s, "name"), Tone::strong, look) + '\n' + table.str(look, 2);
     }
     return out;
 }

@@ -14,7 +14,7 @@ Tone tone_of_state(const std::string& state)
 }
 Tone tone_of_link(const std::string& link)
 {
-    return link == "answers" ? Tone::good : link == "silent" ? Tone::bad : Tone::plain;
+    return link == "answers" ? Tone::good : link == "unknown" ? Tone::plain : Tone::bad;
 }
 
 /// Groups 1 to 8 of Global_Control from the octet Group_Ident.
@@ -49,15 +49,56 @@ std::string drive(const Json& d)
     return result;
 }
 
-std::string station_block(const Json& s, bool colour)
+/// "Data_Exch", "Data_Exch in Clear", "Power_On": in one cell.
+std::string state_text(const Json& s)
+{
+    std::string result = text(s, "state");
+    if (flag(s, "clear")) result += " in Clear";
+    if (!part(s, "ride").empty()) result += ", RIDE THROUGH";
+    return result;
+}
+
+std::string link_of(const Json& d)
+{
+    return d.contains("port_open") && !flag(d, "port_open") ? "port gone" : text(d, "link");
+}
+
+std::string ride_text(const Json& s)
+{
+    const auto ends = real(part(s, "ride"), "ends_in_ms");
+    if (!ends) return "the master is lost; its outputs stand until it returns";
+    return *ends <= 0 ? "over: 0 is written to the outputs as soon as the drive answers"
+                      : fmt::format("the master is lost; its outputs stand for {} more", age(ends));
+}
+
+/// What looks normal in a table and is not, a sentence a line.
+std::string remarks(const Json& s, Look look)
+{
+    const std::string name = text(s, "name");
+    std::string out;
+    const auto add = [&](const std::string& what) { out += paragraph(name + ": ", what, look.width); };
+    if (flag(s, "clear")) add("the master is in Clear: 0 goes to every output of the drive");
+    if (!part(s, "ride").empty()) add("RIDE THROUGH: " + ride_text(s));
+    if (const std::string why = text(s, "silent_because", ""); !why.empty()) add(why);
+    const Json& d = part(s, "drive");
+    if (d.contains("port_open") && !flag(d, "port_open"))
+        add(fmt::format("the port of the drive line, {}, is gone or cannot be opened; it is tried again",
+                        text(d, "port")));
+    return out;
+}
+
+std::string station_block(const Json& s, Look look)
 {
     const auto master = integer(s, "master");
     const auto watchdog = integer(s, "watchdog_ms");
     const std::string state = text(s, "state");
     Block block;
     block.add("device", fmt::format("{} (profile {})", text(s, "device"), text(s, "profile")));
-    block.add("state", painted(state, tone_of_state(state), colour) +
-                           (master ? fmt::format(", master {}", *master) : ", no master"));
+    block.add("state", state + (master ? fmt::format(", master {}", *master) : ", no master"),
+              tone_of_state(state));
+    if (flag(s, "clear")) block.add("Clear", "the master is in Clear: 0 goes to every output", Tone::bad);
+    if (!part(s, "ride").empty()) block.add("RIDE THROUGH", ride_text(s), Tone::bad);
+    if (const std::string why = text(s, "silent_because", ""); !why.empty()) block.add("silent", why);
     block.add("watchdog", watchdog ? age(static_cast<double>(*watchdog)) : "off");
     block.add("min T_SDR", number(s, "min_tsdr") + " T_bit");
     block.add("groups", groups(integer(s, "groups").value_or(0)));
@@ -71,8 +112,8 @@ std::string station_block(const Json& s, bool colour)
               left == 0 ? "never"
                         : plural(left, "time") + (because.empty() ? "" : ", the last time: " + because));
     block.add("drive", drive(part(s, "drive")));
-    return fmt::format("{}, address {}\n{}", painted(text(s, "name"), Tone::strong, colour),
-                       number(s, "address"), block.str());
+    return fmt::format("{}, address {}\n{}", painted(text(s, "name"), Tone::strong, look),
+                       number(s, "address"), block.str(2, look));
 }
 
 } // namespace
@@ -85,6 +126,8 @@ std::string bus_line(const Json& bus)
     if (state == "Baud_Search")
         speed = "searching the rate" + (baud > 0 ? ", now at " + speed : std::string{});
     const auto heard = real(bus, "last_telegram_age_ms");
+    if (bus.contains("port_open") && !flag(bus, "port_open"))
+        return text(bus, "port") + " has vanished; it is opened again as soon as it returns";
     return fmt::format("{}, {}{}, {}", text(bus, "port"), speed,
                        state == "Baud_Search" ? "" : " (" + state + ")",
                        heard ? "last telegram " + age(heard) + " ago" : "no telegram heard yet");
@@ -94,15 +137,15 @@ Table station_table(const Json& stations)
 {
     Table table({"STATION", ">ADDRESS", "PROFILE", "STATE", ">MASTER", "DRIVE", "LINE"});
     for (const Json& s : stations) {
-        const std::string state = text(s, "state"), link = text(part(s, "drive"), "link");
+        const std::string state = text(s, "state"), link = link_of(part(s, "drive"));
         table.add({text(s, "name"), number(s, "address"), text(s, "profile"),
-                   Cell{state, tone_of_state(state)}, number(s, "master"), Cell{link, tone_of_link(link)},
-                   text(part(s, "drive"), "line")});
+                   Cell{state_text(s), flag(s, "clear") ? Tone::bad : tone_of_state(state)},
+                   number(s, "master"), Cell{link, tone_of_link(link)}, text(part(s, "drive"), "line")});
     }
     return table;
 }
 
-std::string render_status(const Json& reply, bool colour)
+std::string render_status(const Json& reply, Look look)
 {
     const Json& bus = part(reply, "bus");
     Block block;
@@ -111,14 +154,17 @@ std::string render_status(const Json& reply, bool colour)
               fmt::format("{}, {} in Data_Exch", number(bus, "stations"), number(bus, "exchanging")));
     block.add("daemon",
               fmt::format("process {}, running for {}", number(reply, "pid"), age(real(reply, "uptime_ms"))));
-    return block.str(0) + '\n' + station_table(list(reply, "stations")).str(colour);
+    std::string said;
+    for (const Json& station : list(reply, "stations")) said += remarks(station, look);
+    return block.str(0, look) + '\n' + station_table(list(reply, "stations")).str(look) +
+           (said.empty() ? "" : "\n" + said);
 }
 
-std::string render_stations(const Json& reply, bool colour)
+std::string render_stations(const Json& reply, Look look)
 {
     std::string out;
     for (const Json& station : list(reply, "stations"))
-        out += (out.empty() ? "" : "\n") + station_block(station, colour);
+        out += (out.empty() ? "" : "\n") + station_block(station, look);
     return out;
 }
 

@@ -155,7 +155,7 @@ void add_if(Block& block, const char* name, std::string value)
     if (!value.empty()) block.add(name, std::move(value));
 }
 
-std::string in_full(const TagHit& hit, bool colour)
+std::string in_full(const TagHit& hit, Look look)
 {
     const Tag& tag = *hit.tag;
     Block block;
@@ -173,8 +173,8 @@ std::string in_full(const TagHit& hit, bool colour)
     add_if(block, "notes", tag.notes);
     add_if(block, "profiles", profiles(*hit.file));
     return painted(fmt::format("{}: tag {} (0x{:04X}) {}", hit.file->name, tag.number, tag.number, tag.name),
-                   Tone::strong, colour) +
-           '\n' + block.str();
+                   Tone::strong, look) +
+           '\n' + block.str(2, look);
 }
 
 } // namespace
@@ -215,7 +215,7 @@ Json tags_json(const TagHits& hits)
     return {{"tags", list}};
 }
 
-std::string render_tags(const TagHits& hits, bool colour)
+std::string render_tags(const TagHits& hits, Look look)
 {
     std::string out;
     if (hits.hits.size() > kMostTagsInFull) {
@@ -225,9 +225,9 @@ std::string render_tags(const TagHits& hits, bool colour)
                        fmt::format("{:04X}", hit.tag->number), hit.tag->name,
                        std::string{drive::type_name(*hit.tag)}, std::string{access_text(hit)},
                        hit.tag->section});
-        out = table.str(colour) + "\nall about one of them: dpctl tag NUMBER\n";
+        out = table.str(look) + "\nall about one of them: dpctl tag NUMBER\n";
     } else {
-        for (const TagHit& hit : hits.hits) out += (out.empty() ? "" : "\n") + in_full(hit, colour);
+        for (const TagHit& hit : hits.hits) out += (out.empty() ? "" : "\n") + in_full(hit, look);
     }
     if (hits.left_out > 0)
         out += fmt::format("\n{} more with these words; --all shows them\n",
@@ -251,7 +251,7 @@ Json tables_json(const std::vector<TagFile>& files)
     return {{"tables", tables}, {"without", without}};
 }
 
-std::string render_tables(const std::vector<TagFile>& files, bool colour)
+std::string render_tables(const std::vector<TagFile>& files, Look look)
 {
     Table tables({"TABLE", ">TAGS", "PROFILES"}), without({"PROFILE", "DEVICE"});
     for (const TagFile& file : files) {
@@ -260,13 +260,13 @@ std::string render_tables(const std::vector<TagFile>& files, bool colour)
         if (!file.is_only_form()) continue;
         for (const DeviceOfTable& device : file.devices) without.add({device.profile, device.device});
     }
-    std::string out = tables.str(colour);
+    std::string out = tables.str(look);
     if (!without.empty())
         out +=
             "\nOf these devices no public tag table exists. Their tags and scaling are those of the drive's "
             "product manual,\nin decimal: write a table of the tags that you use and name it in the station "
             "(tags = \"FILE.csv\").\n" +
-            without.str(colour, 2);
+            without.str(look, 2);
     return out;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "fields.hpp"
+#include "table.hpp"
 #include "tag_search.hpp"
 
 #include <string>
@@ -12,10 +13,10 @@ namespace dpslave::dpctl {
 Json tags_json(const TagHits& hits);
 /// All about each; of more than kMostTagsInFull one line each.
 inline constexpr std::size_t kMostTagsInFull = 10;
-std::string render_tags(const TagHits& hits, bool colour);
+std::string render_tags(const TagHits& hits, Look look);
 
 Json tables_json(const std::vector<TagFile>& files);
 /// The tables, and the devices for which none is public.
-std::string render_tables(const std::vector<TagFile>& files, bool colour);
+std::string render_tables(const std::vector<TagFile>& files, Look look);
 
 } // namespace dpslave::dpctl

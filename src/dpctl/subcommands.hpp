@@ -36,6 +36,10 @@ struct Options {
         DPSLAVE_DATA_FOLDER "/profiles"; ///< the tag tables lie in ../tags (given by CMake)
     std::string profile;                 ///< empty = not said
     std::string table;                   ///< a CSV file; empty = not said
+    std::string form;                    ///< `decode --as`: prm, cfg or diag; empty = found out
+    bool yes = false;                    ///< `tec set`: also what silences a station in exchange
+    bool healthy = false;                ///< `is-exchanging`: and its drive answers
+    bool probe = false;                  ///< `doctor`: looks for the drive
     std::string port;                    ///< `tune`: a tty; empty = the daemon's
 
     std::chrono::milliseconds timeout() const

@@ -2,16 +2,24 @@
 #include "table.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 namespace dpslave::dpctl {
 namespace {
 
+constexpr std::size_t kNarrowest = 10; ///< no column of words becomes narrower
+constexpr std::size_t kBetween = 2;
+
+bool begins_character(char c)
+{
+    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+}
+
 /// Characters, not octets, of UTF-8.
 std::size_t width(std::string_view text)
 {
-    const auto starts = std::count_if(
-        text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; });
-    return static_cast<std::size_t>(starts);
+    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_character));
 }
 
 std::string blanks(std::size_t wanted, std::string_view text)
@@ -25,13 +33,62 @@ void end_line(std::string& out)
     out += '\n';
 }
 
+/// How many octets of `text` the first `characters` have.
+std::size_t octets_of(std::string_view text, std::size_t characters)
+{
+    std::size_t at = 0;
+    for (std::size_t seen = 0; at < text.size(); ++at)
+        if (begins_character(text[at]) && ++seen > characters) break;
+    return at;
+}
+
+/// One line without line ends, broken.
+void wrap_line(std::string_view line, std::size_t columns, std::vector<std::string>& into)
+{
+    while (width(line) > columns) {
+        const std::size_t fits = octets_of(line, columns);
+        const std::size_t blank = line[fits] == ' ' ? fits : line.rfind(' ', fits);
+        const bool at_blank = blank != std::string_view::npos && blank > line.find_first_not_of(' ');
+        const std::size_t end = at_blank ? blank : fits;
+        into.emplace_back(line.substr(0, end));
+        line.remove_prefix(end);
+        line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
+    }
+    into.emplace_back(line);
+}
+
 } // namespace
 
-std::string painted(std::string_view text, Tone tone, bool colour)
+std::string painted(std::string_view text, Tone tone, Look look)
 {
-    if (!colour || tone == Tone::plain || text.empty()) return std::string{text};
+    if (!look.colour || tone == Tone::plain || text.empty()) return std::string{text};
     const char* on = tone == Tone::good ? "\033[32m" : tone == Tone::bad ? "\033[31m" : "\033[1m";
     return std::string{on}.append(text).append("\033[0m");
+}
+
+std::vector<std::string> wrapped(std::string_view text, std::size_t columns)
+{
+    std::vector<std::string> lines;
+    const std::size_t room = std::max<std::size_t>(columns, 1);
+    for (std::size_t at = 0; at <= text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        wrap_line(text.substr(at, end - at), room, lines);
+        at = end + 1;
+    }
+    return lines;
+}
+
+std::string paragraph(std::string_view first, std::string_view text, std::size_t columns)
+{
+    const std::size_t indent = width(first);
+    std::string out{first};
+    bool is_first = true;
+    for (const std::string& line : wrapped(text, std::max(columns, indent + kNarrowest) - indent)) {
+        if (!std::exchange(is_first, false)) out.append(indent, ' ');
+        out += line;
+        end_line(out);
+    }
+    return out;
 }
 
 Table::Table(std::vector<std::string> header) : header_(std::move(header))
@@ -48,49 +105,74 @@ void Table::add(std::vector<Cell> row)
     rows_.push_back(std::move(row));
 }
 
-std::string Table::str(bool colour, std::size_t indent) const
+/// What each column gets of `room`: the widest one of words gives way first.
+std::vector<std::size_t> Table::widths(std::size_t room) const
 {
-    std::vector<std::vector<Cell>> lines{{header_.begin(), header_.end()}};
-    for (Cell& cell : lines.front()) cell.tone = Tone::strong;
-    lines.insert(lines.end(), rows_.begin(), rows_.end());
-    std::vector<std::size_t> widths(header_.size(), 0);
-    for (const auto& line : lines)
-        for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], width(line[i].text));
+    std::vector<std::size_t> result;
+    for (const std::string& name : header_) result.push_back(width(name));
+    for (const auto& row : rows_)
+        for (std::size_t i = 0; i < row.size(); ++i) result[i] = std::max(result[i], width(row[i].text));
+    const std::size_t between = result.empty() ? 0 : kBetween * (result.size() - 1);
+    for (;;) {
+        if (std::accumulate(result.begin(), result.end(), between) <= room) return result;
+        std::size_t widest = result.size();
+        for (std::size_t i = 0; i < result.size(); ++i)
+            if (!right_[i] && result[i] > kNarrowest &&
+                (widest == result.size() || result[i] > result[widest]))
+                widest = i;
+        if (widest == result.size()) return result;
+        --result[widest];
+    }
+}
+
+std::string Table::str(Look look, std::size_t indent) const
+{
+    std::vector<std::vector<Cell>> rows{{header_.begin(), header_.end()}};
+    for (Cell& cell : rows.front()) cell.tone = Tone::strong;
+    rows.insert(rows.end(), rows_.begin(), rows_.end());
+    const std::vector<std::size_t> columns = widths(std::max(look.width, indent) - indent);
 
     std::string out;
-    for (const auto& line : lines) {
-        out.append(indent, ' ');
-        for (std::size_t i = 0; i < line.size(); ++i) {
-            const std::string fill = blanks(widths[i], line[i].text);
-            const std::string shown = painted(line[i].text, line[i].tone, colour);
-            out += (i == 0 ? "" : "  ") + (right_[i] ? fill + shown : shown + fill);
+    for (const auto& row : rows) {
+        std::vector<std::vector<std::string>> cells;
+        std::size_t lines = 1;
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            cells.push_back(wrapped(row[i].text, columns[i]));
+            lines = std::max(lines, cells.back().size());
         }
-        end_line(out);
+        for (std::size_t line = 0; line < lines; ++line) {
+            out.append(indent, ' ');
+            for (std::size_t i = 0; i < row.size(); ++i) {
+                const std::string text = line < cells[i].size() ? cells[i][line] : std::string{};
+                const std::string fill = blanks(columns[i], text);
+                const std::string shown = painted(text, row[i].tone, look);
+                out += std::string(i == 0 ? 0 : kBetween, ' ') + (right_[i] ? fill + shown : shown + fill);
+            }
+            end_line(out);
+        }
     }
     return out;
 }
 
-void Block::add(std::string name, std::string value)
+void Block::add(std::string name, std::string value, Tone tone)
 {
-    lines_.push_back({std::move(name), std::move(value)});
+    lines_.push_back({std::move(name), std::move(value), tone});
 }
 
-std::string Block::str(std::size_t indent) const
+std::string Block::str(std::size_t indent, Look look) const
 {
     std::size_t names = 0;
     for (const Line& line : lines_) names = std::max(names, width(line.name));
     std::string out;
     for (const Line& line : lines_) {
-        out += std::string(indent, ' ') + line.name + blanks(names, line.name) + "  ";
-        for (const char c : line.value) {
-            if (c == '\n') {
-                end_line(out);
-                out.append(indent + names + 2, ' ');
-            } else {
-                out += c;
-            }
+        const std::string head = std::string(indent, ' ') + line.name + blanks(names, line.name) + "  ";
+        std::string text = paragraph(head, line.value, look.width);
+        if (line.tone != Tone::plain) { // painted after it was measured
+            const std::size_t end = std::min(text.find_first_of(",: \n", head.size()), text.size());
+            text = head + painted(text.substr(head.size(), end - head.size()), line.tone, look) +
+                   text.substr(end);
         }
-        end_line(out);
+        out += text;
     }
     return out;
 }

@@ -35,7 +35,7 @@ int do_tag(const Options& options, Terminal& terminal)
     }
     if (options.words.empty()) {
         terminal.out << (options.json ? json_text(tables_json(tables.files)) + '\n'
-                                      : render_tables(tables.files, terminal.colour));
+                                      : render_tables(tables.files, terminal.look()));
         return kFine;
     }
     const TagHits hits = search(tables.files, options.words, options.all);
@@ -47,7 +47,7 @@ int do_tag(const Options& options, Terminal& terminal)
             as_one(options.words));
         return kNo;
     }
-    if (!options.json) terminal.out << render_tags(hits, terminal.colour);
+    if (!options.json) terminal.out << render_tags(hits, terminal.look());
     return kFine;
 }
 

@@ -2,6 +2,9 @@
 /// Where dpctl's words go, and what its exit says.
 #pragma once
 
+#include "table.hpp"
+
+#include <cstddef>
 #include <ostream>
 
 namespace dpslave::dpctl {
@@ -9,15 +12,18 @@ namespace dpslave::dpctl {
 struct Terminal {
     std::ostream& out;
     std::ostream& err;
-    bool tty = false;    ///< out is a terminal: watch redraws
-    bool colour = false; ///< out understands colours and nobody forbade them
+    bool tty = false;       ///< out is a terminal: watch redraws
+    bool colour = false;    ///< out understands colours and nobody forbade them
+    std::size_t width = 80; ///< characters of a line
+
+    Look look() const { return {colour, width}; }
 };
 
 /// Exit codes; --help tells them.
 enum Exit : int {
     kFine = 0,
-    kNo = 1, ///< refused, faulty, or not so
-    kUsage = 2,
+    kNo = 1,    ///< refused, faulty, or not so
+    kUsage = 2, ///< of the command line, or there is no such station
     kNoDaemon = 3,
 };
 

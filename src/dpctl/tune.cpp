@@ -127,7 +127,7 @@ int do_tune(const Options& options, Terminal& terminal)
     const std::vector<RateJudgment> rates = judge_rates(facts);
     const std::vector<TuneFinding> findings = tune_findings(facts, rates);
     terminal.out << (options.json ? json_text(tune_json(facts, rates, findings)) + '\n'
-                                  : render_tune(facts, rates, findings, terminal.colour))
+                                  : render_tune(facts, rates, findings, terminal.look()))
                  << std::flush;
     return std::any_of(findings.begin(), findings.end(),
                        [](const TuneFinding& one) { return one.severity == Severity::mend; })

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "fields.hpp"
+#include "table.hpp"
 
 #include "dpslave/base/units.hpp"
 #include "dpslave/io/machine.hpp"
@@ -104,6 +105,6 @@ Json tune_json(const TuneFacts& facts, const std::vector<RateJudgment>& rates,
                const std::vector<TuneFinding>& findings);
 /// At most 80 columns.
 std::string render_tune(const TuneFacts& facts, const std::vector<RateJudgment>& rates,
-                        const std::vector<TuneFinding>& findings, bool colour);
+                        const std::vector<TuneFinding>& findings, Look look);
 
 } // namespace dpslave::dpctl

@@ -138,19 +138,19 @@ Tone tone_of(Verdict verdict)
     return verdict == Verdict::holds ? Tone::good : verdict == Verdict::cannot ? Tone::bad : Tone::strong;
 }
 
-std::string rate_lines(const TuneFacts& facts, const std::vector<RateJudgment>& rates, bool colour)
+std::string rate_lines(const TuneFacts& facts, const std::vector<RateJudgment>& rates, Look look)
 {
     constexpr std::size_t kWhy = 43; // where the last column begins
     std::optional<Baud> now;
     if (facts.bus) now = facts.bus->baud;
     std::string out = painted(fmt::format("  {:<12}  {:<8}  {:>5}  {:>8}  {}", "RATE", "VERDICT", "NEEDS",
                                           "PROMISED", "WHY"),
-                              Tone::strong, colour) +
+                              Tone::strong, look) +
                       '\n';
     for (const RateJudgment& one : rates) {
         out += fmt::format("{} {:>12}  {}  {:>5}  {:>8}  {}\n", one.baud == now ? '>' : ' ',
                            rate(static_cast<std::uint32_t>(one.baud)),
-                           painted(fmt::format("{:<8}", text(one.verdict)), tone_of(one.verdict), colour),
+                           painted(fmt::format("{:<8}", text(one.verdict)), tone_of(one.verdict), look),
                            one.needed > 0 ? std::to_string(one.needed) : "-", one.promised,
                            wrapped(one.reason, kColumns - kWhy, kWhy));
     }
@@ -158,11 +158,11 @@ std::string rate_lines(const TuneFacts& facts, const std::vector<RateJudgment>& 
                  "  max_tsdr under [bus], and give the master the GSD of dpctl gsd make --max-tsdr\n";
 }
 
-std::string paragraph(const TuneFinding& finding, int number, bool colour)
+std::string paragraph(const TuneFinding& finding, int number, Look look)
 {
     const std::string head = number > 0 ? fmt::format("{}. ", number) : std::string{"note: "};
     const Tone tone = finding.severity == Severity::mend ? Tone::bad : Tone::strong;
-    std::string out = '\n' + painted(wrapped(head + finding.what, kColumns, 3), tone, colour) + '\n';
+    std::string out = '\n' + painted(wrapped(head + finding.what, kColumns, 3), tone, look) + '\n';
     if (!finding.cost.empty()) out += "   costs " + wrapped(finding.cost, kColumns - 9, 9) + '\n';
     for (const std::string& step : finding.steps) out += "   - " + wrapped(step, kColumns - 5, 5) + '\n';
     return out;
@@ -258,15 +258,15 @@ Json tune_json(const TuneFacts& facts, const std::vector<RateJudgment>& rates,
 }
 
 std::string render_tune(const TuneFacts& facts, const std::vector<RateJudgment>& rates,
-                        const std::vector<TuneFinding>& findings, bool colour)
+                        const std::vector<TuneFinding>& findings, Look look)
 {
-    std::string out = facts_block(facts) + '\n' + rate_lines(facts, rates, colour);
+    std::string out = facts_block(facts) + '\n' + rate_lines(facts, rates, look);
     int number = 0;
     for (const TuneFinding& one : findings)
-        if (one.severity != Severity::know) out += paragraph(one, ++number, colour);
-    if (number == 0) out += '\n' + painted("nothing to mend", Tone::good, colour) + '\n';
+        if (one.severity != Severity::know) out += paragraph(one, ++number, look);
+    if (number == 0) out += '\n' + painted("nothing to mend", Tone::good, look) + '\n';
     for (const TuneFinding& one : findings)
-        if (one.severity == Severity::know) out += paragraph(one, 0, colour);
+        if (one.severity == Severity::know) out += paragraph(one, 0, look);
     return out;
 }
 

@@ -36,7 +36,7 @@ void show_one(const Json& before, const Json& now, const Options& options, Termi
     if (options.json)
         terminal.out << printable_json(now.dump(-1, ' ', false, Json::error_handler_t::replace)) << '\n';
     else if (terminal.tty)
-        redraw(render_watch(now, terminal.colour), terminal.out);
+        redraw(render_watch(now, terminal.look()), terminal.out);
     else
         for (const std::string& line : changes(before, now)) terminal.out << line << '\n';
     terminal.out << std::flush;

@@ -157,6 +157,7 @@ int main(int argc, char** argv)
                  "all without "
                  "hardware"};
     app.require_subcommand(1);
+    app.set_version_flag("--version", "dpsim " DPSLAVE_VERSION);
     app.footer(
         "Example, a whole bus on one machine (three terminals and the daemon):\n"
         "  dpsim line --baud 187500 --a /tmp/bus-slave --b /tmp/bus-master\n"

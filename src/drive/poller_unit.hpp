@@ -32,8 +32,12 @@ public:
     void port_changed();
     void go_on_as(std::size_t index, const UnitSettings& settings);
 
-    void tell_time(Instant now) { safe_state_.tell_time(now); } ///< before next(), of this drive or another
-    std::optional<Transaction> next(Instant now);               ///< precondition: not lost
+    void tell_time(Instant now) ///< before next(), of this drive or another
+    {
+        safe_state_.tell_time(now);
+        snapshot_.ride_ends = safe_state_.ride_ends();
+    }
+    std::optional<Transaction> next(Instant now); ///< precondition: not lost
     Transaction probe() const;
     std::optional<Transaction> next_survey(Instant now) const;
     void done(const Transaction& transaction, const Outcome& outcome, Instant now);

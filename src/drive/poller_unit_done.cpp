@@ -128,6 +128,7 @@ AccessError Poller::Unit::judged(const Transaction& transaction, const Outcome& 
 
 void Poller::Unit::count(const Transaction& transaction, AccessError error)
 {
+    if (error == AccessError::not_understood) ++snapshot_.not_understood;
     if (error == AccessError::no_answer)
         ++snapshot_.silences;
     else if (error != AccessError::none)

@@ -63,6 +63,18 @@ Instant SafeState::next_due() const
     return at;
 }
 
+std::optional<Instant> SafeState::ride_ends() const
+{
+    const bool at_once = after_ && (!rides_ || *after_ == std::chrono::nanoseconds{0});
+    std::optional<Instant> ends;
+    for (const Zero& zero : zeros_) {
+        if (at_once || !zero.lost_at) continue;
+        const Instant end = after_ ? *zero.lost_at + *after_ : kNever;
+        ends = std::max(end, ends.value_or(end));
+    }
+    return ends;
+}
+
 bool SafeState::pending() const
 {
     return after_ && !zeros_.empty();

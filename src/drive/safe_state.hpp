@@ -44,6 +44,9 @@ public:
     void drive_returned();                      ///< what was postponed is tried at once
     bool untold() const;                        ///< the time is to be told, whatever comes next
     Instant next_due() const;
+    /// When the last ride through the loss of the master is over; kNever = never. Nothing: none rides, or
+    /// all are zeroed at once.
+    std::optional<Instant> ride_ends() const;
     bool pending() const; ///< one of them waits for its zero, now or after its ride
 
 private:

@@ -20,7 +20,7 @@ std::uint64_t counter(const json& reply, const std::string& name)
 
 TEST(CountersReport, TellsNoFigureBeforeTheFirstReply)
 {
-    const json reply = counters_json(View{});
+    const json reply = counters_json(View{}, Instant{});
 
     EXPECT_EQ(control::reply_mismatch("GetCounters", reply), std::nullopt);
     ASSERT_EQ(reply.at("turnaround").size(), 2u);
@@ -38,7 +38,7 @@ TEST(CountersReport, TellsTheTurnaroundInMicrosecondsAndBitTimes)
     for (int i = 0; i < 999; ++i) view.bus.turnaround_us.add(66);
     view.bus.turnaround_us.add(50'000);
     view.bus.turnaround_tbit.add(12);
-    const json reply = counters_json(view);
+    const json reply = counters_json(view, Instant{});
     EXPECT_EQ(control::reply_mismatch("GetCounters", reply), std::nullopt);
 
     const json& us = reply.at("turnaround").at(0);
@@ -64,7 +64,7 @@ TEST(CountersReport, TellsWhatTheEdgeCounted)
     view.bus.echo_missing = 5;
     view.bus.echo_broken = 6;
     view.bus.page_faults = 7;
-    const json reply = counters_json(view);
+    const json reply = counters_json(view, Instant{});
 
     EXPECT_EQ(counter(reply, "late"), 1u);
     EXPECT_EQ(counter(reply, "too_late"), 2u);
@@ -88,7 +88,7 @@ TEST(CountersReport, TellsTheDelayOfADriveThatIsAlwaysLateAndTheTimeOutThatItNee
                            .late_in_a_row = drive::kAlwaysLate,
                            .delay = std::chrono::milliseconds{420}};
     view.stations.push_back(station);
-    const json group = counters_json(view).at("groups").at(1);
+    const json group = counters_json(view, Instant{}).at("groups").at(1);
     const auto value = [&](const std::string& name) {
         for (const json& one : group.at("counters"))
             if (one.at("name") == name) return one.at("value").get<int>();
@@ -100,6 +100,34 @@ TEST(CountersReport, TellsTheDelayOfADriveThatIsAlwaysLateAndTheTimeOutThatItNee
     EXPECT_EQ(value("drive_foreign"), 3);
     EXPECT_EQ(value("drive_delay_ms"), 420);
     EXPECT_EQ(value("drive_needs_timeout_ms"), 525) << "a quarter more";
+}
+
+TEST(CountersReport, TellsWhatWasCountedWithinTheLastMinuteAndSinceWhen)
+{
+    using std::chrono::seconds;
+    View view;
+    const Instant start{seconds{100}};
+    view.bus.counters.late = 3;
+    view.history.sample(view, start);
+    view.bus.counters.late = 5;
+    view.history.sample(view, start + seconds{10});
+
+    const auto late = [&](Instant now) {
+        const json reply = counters_json(view, now);
+        EXPECT_EQ(control::reply_mismatch("GetCounters", reply), std::nullopt);
+        for (const json& one : reply.at("groups").at(0).at("counters"))
+            if (one.at("name") == "late") return one;
+        return json();
+    };
+    EXPECT_EQ(late(start + seconds{12}).at("minute"), 5);
+    EXPECT_EQ(late(start + seconds{12}).at("last_age_ms"), 2000.0);
+    EXPECT_EQ(late(start + seconds{12}).at("since_age_ms"), 12000.0);
+
+    view.history.sample(view, start + seconds{75});
+    EXPECT_EQ(late(start + seconds{75}).at("value"), 5);
+    EXPECT_EQ(late(start + seconds{75}).at("minute"), 0);
+    EXPECT_EQ(late(start + seconds{75}).at("last_age_ms"), 65000.0);
+    EXPECT_TRUE(late(start + seconds{75}).at("since_age_ms").is_null());
 }
 
 } // namespace

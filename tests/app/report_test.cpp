@@ -165,7 +165,7 @@ TEST_F(Report, OfInfoNamesTheSoftwareOfTheOptionAndTheAddressInForce)
     EXPECT_TRUE(info.at("comms_status").is_null());
     EXPECT_TRUE(info.at("resolution").is_null());
     EXPECT_EQ(info.at("address_active"), 7);
-    EXPECT_EQ(app::station_json(bench.view).at("address"), 7);
+    EXPECT_EQ(app::station_json(bench.view, Instant{}).at("address"), 7);
 }
 
 TEST_F(Report, OfInfoCountsNoMoreOctetsThanTheWordsOfTheDevice)

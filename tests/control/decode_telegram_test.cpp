@@ -57,10 +57,10 @@ SD1: acknowledgement without data
   from, to  5 to 2
   FC        03: reply of a slave, RS: service or SAP not activated
 )"));
-    EXPECT_THAT(
-        picture("68 05 05 68 02 05 0A 12 34 57 16"),
-        HasSubstr("  FC        0A: reply of a slave, DH: data, high priority (in Data_Exchange: a diagnosis "
-                  "waits)\n  inputs    12 34 (2 octets)\n"));
+    EXPECT_THAT(picture("68 05 05 68 02 05 0A 12 34 57 16"),
+                HasSubstr("  FC        0A: reply of a slave, DH: data, high priority (in Data_Exchange: a\n  "
+                          "          diagnosis "
+                          "waits)\n  inputs    12 34 (2 octets)\n"));
 }
 
 TEST(DecodeTelegram, ReadsSd3AsItReadsSd2)

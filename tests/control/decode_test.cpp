@@ -138,6 +138,19 @@ TEST(DecodeDiagnosis, NamesEveryBitOfTheStationStatus)
     EXPECT_EQ(meaning(parts[0], 6), "Ident_Number, low octet: 0x0533");
 }
 
+TEST(DecodeAs, TakesTheOctetsThatDiagPrintsWithoutATelegram)
+{
+    const std::vector<std::uint8_t> prm{0x88, 0x01, 0x0A, 0x0B, 0x05, 0x33, 0x00}, cfg{0x73, 0x50},
+        diag{0x00, 0x0C, 0x00, 0x01, 0x05, 0x33};
+    EXPECT_EQ(decode_as(Form::set_prm, prm, {}).kind, "Set_Prm");
+    EXPECT_GE(decode_as(Form::set_prm, prm, {}).octets.size(), 7U);
+    EXPECT_THAT(decode_as(Form::set_prm, prm, {}).faults, testing::IsEmpty());
+    EXPECT_EQ(decode_as(Form::chk_cfg, cfg, {}).octets.size(), 2U);
+    EXPECT_EQ(decode_as(Form::slave_diag, diag, {}).kind, "Slave_Diag");
+    EXPECT_EQ(form_called("prm"), Form::set_prm);
+    EXPECT_EQ(form_called("telegram"), std::nullopt);
+}
+
 struct Flawed {
     const char* name;
     const char* octets;
@@ -185,7 +198,11 @@ INSTANTIATE_TEST_SUITE_P(
         Flawed{"MissingSap", "10 85 02 49 D0 16", "an address announces a SAP, but no octet is left for it"},
         Flawed{"WrongMasterSap", "68 05 05 68 85 82 6D 3C 3D ED 16",
                "the master's SAP of this service is 62, here is 61: a DP slave answers RS"},
-        Flawed{"ToAllWithAnswer", "10 7F 02 49 CA 16", "127 is only for telegrams that nobody answers (SDN)"},
+        Flawed{"ToAllWithAnswer", "10 7F 02 49 CA 16", "127 is only for telegrams without an answer (SDN)"},
+        Flawed{"ToItself", "10 05 05 49 53 16", "sender and receiver are both 5: no station talks to itself"},
+        Flawed{"ReservedFunction", "10 05 02 41 48 16", "the function code 1 of FC 0x41 is reserved"},
+        Flawed{"Bit7OfFc", "10 05 02 C9 D0 16",
+               "bit 7 of FC 0xC9 is set: no DP telegram has it, a slave is silent"},
         Flawed{"SetPrmTooShort", "68 08 08 68 85 82 5D 3D 3E 88 14 01 7C 16",
                "Set_Prm has at least 7 octets, here are 3: slaves discard it"},
         Flawed{"GlobalControlTooLong", "68 08 08 68 FF 82 46 3A 3E 00 00 00 3F 16",

@@ -48,27 +48,43 @@ TEST_F(Doctor, PrintsStationsCausesAndTheLine)
 {
     station()["drive"]["link"] = "silent";
 
-    EXPECT_EQ(render_doctor(replies, diagnose(replies, ""), "", false), test::lines(R"(
+    EXPECT_EQ(render_doctor(replies, diagnose(replies, ""), earlier_troubles(replies, ""), "", false),
+              test::lines(R"(
 /dev/ttyS1, 187.5 kbit/s (DP_Control), last telegram 2 ms ago
 
 STATION   ADDRESS  STATE      DRIVE   LAMPS
-unwinder        5  Data_Exch  silent  red off, green flashing 2 Hz: data exchange with the master
+unwinder        5  Data_Exch  silent  red off, green flashing 2 Hz: data
+                                      exchange with the master
 
-1. Internal communications fault (HA389815 chapter 9)
-   unwinder: unit 00 on p3 (/dev/ttyS2, ei-ascii) does not answer: 3 requests unanswered
-   - Check that PROTOCOL of the drive is what the gateway's port needs (for the board itself: OPTION).
+1. The drive has fallen silent: power, cable, or its port was set otherwise
+   (dpslaved)
+   unwinder: ei-ascii unit 00 on p3: /dev/ttyS2 at 9.6 kbit/s, 7E1; it does not
+             answer
+   - Check that the drive has power, and the cable between gateway and drive.
+   - Check whether the port of the drive was set to another protocol, rate or
+     unit since.
+   - dpctl read TAG asks the drive at once.
+
+2. Internal communications fault (HA389815 chapter 9)
+   unwinder: unit 00 on p3 (/dev/ttyS2, ei-ascii) does not answer: 3 requests
+             unanswered
+   - Check that PROTOCOL of the drive is what the gateway's port needs (for the
+     board itself: OPTION).
    - Check that the address is 0 to 125 (620: 1 to 125).
-   - 620: check the connections between the PROFIBUS side and the drive; P3 MODE (or P1 MODE) and the baud rate.
-   - Check port, baud, format and unit of the line in the configuration against the drive's settings.
+   - 620: check the connections between the PROFIBUS side and the drive; P3 MODE
+     (or P1 MODE) and the baud rate.
+   - Check port, baud, format and unit of the line in the configuration against
+     the drive's settings.
 
 line length of a segment at 187.5 kbit/s: cable A 1000 m, cable B 600 m
-termination: at both ends of the segment and nowhere else, 390 ohm to +5 V, 220 ohm between B and A, 390 ohm to 0 V
+termination: at both ends of the segment and nowhere else, 390 ohm to +5 V, 220
+ohm between B and A, 390 ohm to 0 V
 )"));
 }
 
 TEST_F(Doctor, SaysThatAllIsWell)
 {
-    EXPECT_THAT(render_doctor(replies, diagnose(replies, ""), "", false),
+    EXPECT_THAT(render_doctor(replies, diagnose(replies, ""), earlier_troubles(replies, ""), "", false),
                 HasSubstr("\n\nall is well\n\nline length"));
 }
 
@@ -76,7 +92,8 @@ TEST_F(Doctor, PrintsTheWholeLineTableWhileTheRateIsSearched)
 {
     bus()["baud_state"] = "Baud_Search";
 
-    EXPECT_THAT(render_doctor(replies, diagnose(replies, ""), "", false), HasSubstr(test::lines(R"(
+    EXPECT_THAT(render_doctor(replies, diagnose(replies, ""), earlier_troubles(replies, ""), "", false),
+                HasSubstr(test::lines(R"(
 line length of a segment at most:
           RATE  CABLE A           CABLE B
     9.6 kbit/s   1200 m            1200 m
@@ -90,24 +107,25 @@ TEST_F(Doctor, AsksOnlyForTheStationThatIsMeant)
     replies.status["stations"][0]["left_count"] = 0;
 
     EXPECT_THAT(diagnose(replies, "unwinder"), IsEmpty());
-    EXPECT_EQ(diagnose(replies, "16").size(), 2u); // internal and external fault of the rewinder
+    EXPECT_EQ(diagnose(replies, "16").size(), 3u); // the drive, and the lists for its lamps
 }
 
 TEST_F(Doctor, GivesTheSameAsJson)
 {
     station()["state"] = "Power_On";
 
-    EXPECT_EQ(doctor_json(replies, diagnose(replies, "")), Json::parse(R"({"findings":[{"station":"unwinder",
+    EXPECT_EQ(doctor_json(replies, diagnose(replies, ""), {}),
+              Json::parse(R"({"findings":[{"station":"unwinder",
         "rule":"board.dark","condition":"red off, green off","cause":"No power or major fault",
         "evidence":"the station is in Power_On: it is not served",
         "steps":["Check the power of the gateway and of its transceiver.",
                  "systemctl status dpslaved; journalctl -u dpslaved says why the station is not served."],
-        "source":"HA389815 chapter 9"}],"notes":[],"line":{"baud":187500,"cable_a_m":1000,"cable_b_m":600}})"));
+        "source":"HA389815 chapter 9"}],"notes":[],"earlier":[],"line":{"baud":187500,"cable_a_m":1000,"cable_b_m":600}})"));
 }
 
 TEST(DoctorRules, AreAllPrintedForThoseWhoSeeLampsOnly)
 {
-    const std::string all = render_rules(false);
+    const std::string all = render_rules(Look{false, 300});
     const Json json = rules_json();
 
     ASSERT_EQ(json["rules"].size(), rules().size());
@@ -126,7 +144,7 @@ TEST_F(Doctor, SurvivesRepliesOfAnotherVersion)
     for (Json* reply : {&odd.status, &odd.info, &odd.diagnosis, &odd.counters, &odd.leds, &odd.tec, &odd.io})
         *reply = Json::parse(R"({"bus":7,"stations":[null,"x",{"name":5,"drive":[],"rows":[1],"trouble":[1]}],
                                 "groups":[{"name":"bus","counters":[3,{"name":1}]}],"uptime_ms":"x"})");
-    EXPECT_NO_THROW(render_doctor(odd, diagnose(odd, ""), "", true));
+    EXPECT_NO_THROW(render_doctor(odd, diagnose(odd, ""), earlier_troubles(odd, ""), "", true));
     EXPECT_NO_THROW(diagnose(Replies{}, "x"));
 }
 

@@ -16,6 +16,7 @@ namespace dpslave::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 class DpctlProgram : public testing::Test {
@@ -34,7 +35,7 @@ TEST_F(DpctlProgram, PrintsWhatTheRenderersMakeWithoutColourIntoAPipe)
 {
     EXPECT_EQ(run({"status"}).out, dpctl::render_status(fixture("GetStatus"), false));
     EXPECT_EQ(run({"stations"}).out, dpctl::render_stations(fixture("ListStations"), false));
-    EXPECT_EQ(run({"info"}).out, dpctl::render_info(fixture("GetInfo"), "9.8.7"));
+    EXPECT_EQ(run({"info"}).out, dpctl::render_info(fixture("GetInfo"), "9.8.7", false));
     EXPECT_EQ(run({"io", "unwinder"}).out, dpctl::render_io(fixture("GetIo"), false));
     EXPECT_EQ(run({"diag", "16"}).out, dpctl::render_diagnosis(fixture("GetDiagnosis"), false));
     EXPECT_EQ(run({"counters"}).out, dpctl::render_counters(fixture("GetCounters"), false));
@@ -144,12 +145,14 @@ TEST_F(DpctlProgram, AnswersWhetherStationsExchangeData)
 {
     const Ran all = run({"is-exchanging"});
     EXPECT_EQ(all.exit, 1);
-    EXPECT_EQ(all.out, "unwinder (address 5): Data_Exch\nrewinder (address 16): Wait_Prm\n");
+    EXPECT_EQ(all.out, "unwinder (address 5): Data_Exch, drive answers\n"
+                       "rewinder (address 16): Wait_Prm, drive silent\n");
+    EXPECT_EQ(run({"is-exchanging", "unwinder", "--healthy"}).exit, 0);
     EXPECT_EQ(run({"is-exchanging", "unwinder"}).exit, 0);
     EXPECT_EQ(run({"is-exchanging", "5"}).exit, 0);
     EXPECT_EQ(run({"is-exchanging", "16"}).exit, 1);
     const Ran unknown = run({"is-exchanging", "winder"});
-    EXPECT_EQ(unknown.exit, 1);
+    EXPECT_EQ(unknown.exit, 2);
     EXPECT_EQ(unknown.err, "dpctl: there is no station 'winder'\n");
 }
 
@@ -177,7 +180,7 @@ TEST_F(DpctlProgram, SaysWhatWasWritten)
 TEST_F(DpctlProgram, EndsWith1AndAReasonWhenItIsRefused)
 {
     const Ran station = run({"info", "winder"});
-    EXPECT_EQ(station.exit, 1);
+    EXPECT_EQ(station.exit, 2) << "apart from what is refused";
     EXPECT_EQ(station.err, "dpctl: there is no station 'winder'; there are: unwinder, rewinder\n");
 
     const Ran which = run({"read", "7"});
@@ -276,6 +279,22 @@ INSTANTIATE_TEST_SUITE_P(
                     std::vector<std::string>{"status", "--timeout", "0"},
                     std::vector<std::string>{"status", "--socket"}));
 
+TEST(DpctlHelp, SuggestsTheCommandThatIsNearest)
+{
+    EXPECT_THAT(dpctl({"stauts"}).err, HasSubstr("there is no command 'stauts'; did you mean 'status'?"));
+    EXPECT_THAT(dpctl({"gsd", "chek", "x"}).err, HasSubstr("did you mean 'check'?"));
+    EXPECT_THAT(dpctl({"--json", "docter"}).err, HasSubstr("did you mean 'doctor'?"));
+    EXPECT_THAT(dpctl({"entirely-else"}).err, Not(HasSubstr("did you mean")));
+    EXPECT_THAT(dpctl({"status", "--nonsense"}).err, Not(HasSubstr("did you mean")));
+    EXPECT_EQ(dpctl({"stauts"}).exit, 2);
+}
+
+TEST(DpctlHelp, TellsTheVersion)
+{
+    EXPECT_EQ(dpctl({"--version"}).out, "dpctl " DPSLAVE_VERSION "\n");
+    EXPECT_EQ(dpctl({"--version"}).exit, 0);
+}
+
 TEST(DpctlHelp, TellsExitCodesAndWhereTheSchemaIs)
 {
     const Ran ran = dpctl({"--help"});
@@ -285,7 +304,7 @@ TEST(DpctlHelp, TellsExitCodesAndWhereTheSchemaIs)
     EXPECT_THAT(ran.out,
                 HasSubstr("  1  refused by the daemon or the drive, a faulty answer or input, not found, "
                           "or not so (is-exchanging, doctor, survey, tune)\n"));
-    EXPECT_THAT(ran.out, HasSubstr("  2  usage\n"));
+    EXPECT_THAT(ran.out, HasSubstr("  2  usage, or there is no such station\n"));
     EXPECT_THAT(ran.out, HasSubstr("  3  no daemon"));
     EXPECT_THAT(ran.out, HasSubstr("org.dpslaved.Control.varlink"));
 }
@@ -297,7 +316,10 @@ TEST(DpctlHelp, TellsForEachSubcommandItsExitCodesAndWhatJsonPrints)
                                    "tec", "leds", "watch", "version", "is-exchanging"}) {
         EXPECT_THAT(all, HasSubstr(std::string{"\n  "} + subcommand + " "));
         const std::string own = dpctl({subcommand, "--help"}).out;
-        EXPECT_THAT(own, HasSubstr("Exit codes: 0 fine, 1 refused, faulty or not so, 2 usage, 3 no daemon."));
+        EXPECT_THAT(
+            own,
+            HasSubstr(
+                "Exit codes: 0 fine, 1 refused, faulty or not so, 2 usage or no such station, 3 no daemon."));
         EXPECT_THAT(own, HasSubstr("--json prints the reply of "));
     }
     for (const char* subcommand : {"tag", "hex", "decode"}) {
@@ -308,8 +330,10 @@ TEST(DpctlHelp, TellsForEachSubcommandItsExitCodesAndWhatJsonPrints)
         EXPECT_THAT(own, HasSubstr("--json prints {\""));
         EXPECT_THAT(own, HasSubstr(std::string{"Examples:\n  dpctl "} + subcommand));
     }
-    EXPECT_THAT(dpctl({"doctor", "--help"}).out,
-                HasSubstr("Exit codes: 0 all is well, 1 something was found, 2 usage, 3 no daemon."));
+    EXPECT_THAT(
+        dpctl({"doctor", "--help"}).out,
+        HasSubstr(
+            "Exit codes: 0 all is well, 1 something was found, 2 usage or no such station, 3 no daemon."));
 }
 
 // ---------------------------------------------------------------- no daemon

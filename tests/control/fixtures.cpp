@@ -9,19 +9,20 @@ namespace {
 using nlohmann::json;
 
 const char* const kBus =
-    R"({"port":"/dev/ttyS1","baud":187500,"baud_state":"DP_Control","stations":2,"exchanging":1,
+    R"({"port":"/dev/ttyS1","baud":187500,"baud_state":"DP_Control","configured_baud":null,
+                             "port_open":true,"driver_works":true,"unanswered":[],"stations":2,"exchanging":1,
                              "last_telegram_age_ms":2.4})";
 
 const char* const kStations = R"([
   {"name":"unwinder","address":5,"profile":"590","device":"590 with PROFIBUS-DP option board","state":"Data_Exch","master":2,
-   "watchdog_ms":100,"min_tsdr":11,"groups":129,"sync":false,"freeze":true,"stat_diag":false,"diag_pending":false,"parameters":2,
-   "demand_data":true,"left_count":1,"left_because":"watchdog expired",
-   "drive":{"line":"p3","port":"/dev/ttyS2","protocol":"ei-ascii","unit":"00","link":"answers","cycle_ms":123.4,"reads":4000,
+   "watchdog_ms":100,"min_tsdr":11,"groups":129,"sync":false,"freeze":true,"clear":false,"ride":null,"silent_because":null,"stat_diag":false,"diag_pending":false,"parameters":2,
+   "demand_data":true,"left_count":1,"left_because":"watchdog expired","left_code":"watchdog",
+   "drive":{"line":"p3","port":"/dev/ttyS2","protocol":"ei-ascii","unit":"00","link":"answers","port_open":true,"ever_answered":true,"baud":9600,"format":"7E1","timeout_ms":200,"cycle_ms":123.4,"reads":4000,
             "writes":1,"silences":3,"refusals":0,"losses":1,"last_trouble":null}},
   {"name":"rewinder","address":16,"profile":"590","device":"590 with PROFIBUS-DP option board","state":"Wait_Prm","master":null,
-   "watchdog_ms":null,"min_tsdr":11,"groups":0,"sync":false,"freeze":false,"stat_diag":true,"diag_pending":true,"parameters":0,
-   "demand_data":false,"left_count":0,"left_because":null,
-   "drive":{"line":"p3","port":"/dev/ttyS2","protocol":"ei-ascii","unit":"01","link":"silent","cycle_ms":null,"reads":0,
+   "watchdog_ms":null,"min_tsdr":11,"groups":0,"sync":false,"freeze":false,"clear":false,"ride":null,"silent_because":null,"stat_diag":true,"diag_pending":true,"parameters":0,
+   "demand_data":false,"left_count":0,"left_because":null,"left_code":null,
+   "drive":{"line":"p3","port":"/dev/ttyS2","protocol":"ei-ascii","unit":"01","link":"silent","port_open":true,"ever_answered":false,"baud":9600,"format":"7E1","timeout_ms":200,"cycle_ms":null,"reads":0,
             "writes":0,"silences":12,"refusals":0,"losses":0,"last_trouble":"no answer"}}])";
 
 const char* const kWords = R"([
@@ -44,9 +45,10 @@ const char* const kDiagnosis = R"({"stations":[
              {"octet":5,"offset":4,"value":5,"meaning":"Ident_Number high"},
              {"octet":6,"offset":5,"value":51,"meaning":"Ident_Number low"}],
    "hex":"06 05 00 FF 05 33","bits":["Station_Not_Ready","Cfg_Fault","Prm_Req"],
-   "refusal":{"telegram":"Chk_Cfg","what":"no legal identifier","octet":3,"expected":"0x50 or 0x60","got":"0x51",
+   "refusal":{"code":"cfg_identifier","telegram":"Chk_Cfg","what":"no legal identifier","octet":3,"expected":"0x50 or 0x60","got":"0x51",
               "advice":"compare the modules chosen in the master with the GSD"},
-   "last_prm":"88 01 0A 0B 05 33 00","last_cfg":"73 50 51","held":false,"unscaled":[],"trouble":["tag 999 is in no table"]}]})";
+   "last_prm":"88 01 0A 0B 05 33 00","last_cfg":"73 50 51","held":false,"unscaled":[],"trouble":["tag 999 is in no table"],
+   "refused":[{"tag":999,"write":false,"code":"invalid_tag","text":"tag 999 is in no table"}]}]})";
 
 const char* const kLeds = R"({"stations":[{"name":"unwinder","meaning":"data exchange with the master",
   "leds":[{"name":"red","sink":"gpio:23","lit":false,"pattern":"off"},
@@ -62,9 +64,11 @@ const char* const kTec = R"({"stations":[{"name":"booster","view":"profibus","ro
   "trip":"1: LINK OVERVOLTS","tripped":true,"notes":["WARNING: Setting the RIDE THROUGH parameter to anything other than zero could compromise safety."]}]})";
 
 const char* const kCounters = R"({"groups":[{"name":"bus","counters":[
-  {"name":"telegrams","value":123456,"meaning":"valid telegrams heard"},
-  {"name":"flaw.checksum","value":3,"meaning":"FCS wrong"}]},
-  {"name":"unwinder","counters":[{"name":"data_exchange","value":7,"meaning":"Data_Exchange requests answered"}]}],
+  {"name":"telegrams","value":123456,"meaning":"valid telegrams heard","minute":3000,"last_age_ms":500.0,"since_age_ms":3600000.0},
+  {"name":"checked","value":60000,"meaning":"with a checksum","minute":1500,"last_age_ms":500.0,"since_age_ms":3600000.0},
+  {"name":"octets","value":900000,"meaning":"received","minute":20000,"last_age_ms":500.0,"since_age_ms":3600000.0},
+  {"name":"flaw.checksum","value":3,"meaning":"FCS wrong","minute":0,"last_age_ms":3600000.0,"since_age_ms":null}]},
+  {"name":"unwinder","counters":[{"name":"data_exchange","value":7,"meaning":"Data_Exchange requests answered","minute":7,"last_age_ms":500.0,"since_age_ms":20000.0}]}],
   "turnaround":[
   {"unit":"us","count":2000,"p50":12,"p99":79,"p999":210,"highest":20000,"classes":[
     {"from":12,"to":12,"count":1600},{"from":64,"to":79,"count":399},{"from":14336,"to":null,"count":1}]},
@@ -76,12 +80,15 @@ std::map<std::string, json> all()
     const json bus = json::parse(kBus), stations = json::parse(kStations), words = json::parse(kWords);
     json watched_words = json::array();
     watched_words.push_back({{"name", "unwinder"}, {"words", words}});
-    json io = json::parse(R"({"stations":[{"name":"unwinder","address":5,"state":"Data_Exch","may_write":true,
+    json io = json::parse(
+        R"({"stations":[{"name":"unwinder","address":5,"state":"Data_Exch","may_write":true,"clear":false,
         "demand":{"request":[0,0,4096,7],"reply":[0,5000,4096,7],"words":"reads tag 7: answered"}},
-       {"name":"rewinder","address":16,"state":"Wait_Prm","may_write":false,"words":[],"demand":null}]})");
+       {"name":"rewinder","address":16,"state":"Wait_Prm","may_write":false,"clear":false,"words":[],"demand":null}]})");
     io["stations"][0]["words"] = words;
     const json tag =
         json::parse(R"({"station":"unwinder","tag":7,"name":"SPEED FEEDBACK","raw":5000,"value":"50.00"})");
+    json written = tag;
+    written["master"] = nullptr;
     return {
         {"GetVersion",
          json::parse(R"({"program":"dpslaved","version":"9.8.7","interface":"org.dpslaved.Control"})")},
@@ -105,7 +112,7 @@ std::map<std::string, json> all()
         {"Survey",
          json::parse(R"({"station":"unwinder","tag":1,"mnemonic":"a1","outcome":"value","text":"12.5",
             "raw":null,"reason":null})")},
-        {"WriteTag", tag},
+        {"WriteTag", written},
     };
 }
 

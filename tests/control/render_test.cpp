@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <sstream>
+
 namespace dpslave::dpctl {
 namespace {
 
@@ -37,7 +40,7 @@ TEST(DpctlStatus, SaysThatTheRateIsSearched)
     reply["bus"]["baud_state"] = "Baud_Search";
     reply["bus"]["last_telegram_age_ms"] = nullptr;
 
-    const std::string picture = render_status(reply, false);
+    const std::string picture = render_status(reply, Look{false, 100});
     EXPECT_EQ(picture.substr(0, picture.find('\n')),
               "bus       /dev/ttyS1, searching the rate, now at 187.5 kbit/s, no telegram heard yet");
 }
@@ -48,6 +51,69 @@ TEST(DpctlStatus, ShowsStatesAndLinksInColour)
 
     EXPECT_NE(picture.find("\033[32mData_Exch\033[0m"), std::string::npos);
     EXPECT_NE(picture.find("\033[31msilent\033[0m"), std::string::npos);
+}
+
+TEST(DpctlStatus, NamesWhatLooksNormalAndIsNot)
+{
+    Json reply = fixture("GetStatus");
+    reply["bus"]["port_open"] = false;
+    Json& station = reply["stations"][0];
+    station["clear"] = true;
+    station["ride"] = Json::parse(R"({"ends_in_ms":4200.0})");
+    station["silent_because"] = "FAULT is PARAMETER, the station is silent on the bus.";
+    station["drive"]["port_open"] = false;
+
+    const std::string picture = render_status(reply, Look{false, 120});
+    for (const char* said : {"/dev/ttyS1 has vanished", "Data_Exch in Clear, RIDE THROUGH", "port gone",
+                             "unwinder: the master is in Clear: 0 goes to every output of the drive",
+                             "its outputs stand for 4.2 s more",
+                             "unwinder: FAULT is PARAMETER, the station is silent on the bus.",
+                             "the port of the drive line, /dev/ttyS2, is gone or cannot be opened"})
+        EXPECT_NE(picture.find(said), std::string::npos) << said << '\n' << picture;
+}
+
+TEST(DpctlIo, DoesNotSayOfAMasterInClearThatItsOutputsGoToTheDrive)
+{
+    Json reply = fixture("GetIo");
+    reply["stations"][0]["clear"] = true;
+
+    EXPECT_EQ(render_io(reply, false).find("outputs go to the drive"), std::string::npos);
+    EXPECT_NE(render_io(reply, false).find("the master is in Clear, 0 goes to every output"),
+              std::string::npos);
+}
+
+/// The widest line of a picture, in characters.
+std::size_t widest(const std::string& picture)
+{
+    std::istringstream lines{picture};
+    std::size_t most = 0;
+    for (std::string line; std::getline(lines, line);) most = std::max(most, line.size());
+    return most;
+}
+
+TEST(DpctlPictures, Fit80ColumnsAndUseAWiderTerminal)
+{
+    Json io = fixture("GetIo"), diagnosis = fixture("GetDiagnosis"), counters = fixture("GetCounters"),
+         status = fixture("GetStatus");
+    const std::string many(30, 'W');
+    const std::string words = many + ' ' + many + ' ' + many + ' ' + many;
+    io["stations"][0]["words"][0]["name"] = words;
+    diagnosis["stations"][0]["octets"][0]["meaning"] = words;
+    diagnosis["stations"][0]["refusal"]["advice"] = words;
+    diagnosis["stations"][0]["bits"] = Json::array({words, words});
+    counters["groups"][0]["counters"][0]["meaning"] = words;
+    status["stations"][0]["silent_because"] = words;
+    status["bus"]["port"] = "/dev/serial/by-id/" + many + many;
+
+    const Look wide{false, 160};
+    EXPECT_LE(widest(render_status(status, false)), 80U);
+    EXPECT_LE(widest(render_io(io, false)), 80U);
+    EXPECT_LE(widest(render_diagnosis(diagnosis, false)), 80U);
+    EXPECT_LE(widest(render_counters(counters, false)), 80U);
+    EXPECT_GT(widest(render_io(io, wide)), 80U);
+    EXPECT_GT(widest(render_diagnosis(diagnosis, wide)), 80U);
+    EXPECT_GT(widest(render_counters(counters, wide)), 80U);
+    EXPECT_GT(widest(render_status(status, wide)), 80U);
 }
 
 TEST(DpctlStations, TellsEverythingAboutEach)
@@ -64,7 +130,8 @@ unwinder, address 5
   parameters      2 and Demand Data
   left Data_Exch  1 time, the last time: watchdog expired
   drive           unit 00 on p3 (/dev/ttyS2, ei-ascii): answers
-                  a round takes 123 ms; 4000 reads, 1 write, 3 unanswered, 0 refused, lost 1 time
+                  a round takes 123 ms; 4000 reads, 1 write, 3 unanswered, 0
+                  refused, lost 1 time
 
 rewinder, address 16
   device          590 with PROFIBUS-DP option board (profile 590)
@@ -73,7 +140,8 @@ rewinder, address 16
   min T_SDR       11 T_bit
   groups          none
   Sync, Freeze    off, off
-  diagnosis       static diagnosis: not ready for data yet; new, the master has yet to read it
+  diagnosis       static diagnosis: not ready for data yet; new, the master has
+                  yet to read it
   parameters      0
   left Data_Exch  never
   drive           unit 01 on p3 (/dev/ttyS2, ei-ascii): silent
@@ -84,7 +152,7 @@ rewinder, address 16
 
 TEST(DpctlInfo, TellsWhatIsEmulatedAndThePendingAddress)
 {
-    EXPECT_EQ(render_info(fixture("GetInfo"), "9.8.7"), test::lines(R"(
+    EXPECT_EQ(render_info(fixture("GetInfo"), "9.8.7", {}), test::lines(R"(
 unwinder
   emulates         590 with PROFIBUS-DP option board
   order code       590 option digit 2
@@ -93,9 +161,11 @@ unwinder
   manual           HA389815
   profile          590
   Ident_Number     0x0533
-  address          5 active, 7 pending: the configuration file has it, the next start of dpslaved takes it
+  address          5 active, 7 pending: the configuration file has it, the next
+                   start of dpslaved takes it
   legal addresses  0 to 125
-  at most          12 parameters, 32 octets in, 32 octets out, 6 octets of diagnosis
+  at most          12 parameters, 32 octets in, 32 octets out, 6 octets of
+                   diagnosis
   Demand Data      yes
   Sync, Freeze     yes, yes
   rates            9.6 kbit/s, answers within 60 T_bit
@@ -110,26 +180,26 @@ TEST(DpctlInfo, SaysNothingOfAPendingAddressWhenThereIsNone)
     Json reply = fixture("GetInfo");
     reply["stations"][0]["address_pending"] = nullptr;
 
-    EXPECT_NE(render_info(reply, "9.8.7").find("  address          5 active\n"), std::string::npos);
+    EXPECT_NE(render_info(reply, "9.8.7", {}).find("  address          5 active\n"), std::string::npos);
 }
 
 TEST(DpctlInfo, TellsReleaseStatusAndResolutionWhereTheDeviceHasThem)
 {
     Json reply = fixture("GetInfo");
-    EXPECT_EQ(render_info(reply, "9.8.7").find("option software"), std::string::npos);
-    EXPECT_EQ(render_info(reply, "9.8.7").find("comms status"), std::string::npos);
-    EXPECT_EQ(render_info(reply, "9.8.7").find("resolution"), std::string::npos);
+    EXPECT_EQ(render_info(reply, "9.8.7", {}).find("option software"), std::string::npos);
+    EXPECT_EQ(render_info(reply, "9.8.7", {}).find("comms status"), std::string::npos);
+    EXPECT_EQ(render_info(reply, "9.8.7", {}).find("resolution"), std::string::npos);
 
     reply["stations"][0]["option_software"] = "Version 3.x";
     reply["stations"][0]["comms_status"] = "rdY";
     reply["stations"][0]["resolution"] = "full";
-    const std::string picture = render_info(reply, "9.8.7");
+    const std::string picture = render_info(reply, "9.8.7", {});
     EXPECT_NE(picture.find("\n  option software  Version 3.x\n"), std::string::npos) << picture;
     EXPECT_NE(picture.find("\n  comms status     rdY (ready to run)\n"), std::string::npos);
     EXPECT_NE(picture.find("\n  resolution       full\n"), std::string::npos);
 
     reply["stations"][0]["comms_status"] = "run";
-    EXPECT_NE(render_info(reply, "9.8.7").find("\n  comms status     run (comms running)\n"),
+    EXPECT_NE(render_info(reply, "9.8.7", {}).find("\n  comms status     run (comms running)\n"),
               std::string::npos);
 }
 
@@ -138,7 +208,7 @@ TEST(DpctlInfo, RepeatsWhatTheFunctionBlockWarnsOf)
     Json reply = fixture("GetInfo");
     reply["stations"][0]["notes"] = {"WARNING: it could compromise safety.", "ADDRESS 2: a master's."};
 
-    EXPECT_NE(render_info(reply, "9.8.7")
+    EXPECT_NE(render_info(reply, "9.8.7", {})
                   .find("  notes            WARNING: it could compromise safety.\n"
                         "                   ADDRESS 2: a master's.\n"),
               std::string::npos);
@@ -202,9 +272,9 @@ TEST(DpctlIo, ShowsEachWordRawAndScaledWithItsAge)
 {
     EXPECT_EQ(render_io(fixture("GetIo"), false), test::lines(R"(
 unwinder, address 5: Data_Exch; outputs go to the drive
-  DIR  OCTET  TAG  NAME             VALUE             RAW  STATE        AGE
-  in       8    7  SPEED FEEDBACK   50.00   5000 (0x1388)  good       12 ms
-  out      8   56                  -12.50  64286 (0xFB1E)  read only      -
+  DIR  OCTET  WORD  TAG  NAME             VALUE            RAW  STATE        AGE
+  in       8     1    7  SPEED FEEDBACK   50.00   5000 (1388h)  good       12 ms
+  out      8     1   56                  -12.50  64286 (FB1Eh)  read only      -
   Demand Data  reads tag 7: answered
   request      0000 0000 1000 0007
   reply        0000 1388 1000 0007
@@ -212,7 +282,9 @@ unwinder, address 5: Data_Exch; outputs go to the drive
 rewinder, address 16: Wait_Prm; nothing is written to the drive
   no parameters: no master has chosen any
 
-in: drive to master, out: master to drive; octet: place in the Data_Exchange telegram, counted from 0
+in: drive to master, out: master to drive; octet: place in the Data_Exchange
+telegram, counted from 0; word: place among the words of its direction, counted
+from 1 behind Demand Data, as gsd make and dpsim count
 )"));
 }
 
@@ -236,7 +308,8 @@ rewinder: Station_Not_Ready, Cfg_Fault, Prm_Req
   last Set_Prm  88 01 0A 0B 05 33 00
   last Chk_Cfg  73 50 51
 
-octet: counted from 1, as the PROFIBUS standard does; offset: counted from 0, as PLC programs do
+octet: counted from 1, as the PROFIBUS standard does; offset: counted from 0, as
+PLC programs do
 )"));
 }
 
@@ -268,13 +341,15 @@ TEST(DpctlCounters, AreGroups)
 {
     EXPECT_EQ(render_counters(fixture("GetCounters"), false), test::lines(R"(
 bus
-   COUNT  OF             MEANING
-  123456  telegrams      valid telegrams heard
-       3  flaw.checksum  FCS wrong
+   COUNT  LAST MINUTE  OF             MEANING
+  123456         3000  telegrams      valid telegrams heard
+   60000         1500  checked        with a checksum
+  900000        20000  octets         received
+       3            0  flaw.checksum  FCS wrong
 
 unwinder
-  COUNT  OF             MEANING
-      7  data_exchange  Data_Exchange requests answered
+  COUNT  LAST MINUTE  OF             MEANING
+      7            7  data_exchange  Data_Exchange requests answered
 
 turnaround of 2000 replies, from the end of the request to the end of the write
                           us  T_bit
@@ -338,6 +413,10 @@ TEST(DpctlTag, IsOneLine)
 
     reply["name"] = nullptr;
     EXPECT_EQ(render_tag(reply, "is now"), "unwinder: tag 7 is now 50.00, raw 5000 (0x1388)\n");
+
+    reply["master"] = 2;
+    EXPECT_NE(render_tag(reply, "is now").find("master 2 writes this tag cyclically and will overwrite it"),
+              std::string::npos);
 }
 
 TEST(DpctlWatch, IsBusStationsAndWords)
@@ -350,9 +429,9 @@ unwinder        5  590      Data_Exch       2  answers  p3
 rewinder       16  590      Wait_Prm        -  silent   p3
 
 unwinder
-  DIR  OCTET  TAG  NAME             VALUE             RAW  STATE        AGE
-  in       8    7  SPEED FEEDBACK   50.00   5000 (0x1388)  good       12 ms
-  out      8   56                  -12.50  64286 (0xFB1E)  read only      -
+  DIR  OCTET  WORD  TAG  NAME             VALUE            RAW  STATE        AGE
+  in       8     1    7  SPEED FEEDBACK   50.00   5000 (1388h)  good       12 ms
+  out      8     1   56                  -12.50  64286 (FB1Eh)  read only      -
 )"));
 }
 
@@ -381,7 +460,7 @@ TEST(DpctlRenderers, SurviveRepliesOfAnotherVersion)
             EXPECT_NO_THROW({
                 render_status(odd, false);
                 render_stations(odd, false);
-                render_info(odd, "");
+                render_info(odd, "", {});
                 render_io(odd, false);
                 render_diagnosis(odd, false);
                 render_counters(odd, false);

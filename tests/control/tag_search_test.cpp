@@ -117,7 +117,7 @@ TEST_F(TagLookup, NamesTheWordsOfDemandDataAlsoAbove2047)
     EXPECT_THAT(shown({"1119"}), HasSubstr("  Demand Data  write 9311 (0x245F)\n"));
     EXPECT_THAT(shown({"8360"}),
                 HasSubstr("  Demand Data  read 12288 (0x3000), write 16384 (0x4000), with 8360 "
-                          "(0x20A8) in register 2\n"));
+                          "(0x20A8) in\n               register 2\n"));
     EXPECT_THAT(shown({"20000"}), HasSubstr("  Demand Data  none: it takes tags up to 16383\n"));
 
     tables.files[0].extended_demand = false;

@@ -54,12 +54,17 @@ public:
     std::optional<std::string> trip() const;
     /// Nothing: not known, or no tag tells it.
     std::optional<bool> tripped() const;
+    /// Why the station is kept silent on the bus, and what to do; empty: it is not.
+    std::string silent_because() const;
     /// What may compromise safety, what to do next, and what the next start would change.
     std::vector<std::string> notes() const;
     /// Sets an input of the function block. Nothing: done; else why not, with what it takes.
     std::optional<std::string> set(std::string_view parameter, std::string_view value);
     /// What the address would be after a set(), if it is one; to be compared with those of other stations.
     std::optional<std::uint8_t> address_after(std::string_view parameter, std::string_view value) const;
+
+    /// What FAULT would be after a set(), if that can be done: other than none it silences the station.
+    std::optional<OptionFault> fault_after(std::string_view parameter, std::string_view value) const;
 
     /// What has changed since the last call: FAULT, NETWORK STATE, trip, faults of a status word; and each
     /// RIDE THROUGH that was set and could compromise safety (B-047).

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -46,6 +47,7 @@ private:
         Generation ended = 0;                     ///< as said to the poller last
         Generation layout = 0;                    ///< whose outputs the poller has; 0 = none
         bool was_known = false, answered = false; ///< as said in the log last
+        std::optional<Instant> ride_ends;         ///< as said in the log last
         bool leaves = false;                      ///< it is not among the drives that come next
     };
 
@@ -56,6 +58,7 @@ private:
     drive::Outcome exchange_with(const Unit& unit, const drive::Transaction& transaction);
     void publish();
     void say_link_changes();
+    void say_ride(std::size_t index);
     void remember_trouble(const Unit& unit, const drive::Transaction& access, AccessError cause,
                           const std::string& text);
     void forget_trouble(const Unit& unit, const drive::Transaction& access);

@@ -99,6 +99,7 @@ struct BusSnapshot {
     Instant taken_at{};
     Instant last_telegram{}; ///< with a checksum, of anybody; default = none was heard yet
     fdl::Counters counters{};
+    fdl::AskedAddresses::List unanswered{}; ///< addresses of others that do not answer
     std::uint64_t write_errors = 0;
     std::uint64_t unsent = 0; ///< replies that did not go out: those, no port, or no driver enable
     /// Of each reply, from the read of the request's last octet to the end of the write: us, and T_bit of the
@@ -134,7 +135,8 @@ struct BusLink {
 struct Trouble {
     std::uint32_t station = 0; ///< DriveUnit::number
     std::uint16_t tag = 0;
-    bool is_write = false;        ///< a tag may be read and refuse to be written
+    bool is_write = false; ///< a tag may be read and refuse to be written
+    AccessError error = AccessError::none;
     std::array<char, 160> text{}; ///< ends with NUL
 };
 struct TroubleList {

@@ -45,6 +45,7 @@ public:
 private:
     static constexpr std::chrono::milliseconds kTick{100};
     static constexpr std::chrono::milliseconds kTickWithDiagnosis{20}; ///< a trip is told the master soon
+    static constexpr std::chrono::seconds kCountInterval{1};           ///< of CounterHistory
     static constexpr std::chrono::milliseconds kTickWhileAsked{
         5}; ///< while somebody waits for a drive or a reload
 
@@ -96,6 +97,7 @@ private:
     control::Json leds_of(std::size_t station);
     control::Json watch_reply(std::optional<std::size_t> station, Instant now) const;
     std::string fingerprint(std::optional<std::size_t> station) const;
+    std::optional<std::uint8_t> master_that_writes(std::uint32_t station, std::uint16_t tag) const;
     void answer_asked();
     void push_watchers(Instant now);
 
@@ -115,6 +117,7 @@ private:
     Post make_post(const Station& station);
     void show_posts();
     void refresh();
+    void count_recent(Instant now);
     void refresh_troubles(std::size_t station);
     void follow_device(std::size_t station);
     void log_events(const Station& station);
@@ -176,6 +179,7 @@ private:
     bool self_test_passed_;
     std::chrono::milliseconds usual_tick_ = kTick;
     Instant started_{};
+    Instant next_count_{};
     std::map<std::uint32_t, Asked> asked_; ///< by the number of the order
     std::uint32_t next_order_ = 1;         ///< of an order or of another answer that is given later
     std::map<std::uint64_t, Watcher> watchers_;

@@ -5,9 +5,11 @@
 
 #include "dpslave/app/config.hpp"
 #include "dpslave/app/links.hpp"
+#include "dpslave/base/recent_count.hpp"
 
 #include <nlohmann/json.hpp>
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,7 +27,27 @@ struct StationView {
     dp::Snapshot bus{};
     drive::UnitSnapshot drive{};
     bool line_open = false;
-    std::vector<std::string> troubles; ///< what the drive or the tag table said no to, newest last
+    bool ever_answered = false;    ///< the drive, since the station is there
+    std::string silent_because;    ///< why it is kept off the bus (FAULT of TEC OPTION), and what to do
+    std::vector<Trouble> troubles; ///< what the drive or the tag table said no to, newest last
+};
+
+struct View;
+
+/// How each counter of the control interface has grown within the last minute.
+class CounterHistory {
+public:
+    /// Stands for the bus where else the number of a station stands.
+    static constexpr std::uint32_t kOfBus = std::numeric_limits<std::uint32_t>::max();
+
+    /// All counters as they are now; to be called about once a second. A station that has gone is forgotten.
+    void sample(const View& view, Instant now);
+    /// `counter`: its place in the group that counters_json() tells. Null: it was never sampled.
+    const RecentCount* find(std::uint32_t owner, std::size_t counter) const;
+
+private:
+    std::vector<std::uint32_t> owners_;
+    std::vector<std::vector<RecentCount>> counts_; ///< by owner
 };
 
 /// Everything, as the main thread sees it now.
@@ -34,11 +56,12 @@ struct View {
     BusSnapshot bus{};
     std::vector<StationView> stations;
     std::uint64_t lost_events = 0; ///< events that no log could take
+    CounterHistory history;
 };
 
 nlohmann::json bus_json(const View& view, Instant now);
-nlohmann::json station_json(const StationView& station);
-nlohmann::json stations_json(const View& view);
+nlohmann::json station_json(const StationView& station, Instant now);
+nlohmann::json stations_json(const View& view, Instant now);
 /// `pending`: the address in the configuration file now, when it differs from the active one. `notes`: of
 /// DeviceState.
 nlohmann::json info_json(const StationView& station, std::optional<std::uint8_t> pending,
@@ -51,7 +74,7 @@ std::optional<std::string> scale_words(const StationView& station);
 nlohmann::json unscaled_json(const StationView& station);
 nlohmann::json diagnosis_json(const StationView& station);
 /// The whole reply of GetCounters.
-nlohmann::json counters_json(const View& view);
+nlohmann::json counters_json(const View& view, Instant now);
 /// Of a station that has the function block.
 nlohmann::json tec_json(const std::string& station, const DeviceState& device);
 nlohmann::json leds_json(const StationConfig& station, const led::Condition& condition, Instant now);
@@ -86,5 +109,10 @@ std::string bad_value_words(const drive::Tag& tag, AccessError error);
 
 /// "invalid tag", "read only" ...
 std::string_view text(AccessError error) noexcept;
+
+// The codes of the control interface: words that programs compare.
+std::string_view code(AccessError error) noexcept;      ///< "no_answer", "invalid_tag" ...
+std::string_view code(dp::Refusal why) noexcept;        ///< "prm_ident", "cfg_too_few" ...
+std::string_view code(dp::LeaveReason reason) noexcept; ///< "watchdog", "unlock" ...
 
 } // namespace dpslave::app

@@ -94,6 +94,7 @@ struct Snapshot {
     std::uint8_t groups = 0; ///< Group_Ident
     bool sync = false;
     bool freeze = false;
+    bool clear = false; ///< the master's last Global_Control was Clear_Data: 0 goes to every output
     bool stat_diag = false;
     bool holds = false; ///< Stat_Diag stands because a parameter has answered with a number of unknown scale
     bool diag_pending = false;

@@ -102,10 +102,13 @@ struct UnitSnapshot {
     std::array<Instant, kMaxParameters> updated_at{};      ///< last success; default = never
     std::chrono::nanoseconds cycle{}; ///< the last whole round over this unit's parameters
     std::uint64_t reads = 0, writes = 0, silences = 0, refusals = 0, losses = 0;
+    std::uint64_t not_understood = 0; ///< those of the refusals that say so: noise towards the drive
     /// Writes of Demand Data that were never made: too many waited, or they no longer stood when the drive
     /// was lost or did not understand them.
     std::uint64_t orders_dropped = 0;
     AnswerCounts heard; ///< filled in by the owner of the back-end
+    /// The master is lost and outputs stand until then (RIDE THROUGH); kNever = for ever. Nothing: none do.
+    std::optional<Instant> ride_ends;
 };
 
 /// An order of `dpctl` for one drive: read or write one tag now.

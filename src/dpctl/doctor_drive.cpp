@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+// The link to the drive, for a station of any family.
+#include "doctor_rules.hpp"
+#include "words.hpp"
+
+#include <fmt/format.h>
+
+namespace dpslave::dpctl {
+namespace {
+
+constexpr std::string_view kGateway = "dpslaved";
+
+constexpr std::int64_t kSome = 3;         ///< in a minute: a sound line has none
+constexpr std::int64_t kShare = 100;      ///< one in so many transactions
+constexpr double kFirstQuestions = 5'000; ///< ms: a drive that was not asked yet is not silent
+
+constexpr std::array kGoneSteps = std::to_array<std::string_view>({
+    "Look whether the adapter is plugged in and where it is now: ls -l /dev/serial/by-id",
+    "Name the port under [[line]] by its stable path in /dev/serial/by-id.",
+    "journalctl -u dpslaved says what the system answered. It is tried again every second.",
+});
+constexpr std::array kNeverSteps = std::to_array<std::string_view>({
+    "Check the cable and its plug, and that the drive has power.",
+    "Check at the drive: the port is set to the protocol of the line, and group and unit, rate and format "
+    "are "
+    "those of the configuration.",
+    "Let the gateway look for it: dpctl doctor --probe tries other rates, formats and units and names what "
+    "answers.",
+});
+constexpr std::array kSilentSteps = std::to_array<std::string_view>({
+    "Check that the drive has power, and the cable between gateway and drive.",
+    "Check whether the port of the drive was set to another protocol, rate or unit since.",
+    "dpctl read TAG asks the drive at once.",
+});
+constexpr std::array kLateSteps = std::to_array<std::string_view>({
+    "Give the drive more time: timeout_ms of its [[line]], above what was measured.",
+    "Look whether the drive delays its answers: a response delay in its menu, or a converter between.",
+});
+constexpr std::array kNoiseSteps = std::to_array<std::string_view>({
+    "Check the cable to the drive: screen, routing away from motor cables, the common of the port (0 V).",
+    "RS-485: check A and B, the bias, and a terminator at both ends of a long cable.",
+    "A lower rate of drive and [[line]] is less sensitive.",
+    "dpctl counters: do drive_silences and drive_damaged still grow?",
+});
+constexpr std::array kNotUnderstoodSteps = std::to_array<std::string_view>({
+    "Check the cable from the gateway to the drive: it is this direction that is disturbed.",
+    "Check that the format ([[line]] format) is that of the drive: with another parity it cannot read what "
+    "it "
+    "gets.",
+});
+constexpr std::array kForeignSteps = std::to_array<std::string_view>({
+    "Check that no other drive of this line has the same unit.",
+    "Check that no other master (a PC tool, an operator station) asks on this line.",
+});
+
+bool is_gone(const Json& drive)
+{
+    return drive.contains("port_open") && !flag(drive, "port_open");
+}
+bool is_silent(const Facts& f)
+{
+    const Json& d = part(f.station, "drive");
+    return !is_gone(d) && text(d, "link") == "silent";
+}
+
+/// "EI-ASCII unit 00 on p3: /dev/ttyS2 at 9.6 kbit/s, 7E1".
+std::string settings_of(const Json& d)
+{
+    return fmt::format("{} unit {} on {}: {} at {}, {}", text(d, "protocol"), text(d, "unit"),
+                       text(d, "line"), text(d, "port"), rate(integer(d, "baud").value_or(0)),
+                       text(d, "format"));
+}
+
+std::string seen_gone(const Facts& f)
+{
+    const Json& d = part(f.station, "drive");
+    return is_gone(d) ? fmt::format("{} of line {} is not there", text(d, "port"), text(d, "line")) : "";
+}
+std::string seen_never(const Facts& f)
+{
+    const Json& d = part(f.station, "drive");
+    if (!is_silent(f) || flag(d, "ever_answered")) return {};
+    if (counted(f.station_counters, "drive_late").minute > 0) return {};
+    const Count damaged = counted(f.station_counters, "drive_damaged");
+    return fmt::format("{}; {}{}", settings_of(d), plural(integer(d, "silences").value_or(0), "request"),
+                       damaged.total > 0
+                           ? fmt::format(" and no answer, only {} that cannot be read: rate or format",
+                                         plural(damaged.total, "run of octets"))
+                           : std::string{" and never an answer"});
+}
+std::string seen_silent(const Facts& f)
+{
+    const Json& d = part(f.station, "drive");
+    if (!is_silent(f) || !flag(d, "ever_answered")) return {};
+    if (counted(f.station_counters, "drive_late").minute > 0) return {};
+    const Count lost = counted(f.station_counters, "drive_losses");
+    return fmt::format("{}; it does not answer{}", settings_of(d),
+                       lost.last_ms ? " since " + age(lost.last_ms) : std::string{});
+}
+std::string seen_late(const Facts& f)
+{
+    const Count late = counted(f.station_counters, "drive_late");
+    if (late.minute < kSome) return {};
+    const Json& d = part(f.station, "drive");
+    const auto slowest = real(d, "slowest_answer_ms");
+    return fmt::format("{} came after timeout_ms = {} {}{}", plural(late.minute, "answer"),
+                       number(d, "timeout_ms"), lately(late),
+                       slowest ? fmt::format("; the slowest took {}: set timeout_ms = {:.0f} at least",
+                                             age(slowest), *slowest * 1.2 + 20)
+                               : std::string{});
+}
+std::string seen_damaged(const Facts& f)
+{
+    const Count damaged = counted(f.station_counters, "drive_damaged");
+    if (damaged.minute < kSome || !flag(part(f.station, "drive"), "ever_answered")) return {};
+    return fmt::format("{} a wrong checksum or broke off {}",
+                       damaged.minute == 1 ? "1 answer had" : fmt::format("{} answers had", damaged.minute),
+                       lately(damaged));
+}
+std::string seen_foreign(const Facts& f)
+{
+    const Count foreign = counted(f.station_counters, "drive_foreign");
+    if (foreign.minute < kSome) return {};
+    return fmt::format("{} not to what was asked, {}",
+                       foreign.minute == 1 ? "1 answer was" : fmt::format("{} answers were", foreign.minute),
+                       lately(foreign));
+}
+std::string seen_not_understood(const Facts& f)
+{
+    const Count refused = counted(f.station_counters, "drive_not_understood");
+    if (refused.minute < kSome) return {};
+    return fmt::format("the drive could not take {} {}: wrong checksum (EE 02) or wrong form",
+                       plural(refused.minute, "request"), lately(refused));
+}
+std::string seen_noise(const Facts& f)
+{
+    if (text(part(f.station, "drive"), "link") != "answers") return {};
+    const Count silences = counted(f.station_counters, "drive_silences");
+    const std::int64_t all = silences.minute + counted(f.station_counters, "drive_reads").minute +
+                             counted(f.station_counters, "drive_writes").minute;
+    const bool is_told = counted(f.station_counters, "drive_late").minute >= kSome ||
+                         counted(f.station_counters, "drive_damaged").minute >= kSome;
+    if (is_told || silences.minute < kSome || silences.minute * kShare < all) return {};
+    return fmt::format("{} of {} were not answered {}", silences.minute, plural(all, "request"),
+                       lately(silences));
+}
+std::string seen_unknown(const Facts& f)
+{
+    const Json& d = part(f.station, "drive");
+    if (is_gone(d) || text(d, "link") != "unknown" || static_cast<double>(f.uptime_ms) < kFirstQuestions)
+        return {};
+    return settings_of(d) + "; it was not asked yet";
+}
+
+constexpr std::array kRules = std::to_array<Rule>({
+    {"drive.gone", Scope::station, Rank::gone, "the port of the drive line has vanished",
+     "The port of the drive line is gone: adapter pulled, or its driver failed", kGoneSteps, kGateway,
+     seen_gone},
+    {"drive.never", Scope::station, Rank::stands, "the drive has never answered",
+     "The drive was never heard: cable, unit, rate or format", kNeverSteps, kGateway, seen_never},
+    {"drive.late", Scope::station, Rank::stands, "answers of the drive come after timeout_ms",
+     "The drive answers later than timeout_ms allows", kLateSteps, kGateway, seen_late},
+    {"drive.silent", Scope::station, Rank::stands, "the drive answered and does not any more",
+     "The drive has fallen silent: power, cable, or its port was set otherwise", kSilentSteps, kGateway,
+     seen_silent},
+    {"drive.not_asked", Scope::station, Rank::stands, "the drive was not asked yet",
+     "The line does not come to this drive", kSilentSteps, kGateway, seen_unknown},
+    {"drive.foreign", Scope::station, Rank::recent, "answers of the drive are not to what was asked",
+     "Another device answers on this line", kForeignSteps, kGateway, seen_foreign},
+    {"drive.damaged", Scope::station, Rank::recent, "answers of the drive are damaged",
+     "The cable from the drive is disturbed, or its format is another one", kNoiseSteps, kGateway,
+     seen_damaged},
+    {"drive.not_understood", Scope::station, Rank::recent, "the drive cannot take requests (EE 02)",
+     "The cable to the drive is disturbed: it gets wrong checksums", kNotUnderstoodSteps, kGateway,
+     seen_not_understood},
+    {"drive.noise", Scope::station, Rank::recent, "more than one request in a hundred is not answered",
+     "The cable of the drive is disturbed, or the drive is overloaded", kNoiseSteps, kGateway, seen_noise},
+});
+
+} // namespace
+
+std::span<const Rule> drive_rules()
+{
+    return kRules;
+}
+
+} // namespace dpslave::dpctl

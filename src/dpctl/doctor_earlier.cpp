@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// What was wrong and has not come again for a minute.
+#include "doctor_rules.hpp"
+
+#include <array>
+#include <utility>
+
+namespace dpslave::dpctl {
+namespace {
+
+struct Named {
+    std::string_view counter, what;
+};
+constexpr std::array kOfBus = std::to_array<Named>({
+    {"own_address", "telegrams of another device with one of our addresses"},
+    {"late", "replies suppressed because they came too late"},
+    {"too_late", "replies written too late"},
+    {"retries", "questions that the master repeated"},
+    {"write_errors", "replies that the port did not take"},
+    {"driver_errors", "edges of the driver enable that failed"},
+});
+constexpr std::array kOfStation = std::to_array<Named>({
+    {"left_data_exchange", "ways out of Data_Exch"},
+    {"watchdog_expired", "times that the watchdog expired"},
+    {"drive_losses", "times that the drive was lost"},
+    {"drive_silences", "requests that the drive did not answer"},
+    {"drive_late", "answers of the drive that came too late"},
+    {"drive_damaged", "answers of the drive that were damaged"},
+    {"drive_not_understood", "requests that the drive could not take"},
+});
+constexpr std::string_view kFlaw = "flaw: ";
+
+void add(std::vector<Earlier>& all, const std::string& station, const Count& count, std::string what)
+{
+    if (count.total == 0 || count.minute != 0 || !count.last_ms) return;
+    all.push_back({station, std::move(what), count.total, *count.last_ms});
+}
+
+} // namespace
+
+std::vector<Earlier> earlier_troubles(const Replies& replies, const std::string& wanted)
+{
+    std::vector<Earlier> all;
+    bool is_bus = true;
+    for (const Json& group : list(replies.counters, "groups")) {
+        if (std::exchange(is_bus, false)) {
+            for (const Named& one : kOfBus) add(all, "", counted(group, one.counter), std::string{one.what});
+            for (const Json& counter : list(group, "counters"))
+                if (const std::string name = text(counter, "name"); name.starts_with(kFlaw))
+                    add(all, "", counted(group, name), "damaged telegrams: " + name.substr(kFlaw.size()));
+            continue;
+        }
+        const std::string name = text(group, "name");
+        for (const Json& station : list(replies.status, "stations"))
+            if (station.is_object() && text(station, "name") == name && is_meant(station, wanted))
+                for (const Named& one : kOfStation)
+                    add(all, name, counted(group, one.counter), std::string{one.what});
+    }
+    return all;
+}
+
+} // namespace dpslave::dpctl

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+// Set-ups that are broken on purpose: the first cause that the doctor names is the true one.
+#include "gateway.hpp"
+
+#include <gmock/gmock.h>
+
+namespace dpslave::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// The name of the first cause; "well" where there is none.
+std::string first_cause(const Gateway& gateway)
+{
+    const Json found = gateway.json({"doctor"}).at("findings");
+    return found.empty() ? "well" : found.at(0).at("rule").get<std::string>();
+}
+
+/// That the first cause soon is this one: the counters are looked at once a second.
+::testing::AssertionResult first_cause_is(const Gateway& gateway, const std::string& rule)
+{
+    std::string seen;
+    const auto result = eventually([&] { return (seen = first_cause(gateway)) == rule; });
+    if (!result) return ::testing::AssertionFailure() << "the first cause is " << seen << ", not " << rule;
+    return result;
+}
+
+std::string evidence(const Gateway& gateway)
+{
+    return gateway.json({"doctor"}).at("findings").at(0).at("evidence");
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to)
+{
+    const std::size_t at = text.find(from);
+    if (at == std::string::npos) throw std::runtime_error("there is no " + from);
+    return text.replace(at, from.size(), to);
+}
+
+/// A gateway whose configuration says something else than the table does.
+class Misconfigured {
+public:
+    Misconfigured(const std::string& from, const std::string& to, Wiring wiring = {})
+        : gateway_(not_started(std::move(wiring)))
+    {
+        write_file(gateway_.config(), replaced(gateway_.config_text(), from, to));
+        gateway_.start_daemon();
+    }
+    Gateway& operator*() { return gateway_; }
+
+private:
+    static Wiring not_started(Wiring wiring)
+    {
+        wiring.started = false;
+        return wiring;
+    }
+    Gateway gateway_;
+};
+
+// ---------------------------------------------------------------- the bus
+
+TEST(DoctorOfTheBus, NamesSilenceACutCableAndAPortThatVanishes)
+{
+    Gateway gateway;
+    EXPECT_TRUE(first_cause_is(gateway, "bus.silent")) << "no master at all";
+    EXPECT_THAT(evidence(gateway), HasSubstr("not one octet"));
+
+    Master master{gateway, {"--tags", "55,56w"}};
+    ASSERT_TRUE(master.does("start 30s"));
+    EXPECT_TRUE(first_cause_is(gateway, "well"));
+
+    gateway.bus().tell("cut");
+    EXPECT_TRUE(first_cause_is(gateway, "bus.silent")) << "the cable is cut";
+    EXPECT_THAT(evidence(gateway), HasSubstr("the last octet from the bus was received"));
+
+    gateway.unplug_bus();
+    EXPECT_TRUE(first_cause_is(gateway, "bus.gone")) << "the adapter was pulled";
+    EXPECT_THAT(gateway.dpctl({"status"}).out, HasSubstr("has vanished"));
+}
+
+TEST(DoctorOfTheBus, NamesAFixedRateThatIsNotThatOfTheBus)
+{
+    Misconfigured wrong{"baud = 187500\n", "baud = 500000\n"};
+    Gateway& gateway = *wrong;
+    Master master{gateway, {"--tags", "55", "--slot-ms", "50"}};
+    master.tell("start 100s");
+
+    EXPECT_TRUE(first_cause_is(gateway, "bus.rate"));
+    EXPECT_THAT(evidence(gateway), HasSubstr("fixed at 500 kbit/s"));
+}
+
+TEST(DoctorOfTheBus, NamesTheOtherAddressThatTheMasterAsksFor)
+{
+    Gateway gateway;
+    {
+        Master master{gateway, {"--tags", "55", "--slot-ms", "50"}, 7};
+        master.tell("start 100s");
+        EXPECT_TRUE(first_cause_is(gateway, "bus.other_address"));
+        EXPECT_THAT(evidence(gateway), HasSubstr("asks for address 7"));
+    }
+    Master ours{gateway, {"--tags", "55,56w"}};
+    ASSERT_TRUE(ours.does("start 30s"));
+    EXPECT_TRUE(first_cause_is(gateway, "well"));
+}
+
+TEST(DoctorOfTheBus, NamesAnAddressThatIsUsedTwice)
+{
+    Gateway gateway;
+    Master other{gateway, {"--master", "5", "--tags", "55", "--slot-ms", "50"}, 9};
+    other.tell("start 100s");
+
+    EXPECT_TRUE(first_cause_is(gateway, "bus.double_address"));
+}
+
+TEST(DoctorOfTheBus, NamesNoiseAndForgetsItWhenItIsOver)
+{
+    Gateway gateway;
+    Master master{gateway, {"--tags", "55,56w", "--retries", "15"}};
+    ASSERT_TRUE(master.does("start 30s"));
+    gateway.bus().tell("errors 0.0005");
+
+    EXPECT_TRUE(first_cause_is(gateway, "bus.flaws"));
+    EXPECT_THAT(evidence(gateway), HasSubstr("damaged telegram"));
+}
+
+// ---------------------------------------------------------------- the master's project
+
+TEST(DoctorOfTheMaster, NamesWhatIsWrongWithItsProject)
+{
+    Gateway gateway;
+    {
+        Master only_looks{gateway, {"--tags", "55"}};
+        for (int i = 0; i < 3; ++i) ASSERT_TRUE(only_looks.does("diag"));
+        EXPECT_TRUE(first_cause_is(gateway, "station.asked_only"));
+    }
+    {
+        Master other_device{gateway, {"--tags", "55", "--ident", "0x1234"}};
+        other_device.tell("start 100s");
+        EXPECT_TRUE(first_cause_is(gateway, "station.prm_refused"));
+        EXPECT_THAT(evidence(gateway), HasSubstr("Ident_Number 0x0533, got 0x1234"));
+    }
+    Master other_modules{gateway, {"--tags", "55,56w", "--cfg", "7350"}};
+    other_modules.tell("start 100s");
+    EXPECT_TRUE(first_cause_is(gateway, "station.cfg_refused"));
+}
+
+TEST(DoctorOfTheMaster, NamesClear)
+{
+    Gateway gateway;
+    Master master{gateway, {"--tags", "55,56w"}};
+    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("clear"));
+
+    EXPECT_TRUE(first_cause_is(gateway, "station.clear"));
+    EXPECT_THAT(gateway.dpctl({"io"}).out, Not(HasSubstr("outputs go to the drive")));
+    EXPECT_THAT(gateway.dpctl({"status"}).out, HasSubstr("Data_Exch in Clear"));
+    EXPECT_EQ(gateway.dpctl({"is-exchanging"}).status, 0);
+    EXPECT_EQ(gateway.dpctl({"is-exchanging", "--healthy"}).status, 1);
+
+    ASSERT_TRUE(master.does("operate"));
+    EXPECT_TRUE(first_cause_is(gateway, "well"));
+}
+
+TEST(DoctorOfTheMaster, NamesAWatchdogThatIsShorterThanItsCycle)
+{
+    Gateway gateway;
+    for (int i = 0; i < 3; ++i) {
+        Master master{gateway, {"--tags", "55,56w", "--watchdog", "100", "--cycle", "400"}};
+        master.tell("start 5s");
+        EXPECT_TRUE(gateway.daemon().says("watchdog expired"));
+    }
+    EXPECT_TRUE(first_cause_is(gateway, "station.watchdog"));
+}
+
+// ---------------------------------------------------------------- tags
+
+TEST(DoctorOfTags, NamesEachKindOfWrongTagAndNotThePersonsOwn)
+{
+    Gateway gateway;
+    {
+        Master master{gateway, {"--tags", "55,56w"}};
+        ASSERT_TRUE(master.does("start 30s"));
+        const Outcome typo = gateway.dpctl({"read", "999"});
+        EXPECT_EQ(typo.status, 1);
+        EXPECT_THAT(typo.err, HasSubstr("has no line for tag 999"));
+        EXPECT_TRUE(first_cause_is(gateway, "well")) << "a person's own typo is no fault of the plant";
+        EXPECT_THAT(gateway.dpctl({"write", "56", "5"}).out, HasSubstr("will overwrite it"));
+        ASSERT_TRUE(master.does("out 1 = 20000"));
+        EXPECT_TRUE(first_cause_is(gateway, "station.range"));
+        ASSERT_TRUE(master.does("stop"));
+    }
+    {
+        Master master{gateway, {"--tags", "55w,56"}};
+        ASSERT_TRUE(master.does("start 30s"));
+        ASSERT_TRUE(master.does("out 1 = 500"));
+        EXPECT_TRUE(first_cause_is(gateway, "station.read_only")) << "modules in the wrong order";
+    }
+    Master master{gateway, {"--tags", "55,999"}};
+    ASSERT_TRUE(master.does("start 30s"));
+    EXPECT_TRUE(first_cause_is(gateway, "station.tags"));
+}
+
+// ---------------------------------------------------------------- the drive
+
+TEST(DoctorOfTheDrive, NamesOneThatFellSilent)
+{
+    Gateway gateway;
+    Master master{gateway, {"--tags", "55,56w"}};
+    ASSERT_TRUE(master.does("start 30s"));
+    EXPECT_TRUE(first_cause_is(gateway, "well"));
+
+    gateway.drive().tell("silence");
+    EXPECT_TRUE(first_cause_is(gateway, "drive.silent"));
+}
+
+TEST(DoctorOfTheDrive, FindsAUnitThatIsAnotherOne)
+{
+    Misconfigured wrong{"unit = \"03\"", "unit = \"05\"", {.units = {"03"}}};
+    Gateway& gateway = *wrong;
+    Master master{gateway, {"--tags", "55"}};
+    master.tell("start 100s");
+    EXPECT_TRUE(first_cause_is(gateway, "drive.never"));
+    EXPECT_THAT(evidence(gateway), HasSubstr("unit 05"));
+
+    EXPECT_EQ(gateway.dpctl({"doctor", "--probe"}).status, 1) << "the station is in exchange";
+    const Outcome probe = gateway.dpctl({"doctor", "--probe", "--yes"});
+    EXPECT_EQ(probe.status, 0) << probe.err;
+    EXPECT_THAT(probe.out, HasSubstr("ei-ascii unit 03 at 38.4 kbit/s, 7E1"));
+}
+
+TEST(DoctorOfTheDrive, FindsARateThatIsAnotherOne)
+{
+    Wiring wiring;
+    wiring.drive_baud = 19'200;
+    Misconfigured wrong{"baud = 19200", "baud = 9600\ntimeout_ms = 50", std::move(wiring)};
+    Gateway& gateway = *wrong;
+    EXPECT_TRUE(eventually([&] { return gateway.station().at("drive").at("link") == "silent"; }));
+
+    const Outcome probe = gateway.dpctl({"doctor", "--probe"});
+    EXPECT_EQ(probe.status, 0) << probe.err;
+    EXPECT_THAT(probe.out, HasSubstr("ei-ascii unit 00 at 19.2 kbit/s, 7E1"));
+}
+
+// ---------------------------------------------------------------- the technology box
+
+TEST(DoctorOfABox, NamesATypeThatSilencesItAndTheRideThroughThatRuns)
+{
+    Wiring wiring;
+    wiring.profile = "605";
+    wiring.table = "tag,name,type,decimals,min,max,access,values,start\n"
+                   "55,Speed,INT,2,-300.00,300.00,ro,,0.00\n"
+                   "56,Setpoint,INT,2,-105.00,105.00,rw,,0.00\n";
+    wiring.keys = "[station.tec]\nride_through = 20\n";
+    Gateway gateway{wiring};
+    {
+        Master master{
+            gateway,
+            {"--family", "technology-box", "--ident", "0x1649", "--tags", "55,56w", "--watchdog", "200"}};
+        ASSERT_TRUE(master.does("start 30s"));
+        ASSERT_TRUE(master.does("out 1 = 500"));
+        EXPECT_TRUE(gateway.drive().says("tag 56 written 5.00"));
+        const Outcome silenced = gateway.dpctl({"tec", "set", "RIDE_THROUGH", "99"});
+        EXPECT_EQ(silenced.status, 1);
+        EXPECT_THAT(silenced.err, HasSubstr("--yes"));
+        EXPECT_EQ(gateway.tec("RIDE THROUGH"), 20);
+        ASSERT_TRUE(master.does("stop"));
+    }
+    EXPECT_TRUE(gateway.daemon().says("the outputs stand for"));
+    EXPECT_TRUE(eventually([&] { return !gateway.station().at("ride").is_null(); }));
+    EXPECT_THAT(gateway.dpctl({"doctor"}).out, HasSubstr("RIDE THROUGH is running"));
+    EXPECT_EQ(gateway.dpctl({"tec", "set", "RIDE_THROUGH", "0"}).status, 0);
+    EXPECT_TRUE(gateway.daemon().says("0 was written to the outputs"));
+
+    EXPECT_EQ(gateway.dpctl({"tec", "set", "TYPE", "3"}).status, 0) << "no master is there";
+    EXPECT_TRUE(eventually([&] {
+        const Json found = gateway.json({"doctor"}).at("findings");
+        for (const Json& one : found)
+            if (one.at("rule") == "box.type") return true;
+        return false;
+    }));
+    EXPECT_THAT(gateway.dpctl({"status"}).out, HasSubstr("FAULT is TYPE MISMATCH"));
+}
+
+} // namespace
+} // namespace dpslave::test
