@@ -68,6 +68,7 @@ _dpctl()
         --profiles | --output) compopt -o filenames 2>/dev/null
             mapfile -t COMPREPLY < <(compgen -f -- "$cur"); return ;;
         --profile) _dpctl_offer "$cur" < <(_dpctl_profiles); return ;;
+        --as) mapfile -t COMPREPLY < <(compgen -W 'prm cfg diag' -- "$cur"); return ;;
         --station) _dpctl_offer "$cur" < <(_dpctl_stations); return ;;
         --timeout | --only | --for | --passes | --in | --out | --in-out | --ident | --max-tsdr | --description | --model) return ;;
     esac

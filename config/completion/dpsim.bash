@@ -15,7 +15,7 @@ _dpsim()
         --programs) words='0 1 4' ;;
         *)
             case $command in
-                '') words='line drive master --help' ;;
+                '') words='line drive master --help --version' ;;
                 line) words='--baud --bits --a --b --any-rate --errors --delay --seed --help' ;;
                 drive) words='--model --port --baud --unit --tags --turnaround --programs --parity --fault --log --help' ;;
                 master) words='--port --baud --master --slave --family --ident --prm --tags --prm-length --cfg --no-demand

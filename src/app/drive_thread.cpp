@@ -35,6 +35,12 @@ drive::UnitSettings unit_settings(const StationConfig& station, const LineConfig
     return unit;
 }
 
+/// What says something about the tag: neither silence nor an answer that is not proven.
+bool is_refusal(AccessError error)
+{
+    return error != AccessError::none && error != AccessError::no_answer && error != AccessError::deferred;
+}
+
 std::vector<drive::UnitSettings> settings_of(const std::vector<DriveUnit>& units, const LineConfig& line)
 {
     std::vector<drive::UnitSettings> settings;
@@ -71,6 +77,7 @@ void DriveThread::run(std::stop_token stop, io::EventFd& wake)
 {
     while (!stop.stop_requested()) {
         take_work();
+        if (const auto order = link_.probes.pop()) probe_line(*order, stop);
         fetch();
         const bool waits = waits_for_port(io::monotonic_now()) && !is_open();
         const auto transaction = waits ? std::nullopt : poller_.next(io::monotonic_now());
@@ -170,7 +177,7 @@ drive::Outcome DriveThread::exchange_with(const Unit& unit, const drive::Transac
     if (transaction.tag != nullptr && transaction.count == 1) {
         if (outcome.error == AccessError::none)
             forget_trouble(unit, transaction);
-        else if (outcome.error != AccessError::no_answer && !is_by_hand)
+        else if (is_refusal(outcome.error) && !is_by_hand)
             remember_trouble(unit, transaction, outcome.error, backend.last_trouble());
     }
     return outcome;
@@ -218,18 +225,16 @@ void DriveThread::say_ride(std::size_t index)
     const auto before = std::exchange(unit.ride_ends, ends);
     if (ends == before) return;
     const std::string& name = unit.config->name;
-    const Instant now = io::monotonic_now();
+    if (ends && !before) unit.ride_layout = unit.layout;
     if (ends == kNever)
         spdlog::warn("{}: the master is lost; the outputs stand until it returns (RIDE THROUGH)", name);
     else if (ends)
         spdlog::warn("{}: the master is lost; the outputs stand for {:.1f} s more (RIDE THROUGH)", name,
-                     std::chrono::duration<double>(*ends - now).count());
-    else if (now >= *before)
-        spdlog::warn("{}: RIDE THROUGH is over: 0 was written to the outputs", name);
-    else if (poller_.safe_state_pending(index))
-        spdlog::warn("{}: RIDE THROUGH was ended: 0 is written to the outputs", name);
+                     std::chrono::duration<double>(*ends - io::monotonic_now()).count());
+    else if (unit.layout != unit.ride_layout)
+        spdlog::info("{}: the master is back and has taken over the outputs that stood", name);
     else
-        spdlog::info("{}: the outputs of RIDE THROUGH are taken over by the master, or were zeroed", name);
+        spdlog::warn("{}: RIDE THROUGH is over: the outputs are set to 0", name);
 }
 
 /// Said once in the log, shown by `dpctl diag` until the access works. A value that never fits is a new text
@@ -271,6 +276,42 @@ void DriveThread::forget_trouble(const Unit& unit, const drive::Transaction& acc
     std::copy(found + 1, end, found);
     --troubles_.count;
     link_.troubles.publish(troubles_);
+}
+
+/// Asks on behalf of a person whether a drive answers with other settings. The line does nothing else
+/// meanwhile; its own port is closed for it and opened again like one that was not there.
+void DriveThread::probe_line(const ProbeOrder& order, const std::stop_token& stop)
+{
+    ProbeReport report{.number = order.number, .tried = 0, .answers = {}, .count = 0};
+    const auto unit = std::find_if(units_.begin(), units_.end(),
+                                   [&](const Unit& one) { return one.number == order.station; });
+    if (unit != units_.end()) {
+        spdlog::info("{}: looking for the drive on {} with other rates, formats and units",
+                     unit->config->name, line_.port);
+        backend_.reset();
+        next_open_ = {};
+        LineConfig trial = line_;
+        trial.timeout = probe_timeout(line_);
+        // Each question has a back-end of its own, which is owed nothing, and an answer counts when it comes
+        // twice: what answers late could be taken for the answer of the next unit.
+        const auto answers = [&trial](drive::UnitAddress address) {
+            std::atomic<bool> is_open{false}; // a trial is no news of the port
+            const auto backend = LineBackend::open(trial, is_open);
+            return backend && (*backend)->backend().probe(address);
+        };
+        for (const ProbeTry& one : probe_plan(line_, unit->config->unit)) {
+            trial.baud = one.baud;
+            trial.format = one.format;
+            for (const drive::UnitAddress address : one.units) {
+                if (stop.stop_requested()) break;
+                ++report.tried;
+                if (answers(address) && answers(address) && report.count < report.answers.size())
+                    report.answers[report.count++] = {one.baud, one.format, address};
+            }
+            if (report.count != 0) break; // what answers at one rate answers at no other
+        }
+    }
+    link_.probe_reports.push(report);
 }
 
 /// Until the next deadline, but not longer than an order of the master may wait.

@@ -66,6 +66,8 @@ control::Handlers MainThread::handlers()
         {"GetLeds", each(&MainThread::leds_of)},
         {"GetTec", [this](const Json& parameters, const control::Caller&) { return on_tec(parameters); }},
         {"Watch", [this](const Json& parameters, const control::Caller&) { return on_watch(parameters); }},
+        {"ProbeDrive",
+         [this](const Json& parameters, const control::Caller& who) { return on_probe(parameters, who); }},
         {"ReadTag", [this](const Json& parameters,
                            const control::Caller& who) { return on_tag(parameters, who, false); }},
         {"GetSurveyScope",

@@ -156,6 +156,7 @@ void MainThread::tick(Instant now)
     log_news();
     show_lamps(now);
     answer_asked();
+    answer_probes();
     push_watchers(now);
     look_at_file(now);
     feed_watchdog(now);

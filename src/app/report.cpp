@@ -50,12 +50,6 @@ std::string_view text(WordState state)
     return "?";
 }
 
-/// "7E1"
-std::string format_text(const LineFormat& format)
-{
-    return fmt::format("{}{}{}", format.data_bits, format.parity, format.stop_bits);
-}
-
 json drive_json(const StationView& station)
 {
     const drive::UnitSnapshot& drive = station.drive;
@@ -155,6 +149,11 @@ json comms_status(const StationView& station)
 }
 
 } // namespace
+
+std::string format_text(const LineFormat& format)
+{
+    return fmt::format("{}{}{}", format.data_bits, format.parity, format.stop_bits);
+}
 
 std::string shown_value(const drive::TagTable& tags, std::uint16_t tag, std::uint16_t word)
 {

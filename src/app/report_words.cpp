@@ -166,6 +166,7 @@ std::string_view code(AccessError error) noexcept
         case none: return "none";
         case no_answer: return "no_answer";
         case not_understood: return "not_understood";
+        case deferred: return "deferred";
         case invalid_tag: return "invalid_tag";
         case read_only: return "read_only";
         case out_of_range: return "out_of_range";

@@ -112,8 +112,45 @@ std::optional<LineLimit> line_limit(const Json& bus)
     return std::nullopt;
 }
 
+namespace {
+
+/// A probe asks each rate, format and unit in turn.
+constexpr double kProbeTimeout = 180; // s
+
+std::string probe_text(const Json& reply)
+{
+    const Json& answering = list(reply, "answering");
+    std::string out = fmt::format("{}: asked {} on line {} ({})\n", text(reply, "station"),
+                                  plural(integer(reply, "tried").value_or(0), "time"), text(reply, "line"),
+                                  text(reply, "port"));
+    for (const Json& one : answering)
+        out += fmt::format("a drive answers: {} unit {} at {}, {}\n", text(one, "protocol"),
+                           text(one, "unit"), rate(integer(one, "baud").value_or(0)), text(one, "format"));
+    if (answering.empty())
+        return out +
+               "nothing answers at any rate, format or unit: cable, power, or the drive's port is not set "
+               "to this protocol\n";
+    return out +
+           "Write what answers under [[line]] and [[station]], or set the drive to what stands there; then "
+           "dpctl reload.\n";
+}
+
+int do_probe(Options options, Terminal& terminal)
+{
+    options.timeout_s = std::max(options.timeout_s, kProbeTimeout);
+    Json parameters = station_parameter(options);
+    if (options.yes) parameters["yes"] = true;
+    const auto reply = ask(options, terminal, "ProbeDrive", parameters);
+    if (!reply) return reply.error();
+    terminal.out << (options.json ? json_text(*reply) + '\n' : probe_text(*reply)) << std::flush;
+    return list(*reply, "answering").empty() ? kNo : kFine;
+}
+
+} // namespace
+
 int do_doctor(const Options& options, Terminal& terminal)
 {
+    if (options.probe) return do_probe(options, terminal);
     if (options.all) {
         terminal.out << (options.json ? json_text(rules_json()) + '\n' : render_rules(terminal.look()));
         return kFine;

@@ -102,12 +102,13 @@ std::string seen_late(const Facts& f)
     const Count late = counted(f.station_counters, "drive_late");
     if (late.minute < kSome) return {};
     const Json& d = part(f.station, "drive");
-    const auto slowest = real(d, "slowest_answer_ms");
-    return fmt::format("{} came after timeout_ms = {} {}{}", plural(late.minute, "answer"),
-                       number(d, "timeout_ms"), lately(late),
-                       slowest ? fmt::format("; the slowest took {}: set timeout_ms = {:.0f} at least",
-                                             age(slowest), *slowest * 1.2 + 20)
-                               : std::string{});
+    const std::int64_t needed = counted(f.station_counters, "drive_needs_timeout_ms").total;
+    const std::int64_t delay = counted(f.station_counters, "drive_delay_ms").total;
+    return fmt::format(
+        "{} came after timeout_ms = {} {}{}", plural(late.minute, "answer"), number(d, "timeout_ms"),
+        lately(late),
+        needed > 0 ? fmt::format("; the slowest took {} ms: set timeout_ms = {} at least", delay, needed)
+                   : std::string{});
 }
 std::string seen_damaged(const Facts& f)
 {

@@ -58,6 +58,13 @@ std::string would_silence(const Json& p)
         "if that is wanted: --yes",
         text(p, "parameter"), text(p, "value"), text(p, "station"), text(p, "reason"));
 }
+std::string line_in_use(const Json& p)
+{
+    return fmt::format(
+        "line {} works for {}, which a master exchanges data with: its drives would wait for up to a "
+        "minute; if that is wanted: --yes",
+        text(p, "line"), joined(list(p, "stations"), ", "));
+}
 std::string busy(const Json&)
 {
     return "the daemon has too many callers or orders at once; try again";
@@ -92,6 +99,7 @@ constexpr std::array kSentences = std::to_array<Row>({
     {"org.dpslaved.Control.NoTecOption", no_tec_option},
     {"org.dpslaved.Control.BadTecValue", bad_tec_value},
     {"org.dpslaved.Control.WouldSilence", would_silence},
+    {"org.dpslaved.Control.LineInUse", line_in_use},
     {"org.dpslaved.Control.Busy", busy},
     {"org.varlink.service.InvalidParameter", invalid_parameter},
     {"org.varlink.service.MethodNotFound", method_not_found},

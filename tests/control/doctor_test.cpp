@@ -501,11 +501,12 @@ TEST_F(Doctor, ADriveThatIsAlwaysLateIsToldTheTimeThatItNeeds)
 {
     drive_was_never_heard();
     count_of_station("drive_late", 23);
-    station()["drive"]["slowest_answer_ms"] = 310.0;
+    count_of_station("drive_delay_ms", 310);
+    count_of_station("drive_needs_timeout_ms", 388);
 
     EXPECT_EQ(found().front(), "drive.late");
     EXPECT_THAT(found(), Not(Contains("drive.never")));
-    EXPECT_THAT(evidence("drive.late"), HasSubstr("the slowest took 310 ms: set timeout_ms = 392 at least"));
+    EXPECT_THAT(evidence("drive.late"), HasSubstr("the slowest took 310 ms: set timeout_ms = 388 at least"));
 }
 
 TEST_F(Doctor, NamesThreeCausesForAStationAtMost)

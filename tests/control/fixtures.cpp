@@ -101,6 +101,9 @@ std::map<std::string, json> all()
         {"GetLeds", json::parse(kLeds)},
         {"GetTec", json::parse(kTec)},
         {"SetTec", json::parse(kTec)},
+        {"ProbeDrive",
+         json::parse(R"({"station":"rewinder","line":"p3","port":"/dev/ttyS2","tried":130,"answering":[
+            {"protocol":"ei-ascii","baud":19200,"format":"7E1","unit":"03"}]})")},
         {"Reload", json::parse(R"({"applied":true,"changes":["station rewinder removed"],
             "leaving":[{"station":"rewinder","reason":"removed"}],
             "pending":["station unwinder: address 7 counts from the next start on"],"warnings":[],"faults":[]})")},

@@ -27,7 +27,7 @@ TEST(ControlInterface, HasAHandlerNameForEachMethodOfTheFileAndNoOther)
 
 TEST(ControlInterface, LetsEverybodyLookAndOnlyOperatorsChange)
 {
-    const std::set<std::string_view> operating{"Survey", "WriteTag", "SetTec", "Reload"};
+    const std::set<std::string_view> operating{"Survey", "WriteTag", "SetTec", "ProbeDrive", "Reload"};
     for (const MethodEntry& method : kMethods)
         EXPECT_EQ(method.right, operating.count(method.name) > 0 ? Right::operate : Right::look)
             << method.name;

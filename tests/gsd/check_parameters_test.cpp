@@ -118,12 +118,25 @@ INSTANTIATE_TEST_SUITE_P(
                     Bad{"BeyondTheLength", "Ext_User_Prm_Data_Ref(1) = 2", "Ext_User_Prm_Data_Ref(3) = 2",
                         "38: error: this reaches beyond Max_User_Prm_Data_Len = 4"},
                     Bad{"OverlappingBits", "Ext_User_Prm_Data_Ref(1) = 2", "Ext_User_Prm_Data_Ref(0) = 2",
-                        "38: warning: this parameter lies on bits that another one has already"},
+                        "38: error: this parameter lies on bits that another one has already"},
                     Bad{"ConstantsBeyondTheLength", "= 0,0,0,0", "= 0,0,0,0,0",
                         "35: error: this reaches beyond Max_User_Prm_Data_Len"},
                     Bad{"NoLengthInTheModule", "Ext_Module_Prm_Data_Len = 1\n", "",
-                        "42: warning: Ext_Module_Prm_Data_Len is missing"}),
+                        "42: error: Ext_Module_Prm_Data_Len is missing"}),
     [](const auto& one) { return std::string{one.param.name}; });
+
+TEST(GsdParameters, ThatOverlapOrLackTheirLengthAreAWarningInFilesOfOthers)
+{
+    const auto tolerant = [](const std::string& text) {
+        std::string out;
+        for (const char each : text) out += each == '\n' ? std::string{"\r\n"} : std::string{each};
+        return told(out, gsd::Reading::tolerant);
+    };
+    EXPECT_THAT(tolerant(with(kGood, "Ext_User_Prm_Data_Ref(1) = 2", "Ext_User_Prm_Data_Ref(0) = 2")),
+                ElementsAre(StartsWith("38: warning: this parameter lies on bits")));
+    EXPECT_THAT(tolerant(with(kGood, "Ext_Module_Prm_Data_Len = 1\n", "")),
+                ElementsAre(StartsWith("42: warning: Ext_Module_Prm_Data_Len is missing")));
+}
 
 TEST(GsdParameters, MustBeDefinedBeforeTheyAreUsed)
 {

@@ -48,6 +48,7 @@ private:
         Generation layout = 0;                    ///< whose outputs the poller has; 0 = none
         bool was_known = false, answered = false; ///< as said in the log last
         std::optional<Instant> ride_ends;         ///< as said in the log last
+        Generation ride_layout = 0;               ///< whose outputs stand in a ride
         bool leaves = false;                      ///< it is not among the drives that come next
     };
 
@@ -62,6 +63,7 @@ private:
     void remember_trouble(const Unit& unit, const drive::Transaction& access, AccessError cause,
                           const std::string& text);
     void forget_trouble(const Unit& unit, const drive::Transaction& access);
+    void probe_line(const ProbeOrder& order, const std::stop_token& stop);
     void rest(int wake, std::chrono::nanoseconds wait) const;
     std::chrono::nanoseconds rest_time(Instant now) const;
     void farewell();

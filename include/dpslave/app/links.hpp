@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dpslave/app/config.hpp"
+#include "dpslave/app/line_probe.hpp"
 #include "dpslave/base/handover.hpp"
 #include "dpslave/base/histogram.hpp"
 #include "dpslave/base/mailbox.hpp"
@@ -176,6 +177,8 @@ struct LineOrder {
 struct LineLink {
     Ring<LineOrder, 16> orders;              // main -> drive
     Ring<drive::OperateAnswer, 16> answers;  // drive -> main
+    Ring<ProbeOrder, 2> probes;              // main -> drive
+    Ring<ProbeReport, 2> probe_reports;      // drive -> main
     Mailbox<TroubleList> troubles;           // drive -> main
     std::atomic<bool> port_open{false};      // drive -> main
     Handover<LineWork> work;                 // main -> drive

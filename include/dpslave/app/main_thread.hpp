@@ -99,6 +99,9 @@ private:
     std::string fingerprint(std::optional<std::size_t> station) const;
     std::optional<std::uint8_t> master_that_writes(std::uint32_t station, std::uint16_t tag) const;
     void answer_asked();
+    // main_probe.cpp
+    control::Reply on_probe(const control::Json& parameters, const control::Caller& who);
+    void answer_probes();
     void push_watchers(Instant now);
 
     /// Which station `parameters` name: by name or address. An error when there is none, or none was named
@@ -182,6 +185,8 @@ private:
     Instant next_count_{};
     std::map<std::uint32_t, Asked> asked_; ///< by the number of the order
     std::uint32_t next_order_ = 1;         ///< of an order or of another answer that is given later
+    std::map<std::uint32_t, std::shared_ptr<const StationConfig>> probing_; ///< by the number of the order
+    static constexpr std::size_t kMaxProbes = 2;
     std::map<std::uint64_t, Watcher> watchers_;
     std::uint64_t next_stream_ = 1;
     std::string status_said_;

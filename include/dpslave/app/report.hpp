@@ -101,6 +101,9 @@ std::string sentence(const std::string& station, const dp::Event& event);
 /// "2 of 3 stations in Data_Exch; unwinder: Data_Exch with master 2 ...": for systemctl status.
 std::string status_line(const View& view);
 
+/// "7E1"
+std::string format_text(const LineFormat& format);
+
 /// A word as `dpctl` shows it: by the tag table, else hexadecimal.
 std::string shown_value(const drive::TagTable& tags, std::uint16_t tag, std::uint16_t word);
 
