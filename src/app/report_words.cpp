@@ -167,6 +167,8 @@ std::string_view code(AccessError error) noexcept
         case no_answer: return "no_answer";
         case not_understood: return "not_understood";
         case deferred: return "deferred";
+        case no_scale: return "no_scale";
+        case contradicted: return "contradicted";
         case invalid_tag: return "invalid_tag";
         case read_only: return "read_only";
         case out_of_range: return "out_of_range";
