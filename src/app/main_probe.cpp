@@ -28,9 +28,9 @@ Reply MainThread::on_probe(const Json& parameters, const control::Caller& who)
     if (!is_free ||
         !post.station.line->link.probes.push({.number = next_order_, .station = post.station.number}))
         return Error{"Busy", Json::object()};
-    spdlog::info("{}: the drive is looked for on line {} by {}", post.config->name,
+    spdlog::info("{}: the drive is looked for on line {} by {}", post.station.config->name,
                  post.station.line->config.name, words_of(who));
-    probing_[next_order_] = post.config;
+    probing_[next_order_] = post.station.config;
     return control::Later{.token = next_order_++};
 }
 
