@@ -6,6 +6,7 @@
 #include "subcommands.hpp"
 
 #include "dpslave/profile/survey.hpp"
+#include "dpslave/profile/wording.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -330,49 +331,29 @@ void survey_arguments(CLI::App& app, Options& options)
     app.add_flag("--resume", options.resume, "Go on where the survey before this one ended");
 }
 
-/// How many letters are to be changed, added or left out to make the one of the other.
-std::size_t distance(std::string_view one, std::string_view other)
-{
-    std::vector<std::size_t> row(other.size() + 1);
-    for (std::size_t i = 0; i <= other.size(); ++i) row[i] = i;
-    for (std::size_t i = 1; i <= one.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t k = 1; k <= other.size(); ++k) {
-            const std::size_t changed = diagonal + (one[i - 1] == other[k - 1] ? 0 : 1);
-            diagonal = row[k];
-            row[k] = std::min({row[k] + 1, row[k - 1] + 1, changed});
-        }
-    }
-    return row.back();
-}
-
 /// Says which command was perhaps meant, where the word in its place is none.
 void suggest(const CLI::App& app, const std::vector<std::string>& arguments, Terminal& terminal)
 {
-    constexpr std::size_t kNear = 3;
+    constexpr std::size_t kNear = 2;
     const CLI::App* level = &app;
     for (std::size_t i = 0; i < arguments.size(); ++i) {
         const std::string& word = arguments[i];
         if (word == "--socket" || word == "--timeout") ++i; // their values
-        if (word.empty() || word.front() == '-' || i >= arguments.size()) continue;
-        const auto commands = level->get_subcommands([](const CLI::App*) { return true; });
-        if (commands.empty()) return;
-        const CLI::App* nearest = nullptr;
-        std::size_t least = kNear;
-        for (const CLI::App* command : commands) {
-            const std::size_t far = distance(word, command->get_name());
-            if (far < least) nearest = command;
-            least = std::min(least, far);
+        if (word.empty() || word.front() == '-') continue;
+        std::vector<std::string> names;
+        const CLI::App* found = nullptr;
+        for (const CLI::App* command : level->get_subcommands([](const CLI::App*) { return true; })) {
+            names.push_back(command->get_name());
+            if (names.back() == word) found = command;
         }
-        if (nearest != nullptr && least == 0) {
-            level = nearest;
-            continue;
+        if (found == nullptr) {
+            const std::string_view meant = profile::nearest(word, names, kNear);
+            if (!meant.empty())
+                terminal.err << "dpctl: there is no command '" << word << "'; did you mean '" << meant
+                             << "'?\n";
+            return;
         }
-        if (nearest != nullptr)
-            terminal.err << "dpctl: there is no command '" << word << "'; did you mean '"
-                         << nearest->get_name() << "'?\n";
-        return;
+        level = found;
     }
 }
 
