@@ -150,7 +150,7 @@ Reply FixtureDaemon::tag(const Json& parameters)
             Error{"DriveRefused",
                   Json::object({{"tag", 1}, {"reason", "read only" + behind_each_text_}, {"code", 1}})});
     else if (number != 2)
-        answers_.emplace_back(token, Done{reply("ReadTag")});
+        answers_.emplace_back(token, Done{reply(parameters.contains("value") ? "WriteTag" : "ReadTag")});
     return control::Later{token};
 }
 

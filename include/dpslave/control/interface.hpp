@@ -41,6 +41,7 @@ inline constexpr std::array kMethods = std::to_array<MethodEntry>({
     {"GetSurveyScope", Right::look},
     {"Survey", Right::operate},
     {"WriteTag", Right::operate},
+    {"ProbeDrive", Right::operate},
     {"SetTec", Right::operate},
     {"Reload", Right::operate},
 });
