@@ -84,7 +84,8 @@ TEST(SurveyTable, tags_without_a_mnemonic_are_parameters_of_their_own)
 {
     const std::string before = std::string{kHeader} + "1,,WORD,,,,,,,,,no,1,1\n";
     Survey seen;
-    for (const std::uint16_t tag : {1, 2, 3}) seen[tag].add(said(std::uint16_t{7}));
+    for (const auto tag : std::initializer_list<std::uint16_t>{1, 2, 3})
+        seen[tag].add(said(std::uint16_t{7}));
 
     EXPECT_THAT(merged(before, seen).added, ElementsAre(2, 3));
 }
