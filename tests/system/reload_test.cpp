@@ -161,8 +161,9 @@ TEST_F(ReloadInService, ThatAddsAndRemovesALineIsNotNoticed)
     std::string more = text;
     more += fmt::format(
         "[[line]]\nname = \"p4\"\nport = \"{}\"\nprotocol = \"ei-ascii\"\nbaud = 38400\n"
-        "[[station]]\nname = \"dancer\"\naddress = 7\nprofile = \"590\"\nline = \"p4\"\nunit = \"00\"\n",
-        gateway.folder("other-gateway").string());
+        "[[station]]\nname = \"dancer\"\naddress = 7\nprofile = \"590\"\nline = \"p4\"\nunit = \"00\"\n"
+        "tags = \"{}/config/tags/example.csv\"\n",
+        gateway.folder("other-gateway").string(), DPSLAVE_SOURCE_DIR);
     const Outcome added = reload(more);
     EXPECT_EQ(added.status, 0) << added.err;
     EXPECT_THAT(added.out, HasSubstr("line p4 added"));

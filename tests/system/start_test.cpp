@@ -87,7 +87,8 @@ TEST(BadStart, NamesAllFaultsOfTheConfigurationInOneRunAndOpensNothing)
     text.replace(text.find("address = 6"), 11, "address = 5");
     text.replace(text.rfind("\"590\""), 5, "\"591\"");
     text += "adress = 7\n";
-    text += "tags = \"wrong.csv\"\n";
+    const auto tags = text.rfind("tags = ");
+    text.replace(tags, text.find('\n', tags) - tags, "tags = \"wrong.csv\"");
     write_file(gateway.config(), text);
     write_file(gateway.folder("wrong.csv"), "tag,name,type\n55,speed,INT\n56,setpoint,INTEGER\n");
 
