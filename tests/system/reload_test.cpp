@@ -441,8 +441,9 @@ TEST_F(ReloadOfPorts, OfTwoLinesThatSwapThemIsWithoutAFault)
     std::string both = text;
     both += fmt::format(
         "[[line]]\nname = \"p4\"\nport = \"{}\"\nprotocol = \"ei-ascii\"\nbaud = 38400\n"
-        "[[station]]\nname = \"dancer\"\naddress = 7\nprofile = \"590\"\nline = \"p4\"\nunit = \"00\"\n",
-        port("other-gateway"));
+        "[[station]]\nname = \"dancer\"\naddress = 7\nprofile = \"590\"\nline = \"p4\"\nunit = \"00\"\n"
+        "tags = \"{}/config/tags/example.csv\"\n",
+        port("other-gateway"), DPSLAVE_SOURCE_DIR);
     ASSERT_EQ(reload(both).status, 0);
     Master second{gateway, {"--tags", "55,56w"}, 7};
     ASSERT_TRUE(second.does("start 30s"));
