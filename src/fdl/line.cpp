@@ -117,7 +117,7 @@ void Station::on_character_error(Instant read_at)
 void Station::begin_read(std::size_t octets, Instant read_at)
 {
     end_silence(octets, read_at);
-    if (used_ != 0 && read_at - heard_at_ >= duration_of(kTsyn, baud_)) boundaries_.set(used_);
+    if (used_ != 0 && read_at - heard_at_ >= duration_of(kTsyn, baud_)) boundaries_[used_] = true;
     heard_at_ = read_at;
 }
 
@@ -203,7 +203,7 @@ std::size_t Station::boundary_within(std::size_t begin, std::size_t end) const
 {
     if (boundaries_.none()) return end;
     do ++begin;
-    while (begin < end && !boundaries_.test(begin));
+    while (begin < end && !boundaries_[begin]);
     return begin;
 }
 
@@ -230,7 +230,7 @@ void Station::forget(std::size_t count)
     spoilt_ -= std::min(spoilt_, count);
     if (boundaries_.none()) return;
     boundaries_ >>= count;
-    boundaries_.reset(0);
+    boundaries_[0] = false;
 }
 
 void Station::forget_all()
