@@ -74,7 +74,7 @@ AccessError Access::read(UnitAddress unit, Mnemonic mnemonic)
 }
 
 /// A mnemonic that no station reads and no drive of the line owes, for which this one gives a value as far as
-/// is known; at the worst one that it owes itself.
+/// is known. None that it owes itself: each answer would leave one owed again, and nothing would ever settle.
 std::optional<Mnemonic> Access::spare(UnitAddress unit)
 {
     const auto is_free = [&](Mnemonic one) {
@@ -84,14 +84,13 @@ std::optional<Mnemonic> Access::spare(UnitAddress unit)
         if (is_free(one) && without_.count({number_of(unit), one}) == 0) return one;
     for (const Mnemonic one : {kLastError, kIdentity, kVersion})
         if (is_free(one)) return one;
-    for (const Mnemonic one : {kIdentity, kVersion})
-        if (exchange_.may_poll(unit, one)) return one;
     return std::nullopt;
 }
 
 /// Ends what the drive owes by a value of another mnemonic.
 AccessError Access::clear(UnitAddress unit)
 {
+    exchange_.listen(); // what is owed may have come, or have settled
     const auto mnemonic = spare(unit);
     if (!mnemonic) {
         trouble_ = "too many answers are owed on this line";
@@ -108,6 +107,10 @@ AccessError Access::clear(UnitAddress unit)
 /// none: ee_ is what the drive says now; anything else: nothing is known.
 AccessError Access::ask_ee(UnitAddress unit)
 {
+    if (exchange_.owes(unit, kLastError)) { // another one would only be owed in its place
+        trouble_ = "an earlier answer for EE is still owed";
+        return AccessError::deferred;
+    }
     const End end = poll(unit, kLastError);
     if (end == End::older) return AccessError::not_understood; // it may have been asked for before
     const AccessError error = ended(end);

@@ -140,7 +140,6 @@ Exchange::End Exchange::select(UnitAddress unit, Mnemonic mnemonic, std::string_
     question.is_write = true;
     question.written = form_of(mnemonic);
     question.wire_time = duration_of(1);
-    owed_.may_ask(question, line_.now()); // always; but what has settled is forgotten
     return ask(question, ei::select(unit, mnemonic, text), WaitsFor::ack);
 }
 
@@ -203,6 +202,7 @@ bool Exchange::fall_silent()
             parser_.reset();
             skips_ = false;
             echo_.sent({});
+            owed_.settle(line_.now()); // all that has come is judged
             return true;
         }
         heard_at_ = line_.now();

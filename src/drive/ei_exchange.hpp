@@ -53,6 +53,8 @@ public:
     const std::string& answer() const { return answer_; }   ///< the text of a value
     const std::string& trouble() const { return trouble_; } ///< why there is no answer; empty = there is
 
+    /// Judges what has come since the last question, and forgets what has settled.
+    void listen() { fall_silent(); }
     bool may_poll(UnitAddress unit, Mnemonic mnemonic); ///< no other drive owes it
     bool owes(UnitAddress unit, Mnemonic mnemonic) const;
     bool is_owed(Mnemonic mnemonic) const; ///< by any drive

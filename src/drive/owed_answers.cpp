@@ -23,19 +23,26 @@ bool OwedAnswers::fits(const Debt& debt, Form form)
 }
 
 /// Each debt has its own time, from the last octet of its own question.
-void OwedAnswers::settle(Instant now)
+Instant OwedAnswers::settles_at(const Debt& debt) const
 {
     std::chrono::nanoseconds wire_time{};
-    for (const Debt& debt : owed_) wire_time += debt.question.wire_time;
-    const auto settled = [&](const Debt& debt) { return now >= debt.asked_at + settle_ + wire_time; };
-    owed_.erase(std::remove_if(owed_.begin(), owed_.end(), settled), owed_.end());
+    for (const Debt& other : owed_) wire_time += other.question.wire_time;
+    return debt.asked_at + settle_ + wire_time;
 }
 
-bool OwedAnswers::may_ask(const Question& question, Instant now)
+void OwedAnswers::settle(Instant now)
 {
-    settle(now);
+    if (owed_.empty()) return;
+    std::vector<Debt> left;
+    for (const Debt& debt : owed_)
+        if (now < settles_at(debt)) left.push_back(debt);
+    owed_ = std::move(left);
+}
+
+bool OwedAnswers::may_ask(const Question& question, Instant now) const
+{
     return std::none_of(owed_.begin(), owed_.end(), [&](const Debt& debt) {
-        const bool alike = fits(debt, question.answer);
+        const bool alike = fits(debt, question.answer) && now < settles_at(debt);
         return alike && (names_ == Names::drive || debt.question.drive != question.drive);
     });
 }

@@ -126,7 +126,7 @@ bool ModbusClient::Exchange::fall_silent()
                 owed_.damaged(unit_);
                 break;
             case FrameLine::Heard::silence:
-            case FrameLine::Heard::gone: return true;
+            case FrameLine::Heard::gone: owed_.settle(line_.now()); return true;
         }
     }
     trouble_ = "noise and no answer: the line is never silent";
@@ -147,7 +147,9 @@ ModbusClient::Exchange::End ModbusClient::Exchange::wait(Bytes request, Instant 
                 heard_at_ = line_.now();
                 owed_.damaged(unit_);
                 trouble_ = "an answer with a wrong check sum or parity, or one that broke off";
-                if (std::exchange(echo_due_, false)) break; // the echo: the drive may have heard better
+                // Noise before the echo or the echo itself: the drive may have heard better. The next copy is
+                // taken for the echo; to take it for the answer would be a guess.
+                if (echo_due_) break;
                 return End::damaged;
             case FrameLine::Heard::silence: return End::silence;
             case FrameLine::Heard::gone: trouble_ = "the port has gone"; return End::silence;

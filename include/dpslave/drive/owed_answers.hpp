@@ -67,8 +67,11 @@ public:
     /// included; the wire time of all owed answers comes on top.
     OwedAnswers(Names names, std::chrono::nanoseconds settle) : names_(names), settle_(settle) {}
 
-    /// Could its answer be taken? What could not is not asked. Forgets what has settled.
-    bool may_ask(const Question& question, Instant now);
+    /// Could its answer be taken? What could not is not asked.
+    bool may_ask(const Question& question, Instant now) const;
+    /// Forgets what has settled. What came until `now` is heard before: an old answer that still waits in the
+    /// port would end a younger debt.
+    void settle(Instant now);
     /// The last octet of `question` leaves at `at`.
     void asked(const Question& question, Instant at);
 
@@ -103,7 +106,7 @@ private:
     bool is_duplicate(Bytes frame);
     void end_debts_of(DriveNumber drive);
     void note_late(const Debt& debt, Instant at);
-    void settle(Instant now);
+    Instant settles_at(const Debt& debt) const;
 
     Names names_;
     std::chrono::nanoseconds settle_;
