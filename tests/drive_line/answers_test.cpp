@@ -110,5 +110,24 @@ TEST(FoundOnTheLine, ARefusedBlockIsCutUntilWhatTheDriveHasIsRead)
     EXPECT_EQ(run_modbus(35, modbus_client).violation, "");
 }
 
+/// What waited in the port was judged when its debt had settled, and ended a younger one.
+TEST(FoundOnTheLine, ADebtSettlesWhenAllThatHasComeIsJudged)
+{
+    EXPECT_EQ(run_modbus(100'741, modbus_client).violation, "");
+}
+
+/// Noise before the echo of a write passed for the echo, and the echo for the answer.
+TEST(FoundOnTheLine, AnEchoBehindNoiseIsNotTheAnswerToAWrite)
+{
+    EXPECT_EQ(run_modbus(655, modbus_client).violation, "");
+    EXPECT_EQ(run_modbus(900'681, modbus_client).violation, "");
+}
+
+/// A drive without II that owed V0 and EE was asked for these again and again, and owed them again each time.
+TEST(FoundOnTheLine, ADriveIsNotAskedAgainForWhatItOwesUntilThatSettles)
+{
+    EXPECT_EQ(run_ei(500'303, ei_client).violation, "");
+}
+
 } // namespace
 } // namespace dpslave::drive_line

@@ -9,8 +9,8 @@ namespace dpslave::drive_line {
 namespace {
 
 /// A word that the tag gave up so long ago, and at least so many time-outs, is not shown as good.
-constexpr Time kOutOfDate = 30s;
-constexpr int kOutOfDateTimeouts = 150;
+constexpr Time kOutOfDate = 60s;
+constexpr int kOutOfDateTimeouts = 300;
 
 /// When the drive took the word of a write since it was ordered.
 template <class Order>
@@ -200,7 +200,7 @@ void Judge::judge_answer(const Order& order, AccessError error, std::uint16_t wo
             if (!tag.read_only) convict(what + " is answered as read only, which it is not");
             return;
         case AccessError::out_of_range:
-            if (!tag.refuses && !tag.read_only)
+            if (!tag.refuses && !tag.read_only && tag.disturbed_at < order.at)
                 convict(what + " is answered as out of range, which it was not");
             return;
         default: return;
