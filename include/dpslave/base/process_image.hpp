@@ -74,7 +74,7 @@ struct InputImage {
 /// Why an access to one tag failed on the drive side.
 enum class AccessError : std::uint8_t {
     none,
-    no_answer,      ///< the drive is silent; no code of Demand Data stands for it
+    no_answer, ///< the drive is silent; no code of Demand Data stands for it
     /// Not asked, or not proven: what the line still owes stands between. It is asked again in a later round;
     /// neither silence nor refusal. The poller keeps it to itself.
     deferred,
