@@ -210,7 +210,7 @@ void DriveLine::selected(std::uint8_t check, Instant now)
         error = Ee::checksum;
     else if (text_.size() < 3)
         error = Ee::message_format;
-    else if (unit.faults.nak)
+    else if (unit.faults.nak && !text_.starts_with("EE")) // clearing the last error is never refused
         error = *unit.faults.nak;
     else
         error = write(std::string_view{text_}.substr(0, 2), std::string_view{text_}.substr(2));

@@ -11,7 +11,8 @@ std::vector<std::string> DriveCommands::all_help()
 {
     std::vector<std::string> lines{
         "  silence                    hears nothing, as if it were off",
-        "  nak [EE]                   refuses every write; EE in hexadecimal, 02C2 if none is given",
+        "  nak [EE]                   refuses every write but that of EE; EE in hexadecimal, 02C2 if none is "
+        "given",
         "  bad-bcc                    replies carry a wrong block check",
         "  garbage                    replies are random octets",
         "  slow MS                    replies come so much later",

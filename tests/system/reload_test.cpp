@@ -77,7 +77,7 @@ protected:
     /// to do.
     void unwinder_noticed_nothing()
     {
-        EXPECT_TRUE(master.says("not in time")) << "the input was never 0";
+        EXPECT_TRUE(master.says("not in time", std::chrono::seconds{90})) << "the input was never 0";
         EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
         EXPECT_TRUE(master.does("wait 30s for state data-exchange"));
         EXPECT_EQ(gateway.station(0).at("name"), "unwinder");
@@ -273,7 +273,7 @@ TEST_F(Reload, TellsAWatcherThatHisStationHasGone)
     EXPECT_TRUE(watch.says("Wait_Prm"));
     EXPECT_TRUE(all.says("rewinder"));
     EXPECT_EQ(reload(without_rewinder()).status, 0);
-    EXPECT_EQ(watch.wait(), 1);
+    EXPECT_EQ(watch.wait(), 2) << "there is no such station";
     EXPECT_TRUE(watch.ever_said("rewinder"));
     EXPECT_EQ(reload(text).status, 0);
     EXPECT_TRUE(all.says("rewinder")) << "who watches all of them sees those who come";

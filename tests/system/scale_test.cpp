@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <regex>
+
 namespace dpslave::test {
 namespace {
 
@@ -31,7 +33,8 @@ protected:
     {
         std::string told;
         for (int i = 0; i < 100; ++i) {
-            told = gateway.dpctl({"diag"}).out;
+            // A sentence that is longer than the screen goes on in the next line.
+            told = std::regex_replace(gateway.dpctl({"diag"}).out, std::regex{"\\s+"}, " ");
             if (told.find(words) != std::string::npos) return ::testing::AssertionSuccess();
         }
         return ::testing::AssertionFailure() << told;

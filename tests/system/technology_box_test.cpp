@@ -269,7 +269,8 @@ TEST_F(FunctionBlock, WithAnotherTypeIsSilentOnTheBusAndSaysSo)
     EXPECT_TRUE(master.does("out 1 = 500"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 5.00"));
 
-    const Outcome off = set("TYPE", "3");
+    EXPECT_EQ(set("TYPE", "3").status, 1) << "the station is in data exchange";
+    const Outcome off = gateway.dpctl({"tec", "set", "TYPE", "3", "--yes"});
     EXPECT_EQ(off.status, 0);
     EXPECT_THAT(off.out, AllOf(HasSubstr("TYPE MISMATCH"), HasSubstr("set TYPE to 2")));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 0.00")) << "the connection to the master is lost";
@@ -452,7 +453,7 @@ TEST_F(BoxLamps, SayOnIsGoodAndOffIsBad)
     EXPECT_TRUE(shows(health, "0"));
     EXPECT_TRUE(shows(run, "0"));
 
-    EXPECT_EQ(gateway.dpctl({"tec", "set", "TYPE", "1"}).status, 0);
+    EXPECT_EQ(gateway.dpctl({"tec", "set", "TYPE", "1", "--yes"}).status, 0);
     EXPECT_TRUE(gateway.flashes(module)) << "wrong type";
     EXPECT_TRUE(eventually([&] { return pattern("network") == "off"; })) << "forced off by MODULE";
 }
