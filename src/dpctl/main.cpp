@@ -26,13 +26,16 @@ bool takes_colours()
 }
 
 constexpr std::size_t kUsualWidth = 80;
+constexpr std::size_t kWidest = 1000;
 
-/// What is printed fits 80 columns; a wider terminal is used.
+/// What is printed fits 80 columns; a wider terminal is used. In a pipe COLUMNS says how wide it is.
 std::size_t width_of_terminal()
 {
     winsize size{};
-    if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0) return kUsualWidth;
-    return std::max<std::size_t>(size.ws_col, kUsualWidth);
+    if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0)
+        return std::max<std::size_t>(size.ws_col, kUsualWidth);
+    const std::string columns{environment("COLUMNS")};
+    return std::clamp<std::size_t>(std::strtoul(columns.c_str(), nullptr, 10), kUsualWidth, kWidest);
 }
 
 } // namespace

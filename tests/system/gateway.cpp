@@ -208,7 +208,14 @@ void Gateway::unplug_bus()
 
 Arguments Gateway::dpctl_command(Arguments arguments) const
 {
-    Arguments command{DPCTL_PROGRAM, "--socket", socket(), "--timeout", std::to_string(kLimit.count())};
+    // Wide enough for each sentence to be one line.
+    Arguments command{"/usr/bin/env",
+                      "COLUMNS=1000",
+                      DPCTL_PROGRAM,
+                      "--socket",
+                      socket(),
+                      "--timeout",
+                      std::to_string(kLimit.count())};
     command.insert(command.end(), arguments.begin(), arguments.end());
     return command;
 }

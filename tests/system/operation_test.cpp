@@ -20,7 +20,7 @@ TEST(Dpctl, TellsScriptsWithItsExitCodeWhetherDataIsExchanged)
         EXPECT_TRUE(gateway.is_exchanging_says(0));
         EXPECT_TRUE(gateway.is_exchanging_says(0, "unwinder"));
         EXPECT_TRUE(gateway.is_exchanging_says(0, "5"));
-        EXPECT_TRUE(gateway.is_exchanging_says(1, "nobody"));
+        EXPECT_TRUE(gateway.is_exchanging_says(2, "other"));
         EXPECT_TRUE(master.does("unlock"));
     }
     EXPECT_TRUE(gateway.is_exchanging_says(1));
@@ -30,7 +30,7 @@ TEST(Dpctl, EndsWithOneWhenRefusedTwoForUsageAndThreeWithoutDaemon)
 {
     Gateway gateway;
     EXPECT_EQ(gateway.dpctl({"status"}).status, 0);
-    EXPECT_EQ(gateway.dpctl({"io", "nobody"}).status, 1);
+    EXPECT_EQ(gateway.dpctl({"io", "other"}).status, 2) << "there is no such station";
     EXPECT_EQ(gateway.dpctl({"no-such-command"}).status, 2);
     EXPECT_EQ(gateway.dpctl({"write", "56"}).status, 2);
     EXPECT_EQ(gateway.daemon().end(), 0);

@@ -88,7 +88,7 @@ async def serve(options):
         tag, word = text.split("=")
         values[int(tag, 0)] = int(word, 0)
     registers = Registers(values)
-    device = DeviceContext(hr=registers)
+    device = DeviceContext(hr=registers, ir=registers)  # a 2400 treats functions 3 and 4 alike
     context = ModbusServerContext({options.unit: device}, single=False)
 
     parameters = inspect.signature(ModbusSerialServer.__init__).parameters
