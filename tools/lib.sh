@@ -61,6 +61,9 @@ judge_second_tries() {
 build() {
     local preset=$1
     shift
+    if command -v ccache >/dev/null; then # clones of the project share what was compiled before
+        local -x CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=$project CCACHE_NOHASHDIR=1
+    fi
     say "Building ($preset)"
     cmake --preset "$preset" >/dev/null || cmake --preset "$preset"
     cmake --build --preset "$preset" ${*:+--target "$@"}
