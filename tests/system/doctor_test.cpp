@@ -166,14 +166,10 @@ TEST(DoctorOfTheMaster, NamesClear)
 TEST(DoctorOfTheMaster, NamesAWatchdogThatIsShorterThanItsCycle)
 {
     Gateway gateway;
-    std::string seen;
-    for (int i = 0; i < 10 && seen != "station.watchdog"; ++i) {
-        Master master{gateway, {"--tags", "55,56w", "--watchdog", "100", "--cycle", "400"}};
-        master.tell("start 5s");
-        EXPECT_TRUE(gateway.daemon().says("watchdog expired"));
-        seen = first_cause(gateway);
-    }
-    EXPECT_EQ(seen, "station.watchdog");
+    Master master{gateway, {"--tags", "55,56w", "--watchdog", "100", "--cycle", "400"}};
+    for (int i = 0; i < 20; ++i) master.tell("try start 5s"); // the slave drops its parameters each time
+
+    EXPECT_TRUE(first_cause_is(gateway, "station.watchdog"));
 }
 
 // ---------------------------------------------------------------- tags
