@@ -84,7 +84,7 @@ bus_thread() {
 counter() {
     dpctl counters | awk -v group="$1" -v name="$2" '
         /^[^ ]/ { here = $1 == group }
-        here && $2 == name { print $1; found = 1 }
+        here && $3 == name { print $1; found = 1 }
         END { exit !found }' || fail "no counter $2 of $1"
 }
 cycles() { counter unwinder data_exchange; }
