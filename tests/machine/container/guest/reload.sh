@@ -10,8 +10,8 @@ lost() {
     for _ in 1 2 3 4 5; do
         dpctl counters | awk '
             /^[^ ]/ { group = $1 }
-            group == "bus" { bus[$2] = $1 }
-            group == "unwinder" && $2 == "global_control" { broadcasts = $1 }
+            group == "bus" { bus[$3] = $1 }
+            group == "unwinder" && $3 == "global_control" { broadcasts = $1 }
             END {
                 print bus["requests"] - bus["replies"] - bus["late"] - bus["overtaken"] - broadcasts,
                     bus["telegrams"] - bus["requests"]

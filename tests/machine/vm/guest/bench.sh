@@ -54,7 +54,7 @@ refused() { # STATUS TEXT
 }
 # One number of `dpctl counters`, by its name there; the station's own when `bus` has none of that name.
 counter() { # NAME
-    dpctl --json counters | perl -0777 -ne 'print "$1\n" while /"name": "\Q'"$1"'\E",\s*"value": (\d+)/g' | head -n 1
+    dpctl --json counters | perl -0777 -ne 'print "$1\n" while /"name": "\Q'"$1"'\E"[^{}]*"value": (\d+)/g' | head -n 1
 }
 
 # --- Drive and master --------------------------------------------------------------------------------------------------
