@@ -26,6 +26,9 @@ constexpr double kLimit = DPSLAVE_OPTIMISED ? 1.3 : 1.6;
 
 TEST(Memory, OfTheDaemonIsNotMuchMoreThanThatOfItsLibraries)
 {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "a sanitizer keeps memory of its own";
+#endif
     Process sleeper{{LOCKED_SLEEPER_PROGRAM}};
     if (!sleeper.says("locked")) GTEST_SKIP() << "this user may not lock memory";
     Gateway gateway;
