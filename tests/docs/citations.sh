@@ -149,7 +149,7 @@ AWK
 faults_of() ( # ROOT
     cd "$1"
     there > "$scratch/there"
-    find README.md src include tests config docs -type f ! -path 'tests/docs/*.sh' |
+    find README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md src include tests config docs -type f ! -path 'tests/docs/*.sh' ! -path 'tests/docs/*.py' |
         LC_ALL=C sort | xargs awk -f "$scratch/cited.awk" | uniq > "$scratch/cited"
     awk -v wire="$wire" -v drive="$drive" -v rows="$rows" -f "$scratch/faults.awk" "$scratch/there" "$scratch/cited"
 )
@@ -157,7 +157,7 @@ faults_of() ( # ROOT
 # ---- would it notice?
 
 mkdir -p "$scratch/tree/src" "$scratch/tree/docs/reference"
-(cd "$scratch/tree" && mkdir include tests config && touch README.md docs/wiring.md)
+(cd "$scratch/tree" && mkdir include tests config && touch README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md docs/wiring.md)
 cat > "$scratch/tree/$wire" <<'END'
 ## 1. Physical layer
 ### 1.5 What a receiver tolerates (1.5), (see 1.9)

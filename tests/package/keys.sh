@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
 # keys.sh ROOT: fails if config/dpslaved.toml has a key, or a table of keys, of which dpslaved.toml(5) knows nothing
-# under that table's heading, or the page has a key that the file does not have.
+# under that table's heading, or the page has a key that the file does not have, or no page has a column of tag tables.
 set -eu
 cd "$1"
 work=$(mktemp -d)
@@ -24,6 +24,16 @@ awk '/^# / { table = ""; if (match($0, /^# \[+[A-Z.]+\]+$/)) { table = tolower(s
     docs/man/dpslaved.toml.5.scd | sort -u >"$work/page"
 
 [ "$(wc -l <"$work/file")" -gt 30 ] || { echo "found next to no keys in config/dpslaved.toml" && exit 1; }
+# The columns of a tag table, as the program knows them: in the page and in config/tags/README.md.
+columns=$(sed -n '/kColumnNames{/,/};/p' src/profile/tag_row.hpp | grep -oE '"[a-z]+"' | tr -d '"')
+[ "$(echo "$columns" | wc -l)" -ge 14 ] || { echo "found next to no columns in src/profile/tag_row.hpp" && exit 1; }
+for column in $columns; do
+    sed -n '/^# TAG TABLES/,/^# EXAMPLE/p' docs/man/dpslaved.toml.5.scd | grep -qE "^\\*(.*\\*, \\*)?$column\\*" ||
+        { echo "dpslaved.toml(5) does not have the column $column" && exit 1; }
+    grep -qF "\`$column\`" config/tags/README.md ||
+        { echo "config/tags/README.md does not have the column $column" && exit 1; }
+done
+
 missing=$(comm -23 "$work/file" "$work/page")
 unknown=$(comm -13 "$work/file" "$work/page")
 [ -z "$missing" ] || printf 'dpslaved.toml(5) does not have:\n%s\n' "$missing"
