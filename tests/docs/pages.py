@@ -123,7 +123,7 @@ def sentences(name, text):
     """(line, sentence) of a page: of paragraphs, items of lists and cells of tables; headings and blocks are left out."""
     paragraph, start = "", 0
     for number, line in enumerate(without_blocks(text) + [""], 1):
-        line = line.rstrip()
+        line = line.rstrip() if name.endswith(".scd") else line.strip()
         item = re.match(r"\s*([-*]|\d+\.)\s|\|", line) or (name.endswith(".scd") and not re.match(r"\t?[^\t*_]", line))
         if (not line or line.startswith("#") or item) and paragraph:
             for sentence in re.split(r"(?<=[.!?])[*_)\"]*\s+(?=[*_`(\"\[]*[A-Z0-9])", paragraph):
