@@ -141,7 +141,7 @@ def faults_of_sentences(name, text):
     for number, sentence in sentences(name, text):
         plain = re.sub(r"\]\([^)]*\)", "]", re.sub(r"`[^`]*`", "X", sentence))
         words = len(re.findall(r"[^\W\d_][\w'-]*|\d[\w.,-]*", plain))
-        chain = plain.count(";") > 1
+        chain = plain.count("; ") > 1
         if words > LONGEST:
             yield f"{name}:{number}: {words} words in one sentence: {sentence[:90]}"
         elif chain:
