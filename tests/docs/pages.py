@@ -22,6 +22,8 @@ NOT_SENTENCES = ["docs/manual-coverage.md", "docs/architecture.md", "docs/drive-
 
 
 def pages(root):
+    if not (root / "CMakeLists.txt").exists():  # as installed
+        return sorted(root.rglob("*.md"))
     return [page for pattern in PAGES for page in sorted(root.glob(pattern))]
 
 
