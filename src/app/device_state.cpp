@@ -139,7 +139,7 @@ void DeviceState::look_at_drive(const drive::UnitSnapshot& drive)
     for (std::size_t i = 0; i < seen_.size() && i < drive.watched.size(); ++i) {
         const drive::Watched& now = drive.watched[i];
         if (now.tag != seen_[i].tag) continue; // of the drive side before a reload that watches others
-        seen_[i].is_current = now.state == WordState::good && drive.answers;
+        seen_[i].is_current = (now.state == WordState::good || now.repeated) && drive.answers;
         if (now.state != WordState::good && now.state != WordState::stale) continue;
         seen_[i].word = now.word;
         seen_[i].was_read = true;

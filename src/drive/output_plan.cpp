@@ -157,7 +157,10 @@ Instant OutputPlan::next_due() const
 
 void OutputPlan::done(AccessError error, Instant now)
 {
-    if (writes_block() && error != AccessError::none) return block_failed();
+    if (writes_block() && error != AccessError::none) {
+        hold(AccessError::deferred);
+        return block_failed();
+    }
     if (writes_block()) failed_blocks_ = 0;
     for (std::size_t i = 0; i < batch_.size(); ++i) answered(items_[batch_[i]], words_[i], error, now);
 }
@@ -167,6 +170,7 @@ void OutputPlan::answered(Item& item, std::uint16_t word, AccessError error, Ins
     item.answered = word;
     item.answered_at = now;
     item.round = round_;
+    item.failures = 0;
     item.state = state_of(error);
     item.error = error;
     item.refused = error != AccessError::none;
@@ -184,12 +188,28 @@ void OutputPlan::not_answered(bool drive_lost)
 {
     if (drive_lost)
         for (const std::size_t index : batch_) items_[index].waits = true;
+    hold(AccessError::no_answer);
     if (writes_block()) block_failed();
 }
 
 void OutputPlan::defer()
 {
     for (const std::size_t index : batch_) items_[index].round = round_;
+    hold(AccessError::deferred);
+}
+
+void OutputPlan::hold(AccessError why)
+{
+    for (const std::size_t index : batch_) hold(items_[index], why);
+}
+
+/// A refusal stays what it is.
+void OutputPlan::hold(Item& item, AccessError why)
+{
+    ++item.failures;
+    if (item.state != WordState::good && item.state != WordState::stale) return;
+    item.state = WordState::stale;
+    item.error = why;
 }
 
 /// Nothing of it is known to be written: `answered` is empty, so each is due at once.
@@ -213,6 +233,7 @@ void OutputPlan::observed(const Tag* row, std::uint16_t word, Instant began)
             item.supposed = false;
             item.differs = item.unproven = false;
             item.repeats = 0;
+            item.failures = 0;
             item.repeated.reset();
             if (item.refused && !ends_when_held(item.error)) continue;
             item.refused = item.alone = false;

@@ -47,7 +47,8 @@ public:
         /// never written, the answer was lost, or the drive was gone. Then the present word is written.
         std::optional<std::uint16_t> answered;
         WordState state = WordState::untried;
-        AccessError error = AccessError::none; ///< why, of the last write; with `state` stale: no_answer
+        AccessError error = AccessError::none; ///< why, of the last write
+        int failures = 0;                      ///< writes in a row of which it is not known what became
         std::uint16_t written = 0;             ///< last word that was taken, for the eye
         Instant attempted_at{};
         Instant answered_at{};
@@ -95,6 +96,8 @@ public:
     void done(AccessError error, Instant now);
     void not_answered(bool drive_lost);
     void defer(); ///< not asked or not proven: once more in the next round
+    /// It is repeated, and until then nobody knows what the drive holds.
+    void hold(AccessError why);
     bool writes_block() const { return batch_.size() > 1; } ///< the write started last
 
     /// A cyclic read that began at `began` showed `word`.
@@ -110,6 +113,7 @@ public:
 
 private:
     static bool is_dropped(const Item& item);
+    static void hold(Item& item, AccessError why);
     void sort_by_tag();
     Instant due_at(const Item& item) const;
     Instant repeat_at(const Item& item) const;

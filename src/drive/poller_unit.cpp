@@ -67,6 +67,7 @@ void Poller::Unit::new_layout(const OutputImage& image)
     snapshot_.updated_at = {};
     snapshot_.states = {};
     snapshot_.errors = {};
+    snapshot_.repeated = {};
     snapshot_.answer_texts = {};
     inputs_changed_ = true;
 }

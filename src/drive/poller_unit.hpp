@@ -106,6 +106,7 @@ private:
     void done_operate(const Transaction& transaction, const Outcome& outcome);
     void count(const Transaction& transaction, AccessError error);
     void show();
+    bool is_only_repeated(WordState state, int failures) const;
     void show_form(const OutputPlan::Item& output);
     void show_inputs();
     void show_watched();

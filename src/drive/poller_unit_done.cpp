@@ -157,7 +157,7 @@ void Poller::Unit::done_read(const Outcome& outcome, Instant now)
             reads_.skip(job_.block); // lost on it: after the return another one goes first
         return;
     }
-    if (is_repeated(outcome.error, inputs_not_understood_)) return;
+    if (is_repeated(outcome.error, inputs_not_understood_)) return reads_.hold(job_.block, outcome.error);
     if (reads_.done(job_.block, outcome.error, outcome.words, now, outcome.answer)) inputs_changed_ = true;
     if (writing_) compare(outcome);
 }
@@ -182,7 +182,7 @@ void Poller::Unit::done_output(AccessError error, Instant now)
 {
     if (job_.layout != serial_) return;
     if (error == AccessError::no_answer) return outputs_.not_answered(silences_ >= settings_.retries);
-    if (!outputs_.writes_block() && is_repeated(error, outputs_not_understood_)) return;
+    if (!outputs_.writes_block() && is_repeated(error, outputs_not_understood_)) return outputs_.hold(error);
     outputs_.done(error, now);
 }
 
@@ -246,7 +246,9 @@ void Poller::Unit::done_operate(const Transaction& transaction, const Outcome& o
 void Poller::Unit::link(bool answered, Instant now)
 {
     if (!answered) {
-        if (!lost_ && ++silences_ > settings_.retries) lose();
+        if (lost_) return;
+        reads_.hold_all();
+        if (++silences_ > settings_.retries) lose();
         return;
     }
     silences_ = 0;
@@ -318,11 +320,18 @@ void Poller::Unit::show()
         snapshot_.words[item.parameter] = item.written;
         snapshot_.states[item.parameter] = item.state;
         snapshot_.errors[item.parameter] = item.error;
+        snapshot_.repeated[item.parameter] = is_only_repeated(item.state, item.failures);
         snapshot_.updated_at[item.parameter] = item.updated_at;
         show_form(item);
     }
     show_inputs();
     show_watched();
+}
+
+/// A repetition mends it as a rule.
+bool Poller::Unit::is_only_repeated(WordState state, int failures) const
+{
+    return state == WordState::stale && !lost_ && failures > 0 && failures <= settings_.retries;
 }
 
 /// Of an output that waits for its form: what the drive has answered.
@@ -349,9 +358,11 @@ void Poller::Unit::show_inputs()
         snapshot_.words[i] = item.word;
         snapshot_.updated_at[i] = item.updated_at;
         snapshot_.answer_texts[i] = item.answer;
-        if (parameter.writes && is_refusal(snapshot_.errors[i])) continue;
+        if (parameter.writes && snapshot_.states[i] != WordState::stale && is_refusal(snapshot_.errors[i]))
+            continue;
         snapshot_.states[i] = item.state;
         snapshot_.errors[i] = item.error;
+        snapshot_.repeated[i] = is_only_repeated(item.state, item.failures);
     }
 }
 
@@ -366,6 +377,7 @@ void Poller::Unit::show_watched()
         const ReadPlan::Item& item = reads_.items()[*found];
         if (item.state == WordState::untried) continue;
         snapshot_.watched[i].state = item.state;
+        snapshot_.watched[i].repeated = is_only_repeated(item.state, item.failures);
         if (item.state == WordState::good) snapshot_.watched[i].word = item.word;
     }
 }

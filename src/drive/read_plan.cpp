@@ -74,10 +74,15 @@ void ReadPlan::compare(bool outputs)
     rebuild();
 }
 
+/// Read again and again, so its word can be out of date.
+bool ReadPlan::is_cyclic(const Item& item) const
+{
+    return item.input || item.watched || (item.compared && compares_);
+}
+
 bool ReadPlan::in_use(const Item& item) const
 {
-    return item.input || item.watched || (item.compared && compares_) ||
-           (item.form && item.state != WordState::good);
+    return is_cyclic(item) || (item.form && item.state != WordState::good);
 }
 
 std::optional<std::size_t> ReadPlan::find(std::uint16_t tag) const
@@ -221,7 +226,7 @@ bool ReadPlan::good(Block block, std::span<const std::uint16_t> words, Instant n
         item.error = AccessError::none;
         item.answer = {};
         item.tried = true;
-        item.busy = 0;
+        item.busy = item.failures = 0;
         item.updated_at = now;
     }
     position_ = std::max(position_, block.last + 1);
@@ -237,9 +242,11 @@ std::size_t ReadPlan::in_use_from(std::size_t index) const
     return index;
 }
 
-/// Cut in the middle, where something is read; what is then still refused is cut again.
+/// Cut in the middle, where something is read; what is then still refused is cut again. Of its words a
+/// refused block says nothing.
 void ReadPlan::split(Block block)
 {
+    hold(block, AccessError::deferred);
     cut_ = Cut{block, in_use_from((block.first + block.last) / 2 + 1), false};
     items_[cut_->at].starts_block = true;
     rebuild();
@@ -269,9 +276,11 @@ bool ReadPlan::busy(Block block)
 {
     bool changed = false;
     for (std::size_t i = block.first; i <= block.last; ++i) {
-        changed = changed || (items_[i].input && !items_[i].tried);
-        items_[i].error = AccessError::not_understood;
-        items_[i].tried = true;
+        Item& item = items_[i];
+        changed = changed || (item.input && !item.tried);
+        item.tried = true;
+        if (item.state == WordState::untried) item.state = WordState::stale;
+        hold(item, AccessError::not_understood);
     }
     position_ = std::max(position_, block.last + 1);
     return changed;
@@ -293,6 +302,7 @@ bool ReadPlan::bad(std::size_t index, AccessError error, Instant now, std::strin
     item.answer = answer_text(answer);
     item.word = word;
     item.tried = true;
+    item.failures = 0;
     item.retry_at = now + kInvalidRetry;
     position_ = std::max(position_, index + 1);
     if (excluded(item) && !was_excluded)
@@ -326,12 +336,29 @@ void ReadPlan::defer(Block block, Instant now)
 {
     position_ = std::max(position_, block.last + 1);
     for (std::size_t i = block.first; i <= block.last; ++i) {
-        Item& item = items_[i];
-        item.retry_at = now + kDeferredRetry;
-        if (item.state != WordState::good) continue;
-        item.state = WordState::stale;
-        item.error = AccessError::deferred;
+        items_[i].retry_at = now + kDeferredRetry;
+        hold(items_[i], AccessError::deferred);
     }
+}
+
+/// What the drive has denied or refused stays so.
+void ReadPlan::hold(Item& item, AccessError why) const
+{
+    if (!is_cyclic(item)) return;
+    ++item.failures;
+    if (item.state != WordState::good && item.state != WordState::stale) return;
+    item.state = WordState::stale;
+    item.error = why;
+}
+
+void ReadPlan::hold(Block block, AccessError why)
+{
+    for (std::size_t i = block.first; i <= block.last; ++i) hold(items_[i], why);
+}
+
+void ReadPlan::hold_all()
+{
+    for (Item& item : items_) hold(item, AccessError::no_answer);
 }
 
 void ReadPlan::drive_lost()

@@ -49,7 +49,7 @@ public:
         bool asked = true;
         std::uint16_t word = 0;
         WordState state = WordState::untried;
-        AccessError error = AccessError::none; ///< why; with `state` stale: no_answer or deferred
+        AccessError error = AccessError::none; ///< why; with `state` stale: see UnitSnapshot::errors
         bool tried = false;
         Instant updated_at{};      ///< last success
         Instant retry_at{};        ///< of an excluded item: when the drive is asked again
@@ -57,6 +57,7 @@ public:
         bool after_hole = false;   ///< the item before it and this one are refused together
         AnswerText answer{};       ///< behind the errors no_scale and contradicted
         int busy = 0;              ///< rounds in a row in which a block from here on was not understood
+        int failures = 0;          ///< refreshes in a row without a good answer
     };
     /// Items `first` to `last` in one transaction.
     struct Block {
@@ -94,8 +95,13 @@ public:
     /// It is not asked for any more: 0 from now on.
     void refuse(std::uint16_t tag, AccessError error, std::string_view answer);
     void skip(Block block); ///< leaves it out in this round
-    /// It was not asked for the sake of an answer that is still owed: its words are held until the next
-    /// round.
+    /// It was asked and is no wiser: its words are held from now on, until a good answer.
+    void hold(Block block, AccessError why);
+    /// The drive has not answered: whatever it was asked, all reads wait for the transaction that is
+    /// repeated.
+    void hold_all();
+    /// It was not asked for the sake of an answer that is still owed: its words are held, and asked for again
+    /// in the next round.
     void defer(Block block, Instant now);
     void drive_lost();
     /// Excluded items are asked again now: it may be another drive. The round goes on where it was.
@@ -103,7 +109,9 @@ public:
 
 private:
     static bool excluded(const Item& item);
+    bool is_cyclic(const Item& item) const;
     bool in_use(const Item& item) const;
+    void hold(Item& item, AccessError why) const;
     bool is_urgent(const Item& item) const;
     /// A refused block, cut in two: is the hole between its halves?
     struct Cut {

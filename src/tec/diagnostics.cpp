@@ -71,16 +71,20 @@ constexpr std::uint16_t code_of(AccessError error)
     return 0;
 }
 
-constexpr bool fails(WordState state)
+/// What the next repetition mends is no failure: the lamp would flicker with each lost answer.
+bool fails(const drive::UnitSnapshot& drive, std::size_t parameter)
 {
-    return state != WordState::untried && state != WordState::good;
+    const WordState state = drive.states[parameter];
+    return state != WordState::untried && state != WordState::good && !drive.repeated[parameter];
 }
 
 bool parameter_fails(const dp::Snapshot& bus, const drive::UnitSnapshot& drive)
 {
     if (drive.known && !drive.answers) return true;
     if (drive.generation != bus.layout.generation) return false; // the drive side still has the layout before
-    return std::any_of(drive.states.begin(), drive.states.begin() + bus.layout.count, fails);
+    for (std::size_t i = 0; i < bus.layout.count; ++i)
+        if (fails(drive, i)) return true;
+    return false;
 }
 
 } // namespace

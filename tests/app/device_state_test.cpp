@@ -167,6 +167,25 @@ TEST_F(Box, SaysThatATripIsTheLastOneKnownWhileTheDriveIsLost)
     EXPECT_EQ(looked().trip(), "0: NO TRIP (tag 4 can no longer be read)");
 }
 
+TEST_F(Box, KeepsLampsAndDiagnosisWhileALostAnswerIsOnlyRepeated)
+{
+    bench.drive_reads({5, 0x0008});
+    const auto before = block();
+    for (drive::Watched& one : bench.view.drive.watched) {
+        one.state = WordState::stale;
+        one.repeated = true;
+    }
+    EXPECT_EQ(block(), before);
+    EXPECT_TRUE(looked().condition().health);
+    EXPECT_EQ(device->trip(), "5: EXTERNAL TRIP");
+    EXPECT_THAT(device->take_news(), Not(Contains(says("trip 0"))));
+
+    for (drive::Watched& one : bench.view.drive.watched) one.repeated = false;
+    EXPECT_EQ(block(), before) << "a word that is held is the last one known";
+    EXPECT_FALSE(looked().condition().health) << "off is bad";
+    EXPECT_THAT(*looked().trip(), HasSubstr("can no longer be read"));
+}
+
 TEST_F(Box, WithAFailedSelfTestIsSilentAndItsModuleLampFlashesShortly)
 {
     device.emplace(bench.station, false);

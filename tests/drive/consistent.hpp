@@ -31,7 +31,9 @@ inline bool is_consistent(WordState state, AccessError error)
     switch (state) {
         case WordState::untried:
         case WordState::good: return error == AccessError::none;
-        case WordState::stale: return error == AccessError::no_answer || error == AccessError::deferred;
+        case WordState::stale:
+            return error == AccessError::no_answer || error == AccessError::deferred ||
+                   error == AccessError::not_understood;
         case WordState::invalid_tag:
         case WordState::read_only:
         case WordState::out_of_range:

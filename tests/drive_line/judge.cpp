@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace dpslave::drive_line {
 namespace {
@@ -97,6 +98,28 @@ void Judge::operates(const drive::OperateOrder& order)
     if (order.is_write) drives_[order.unit].tags[order.tag].wanted.push_back({order.word, line_.time});
 }
 
+void Judge::attempted(const drive::Transaction& transaction, AccessError error, Instant began)
+{
+    using drive::Purpose;
+    if (transaction.purpose == Purpose::survey) return;
+    DriveRecord& record = drives_[transaction.unit];
+    record.in_doubt = error == AccessError::no_answer;
+    if (transaction.tag == nullptr) return;
+    const bool is_read = transaction.kind == drive::Transaction::Kind::read;
+    const bool is_cyclic =
+        is_read && (transaction.purpose == Purpose::input || transaction.purpose == Purpose::output ||
+                    transaction.purpose == Purpose::watch);
+    for (std::uint16_t i = 0; i < transaction.count; ++i) {
+        const auto known =
+            record.tags.try_emplace(static_cast<std::uint16_t>(transaction.tag->number + i)).first;
+        TagRecord& tag = known->second;
+        if (is_cyclic) tag.was_refreshed = error == AccessError::none;
+        if (is_cyclic && tag.was_refreshed)
+            tag.sampled_from = std::exchange(tag.unanswered_at, std::nullopt).value_or(began);
+        if (error != AccessError::none && !tag.unanswered_at) tag.unanswered_at = began;
+    }
+}
+
 void Judge::was_written(std::size_t drive, const SimulatedTag& tag, std::uint16_t word, Instant at)
 {
     TagRecord& record = drives_[drive].tags[tag.number];
@@ -163,7 +186,9 @@ void Judge::shown(std::size_t drive, const drive::UnitSnapshot& snapshot,
     if (snapshot.generation != record.image.layout.generation) return;
     for (std::size_t i = 0; i < record.image.layout.count; ++i) {
         const Parameter& parameter = record.image.layout.parameters[i];
-        if (!parameter.reads || snapshot.states[i] != WordState::good || snapshot.words[i] == 0) continue;
+        if (!parameter.reads || snapshot.states[i] != WordState::good) continue;
+        judge_good(drive, i, snapshot.words[i]);
+        if (snapshot.words[i] == 0) continue;
         const SimulatedTag& tag = tag_of(drive, parameter.tag);
         Instant given_up = kNever;
         for (std::size_t at = tag.history.size(); at-- > 0 && tag.history[at].word != snapshot.words[i];)
@@ -173,6 +198,21 @@ void Judge::shown(std::size_t drive, const drive::UnitSnapshot& snapshot,
                                 parameter.tag, drive, snapshot.words[i],
                                 static_cast<double>((line_.time - given_up).count()) / 1e9));
     }
+}
+
+/// It was held when, or after, the last attempt to read it began, and that attempt has not failed.
+void Judge::judge_good(std::size_t drive, std::size_t place, std::uint16_t word)
+{
+    DriveRecord& record = drives_[drive];
+    const std::uint16_t number = record.image.layout.parameters[place].tag;
+    const TagRecord& known = record.tags[number];
+    const std::string what = fmt::format("tag {} of drive {} shows {:04X} as good, ", number, drive, word);
+    if (record.in_doubt) return convict(what + "while the drive has not answered");
+    if (!known.was_refreshed) return convict(what + "though the last attempt to read it failed");
+    const SimulatedTag& tag = tag_of(drive, number);
+    std::size_t from = 0;
+    while (from + 1 < tag.history.size() && tag.history[from + 1].from <= known.sampled_from) ++from;
+    if (!held(tag, word, from)) convict(what + "which it has not held since it was asked last");
 }
 
 // ---- answers to orders

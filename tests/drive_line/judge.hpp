@@ -5,7 +5,8 @@
 /// Each word on the bus was held by that tag of that drive at or after the moment at which the word shown
 /// before was sampled. It is 0 only before the first reading of a layout, or where the drive denied the tag.
 /// What is written was wanted there, and never an older word after a newer one. An answer to an order is one
-/// to this order. What is shown as good is not out of date.
+/// to this order. What is shown as good was sampled by the last attempt to read it, and none while the drive
+/// owes the answer to whatever it was asked last.
 #pragma once
 
 #include "simulated_line.hpp"
@@ -27,6 +28,9 @@ public:
     void left(std::size_t drive, bool goes_to_zero);
     void ordered(std::size_t drive, const DemandOrder& order);
     void operates(const drive::OperateOrder& order);
+
+    /// What became of a transaction that has just ended.
+    void attempted(const drive::Transaction& transaction, AccessError error, Instant began);
 
     // What the drive side shows.
     void shown(std::size_t drive, const InputImage& image);
@@ -54,6 +58,10 @@ private:
         bool is_output = false;  ///< the master writes it in its exchange
         bool was_written = false;
         Instant written_at{};
+        bool was_refreshed = false; ///< by the last cyclic read
+        Instant sampled_from{};     ///< in which its sample cannot be older than this
+        /// The first question since then whose answer did not come: a later one may be taken for it.
+        std::optional<Instant> unanswered_at;
     };
     struct Order {
         std::size_t drive = 0;
@@ -67,6 +75,7 @@ private:
         OutputImage image;                            ///< as told last
         std::array<bool, kMaxParameters> was_shown{}; ///< a word other than 0, in this layout
         std::map<std::uint32_t, Order> orders;
+        bool in_doubt = false; ///< it has not answered the last transaction
     };
 
     void convict(const std::string& text);
@@ -74,6 +83,7 @@ private:
     /// The first place from `from` on at which the tag held the word; nothing: it never did.
     std::optional<std::size_t> held(const SimulatedTag& tag, std::uint16_t word, std::size_t from) const;
     SimulatedTag& tag_of(std::size_t drive, std::uint16_t number);
+    void judge_good(std::size_t drive, std::size_t place, std::uint16_t word);
     void judge_word(std::size_t drive, std::size_t place, std::uint16_t word);
     void judge_answer(const Order& order, AccessError error, std::uint16_t word);
     bool outputs_now(std::size_t drive, std::uint16_t number) const;

@@ -107,6 +107,7 @@ void LineRun::carry_out(const drive::Transaction& transaction)
                                 transaction.tag != nullptr ? transaction.tag->number : 0, transaction.count,
                                 static_cast<int>(outcome.error), backend_.last_trouble()));
     poller_.done(outcome, line_.time);
+    judge_.attempted(transaction, outcome.error, began);
     if (on_transaction) on_transaction(transaction, outcome.error, began);
 }
 

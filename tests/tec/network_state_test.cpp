@@ -81,6 +81,16 @@ INSTANTIATE_TEST_SUITE_P(B052, TecDataExError,
                                          Failure{"Refused", WordState::refused}),
                          [](const auto& one) { return std::string{one.param.name}; });
 
+TEST_F(TecNetworkState, StaysWhileALostAnswerIsOnlyRepeated)
+{
+    exchanges();
+    drive.states[1] = WordState::stale;
+    drive.repeated[1] = true;
+    EXPECT_EQ(network(), NetworkState::data_exchange);
+    drive.repeated[1] = false;
+    EXPECT_EQ(network(), NetworkState::data_ex_error);
+}
+
 TEST_F(TecNetworkState, IsDataExErrorWhileTheDriveIsLostAlsoWithDemandDataAlone)
 {
     start_up(prm("00 00 00"), "73");

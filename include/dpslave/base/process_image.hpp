@@ -48,7 +48,7 @@ struct OutputImage {
 enum class WordState : std::uint8_t {
     untried,      ///< not read yet in this layout
     good,         ///< read and converted
-    stale,        ///< held: the drive does not answer at present
+    stale,        ///< held: the last refresh brought no answer that can be believed
     invalid_tag,  ///< the drive (or the tag table) has no such tag: the input reads 0, the output is dropped
     read_only,    ///< the write was refused: read only
     out_of_range, ///< the write was refused, or the value does not fit in 16 bit
@@ -64,7 +64,7 @@ enum class WordState : std::uint8_t {
 struct InputImage {
     Generation generation = 0;
     bool every_input_tried = false; ///< each reading parameter was tried once, with whatever result
-    bool drive_answers = false;     ///< false: the values are held and stale
+    bool drive_answers = false;     ///< false: the drive is lost, the values are held
     /// A parameter of the layout, input or output, has answered with a number of unknown scale: the exchange
     /// must not begin. Never by silence.
     bool scale_missing = false;

@@ -85,6 +85,7 @@ struct Watched {
     std::uint16_t tag = 0;
     std::uint16_t word = 0;
     WordState state = WordState::untried;
+    bool repeated = false; ///< see UnitSnapshot
 };
 
 /// State of one drive for `dpctl`, as a plain value. reads and writes count what the drive did, refusals what
@@ -95,8 +96,12 @@ struct UnitSnapshot {
     bool answers = false;
     Generation generation = 0;
     std::array<std::uint16_t, kMaxParameters> words{}; ///< inputs as read, outputs as last written
+    /// stale from the first access on that was not answered well, or while the drive is silent, until one is.
     std::array<WordState, kMaxParameters> states{};
-    std::array<AccessError, kMaxParameters> errors{};      ///< why, of the last access; none where it worked
+    /// Why, of the last access; none where it worked. With stale: no_answer, deferred or not_understood.
+    std::array<AccessError, kMaxParameters> errors{};
+    /// Stale, but its retries are not used up: neither lamps nor NETWORK STATE change for it.
+    std::array<bool, kMaxParameters> repeated{};
     std::array<Watched, kMaxWatched> watched{};            ///< in the order of UnitSettings::watched
     std::array<AnswerText, kMaxParameters> answer_texts{}; ///< behind the errors no_scale and contradicted
     std::array<Instant, kMaxParameters> updated_at{};      ///< last success; default = never
