@@ -30,6 +30,8 @@ columns=$(sed -n '/kColumnNames{/,/};/p' src/profile/tag_row.hpp | grep -oE '"[a
 for column in $columns; do
     sed -n '/^# TAG TABLES/,/^# EXAMPLE/p' docs/man/dpslaved.toml.5.scd | grep -qE "^\\*(.*\\*, \\*)?$column\\*" ||
         { echo "dpslaved.toml(5) does not have the column $column" && exit 1; }
+    sed -n '/^# --- Tag tables/,$p' config/dpslaved.toml | grep -qE "^#   (.*, )?$column\b" ||
+        { echo "config/dpslaved.toml does not have the column $column" && exit 1; }
     grep -qF "\`$column\`" config/tags/README.md ||
         { echo "config/tags/README.md does not have the column $column" && exit 1; }
 done
