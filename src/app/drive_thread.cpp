@@ -8,6 +8,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace dpslave::app {
@@ -195,6 +196,7 @@ void DriveThread::publish()
         say_ride(i);
     }
     while (const auto answer = poller_.take_operate_answer()) link_.answers.push(*answer);
+    if (backend_) backend_->say_port_news(log_, io::monotonic_now());
     say_link_changes();
     log_.on_time(io::monotonic_now());
 }
@@ -324,12 +326,15 @@ std::chrono::nanoseconds DriveThread::rest_time(Instant now) const
                                                 tick);
 }
 
-/// Nothing to do: waits, until something is to be looked at.
-void DriveThread::rest(int wake, std::chrono::nanoseconds wait) const
+/// Nothing to do: waits, until something is to be looked at. An answer that comes too late comes now: its
+/// delay is measured here.
+void DriveThread::rest(int wake, std::chrono::nanoseconds wait)
 {
     const timespec time{.tv_sec = 0, .tv_nsec = static_cast<long>(wait.count())};
-    pollfd one{.fd = wake, .events = POLLIN, .revents = 0};
-    ::ppoll(&one, 1, &time, nullptr);
+    std::array<pollfd, 2> fds{{{.fd = wake, .events = POLLIN, .revents = 0},
+                               {.fd = backend_ ? backend_->fd() : -1, .events = POLLIN, .revents = 0}}};
+    ::ppoll(fds.data(), fds.size(), &time, nullptr); // a negative descriptor is not looked at
+    if (fds[1].revents != 0) backend_->backend().listen();
 }
 
 /// The bus has been left: the outputs still go to their safe state, as far as the drives let us. A drive that
@@ -346,7 +351,7 @@ void DriveThread::farewell()
         if (const auto transaction = poller_.next(io::monotonic_now()))
             carry_out(*transaction);
         else
-            rest(-1, rest_time(io::monotonic_now())); // a negative descriptor is not looked at
+            rest(-1, rest_time(io::monotonic_now()));
     }
     if (poller_.safe_state_pending())
         spdlog::error("not every output could be put into its safe state: a drive does not answer");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpslave/app/line_backend.hpp"
 
+#include <utility>
+
 namespace dpslave::app {
 
 namespace {
@@ -56,6 +58,20 @@ Result<std::unique_ptr<LineBackend>, std::string> LineBackend::open(const LineCo
     made->ei_ascii_ = client.get();
     made->backend_ = std::move(client);
     return made;
+}
+
+int LineBackend::fd() const
+{
+    return tty_ ? tty_->fd() : modbus_->fd();
+}
+
+/// Of EI-ASCII the port itself has said it.
+void LineBackend::say_port_news(LimitedLog& log, Instant now)
+{
+    if (modbus_ == nullptr) return;
+    for (modbus::PortNews& one : modbus_->take_port_news())
+        log.say(one.is_trouble ? LimitedLog::Level::error : LimitedLog::Level::info, std::move(one.text),
+                now);
 }
 
 void LineBackend::set_units(const std::vector<DriveUnit>& units)

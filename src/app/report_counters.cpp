@@ -91,8 +91,12 @@ Group station_counters(const StationView& station)
     add(c, "drive_refusals", drive.refusals, "transactions that the drive refused");
     add(c, "drive_not_understood", drive.not_understood,
         "those of them that the drive could not take: noise on the way to it, or a wrong format");
+    add(c, "drive_not_accepted", drive.heard.not_accepted,
+        "requests that the drive refused for their check sum (EI-ASCII: EE 02): noise on the way to it");
     add(c, "drive_losses", drive.losses, "times the drive was given up until it answered again");
     add(c, "drive_damaged", drive.heard.damaged, "answers with a wrong check sum, a parity fault or no form");
+    add(c, "drive_bad_checksum", drive.heard.bad_checksum,
+        "those of them that were whole but for their check sum (EI-ASCII)");
     add(c, "drive_late", drive.heard.late, "answers that came after their time-out");
     add(c, "drive_foreign", drive.heard.foreign, "frames that answered nothing that was asked");
     add(c, "drive_delay_ms", static_cast<std::uint64_t>(drive.heard.delay / std::chrono::milliseconds{1}),

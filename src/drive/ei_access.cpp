@@ -10,6 +10,7 @@ namespace dpslave::drive::ei {
 namespace {
 
 constexpr Mnemonic kVersion{'V', '0'};
+constexpr std::uint8_t kChecksumError = 0x02;  ///< high octet of EE
 constexpr std::string_view kNoError = ">0000"; ///< any write of EE sets it to "no error"
 
 /// An invalid tag is believed when the drive has said so twice: a request can be spoilt into one for a tag
@@ -197,6 +198,7 @@ AccessError Access::write(UnitAddress unit, Mnemonic mnemonic, std::string_view 
         return asked;
     }
     note_ee("NAK");
+    if (high(ee_) == kChecksumError) exchange_.note_not_accepted(unit);
     // 0: the drive has nothing against it, its frame was spoilt.
     AccessError error = high(ee_) == 0 ? AccessError::not_understood : error_of_ee(ee_, true);
     if (error == AccessError::not_understood) return error;

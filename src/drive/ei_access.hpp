@@ -31,6 +31,7 @@ public:
     const std::optional<std::string>& read_back() const { return read_back_; }
     const std::string& trouble() const { return trouble_; } ///< in words for the log; empty = none
     AnswerCounts counts(UnitAddress unit) const { return exchange_.counts(unit); }
+    void listen() { exchange_.listen(); }
 
 private:
     using End = Exchange::End;

@@ -38,6 +38,11 @@ AnswerCounts EiAsciiClient::counts(UnitAddress unit) const
     return access_->counts(unit);
 }
 
+void EiAsciiClient::listen()
+{
+    access_->listen();
+}
+
 MnemonicRule EiAsciiClient::rule_of(UnitAddress unit) const
 {
     const auto at =

@@ -276,6 +276,7 @@ std::optional<Exchange::End> Exchange::broken(Flaw flaw, WaitsFor what)
     skips_ = flaw != Flaw::none;
     parser_.reset();
     owed_.damaged(asked_);
+    if (flaw == Flaw::bad_bcc) owed_.bad_checksum(asked_);
     if (what == WaitsFor::nothing) return std::nullopt;
     trouble_ = flaw == Flaw::none ? "the answer broke off" : std::string{text(flaw)};
     return End::damaged;

@@ -59,6 +59,8 @@ public:
     bool owes(UnitAddress unit, Mnemonic mnemonic) const;
     bool is_owed(Mnemonic mnemonic) const; ///< by any drive
     AnswerCounts counts(UnitAddress unit) const;
+    /// The drive says that the check sum of a request was wrong.
+    void note_not_accepted(UnitAddress unit) { owed_.not_accepted(number_of(unit)); }
 
 private:
     enum class WaitsFor : std::uint8_t { nothing, value, ack };

@@ -43,6 +43,11 @@ void ModbusClient::set_units(std::vector<ModbusUnit> units)
     silent_loopbacks_.clear();
 }
 
+void ModbusClient::listen()
+{
+    exchange_->listen();
+}
+
 drive::AnswerCounts ModbusClient::counts(UnitAddress unit) const
 {
     return exchange_->counts(unit.unit);

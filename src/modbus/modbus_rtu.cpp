@@ -31,6 +31,16 @@ std::string ModbusRtu::last_trouble() const
     return line_->is_open() ? client_->last_trouble() : line_->path() + " has gone";
 }
 
+std::vector<PortNews> ModbusRtu::take_port_news()
+{
+    return line_->take_news();
+}
+
+int ModbusRtu::fd() const
+{
+    return line_->fd();
+}
+
 drive::BlockRule ModbusRtu::block_rule(const RtuSettings& settings)
 {
     return ModbusClient::block_rule(settings.baud, bits_of_a_character(settings));

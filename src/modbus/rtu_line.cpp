@@ -5,8 +5,6 @@
 
 #include "dpslave/io/clock.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <cerrno>
 
@@ -68,11 +66,11 @@ bool RtuLine::ready()
 {
     if (port_.is_open()) return true;
     const bool is_back = port_.ready(now());
-    if (const auto why = port_.take_trouble()) spdlog::error("{}; it is tried again", *why);
+    if (const auto why = port_.take_trouble()) news_.push_back({true, *why + "; it is tried again"});
     if (!is_back) return false;
     use_port();
     is_open_.store(true, std::memory_order_relaxed);
-    spdlog::info("{} is back", settings_.port);
+    news_.push_back({false, settings_.port + " is back"});
     return true;
 }
 
@@ -81,7 +79,7 @@ void RtuLine::lose()
     modbus_set_socket(context_.get(), -1);
     port_.lose(now());
     is_open_.store(false, std::memory_order_relaxed);
-    spdlog::error("{} has gone; it is opened again as soon as it returns", settings_.port);
+    news_.push_back({true, settings_.port + " has gone; it is opened again as soon as it returns"});
 }
 
 Instant RtuLine::now() const

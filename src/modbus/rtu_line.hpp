@@ -16,6 +16,8 @@
 #include <atomic>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace dpslave::modbus {
 
@@ -33,6 +35,9 @@ public:
     Instant now() const override;
 
     bool is_open() const { return port_.is_open(); }
+    int fd() { return port_.is_open() ? port_.tty().fd() : -1; } ///< -1: the port is gone
+    /// What happened to the port since the last call, oldest first.
+    std::vector<PortNews> take_news() { return std::exchange(news_, {}); }
     const std::string& path() const { return settings_.port; }
     /// How long the open port may keep octets back.
     std::chrono::nanoseconds hold_back() const { return hold_back_; }
@@ -56,6 +61,7 @@ private:
     Context context_;
     io::Port port_;
     std::atomic<bool>& is_open_;
+    std::vector<PortNews> news_;
     FrameReceiver receiver_;
     std::array<std::uint8_t, 256> buffer_{};
     std::chrono::nanoseconds hold_back_{};

@@ -64,7 +64,7 @@ private:
                           const std::string& text);
     void forget_trouble(const Unit& unit, const drive::Transaction& access);
     void probe_line(const ProbeOrder& order, const std::stop_token& stop);
-    void rest(int wake, std::chrono::nanoseconds wait) const;
+    void rest(int wake, std::chrono::nanoseconds wait);
     std::chrono::nanoseconds rest_time(Instant now) const;
     void farewell();
 

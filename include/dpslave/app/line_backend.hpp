@@ -27,6 +27,11 @@ public:
     static drive::BlockRule block_rule(const LineConfig& line);
 
     drive::Backend& backend() { return *backend_; }
+    /// Becomes readable when something comes that nobody waits for: Backend::listen() is due. -1: the port is
+    /// gone.
+    int fd() const;
+    /// What happened to the port since the last call goes to `log`.
+    void say_port_news(LimitedLog& log, Instant now);
     /// The drives from now on.
     void set_units(const std::vector<DriveUnit>& units);
 

@@ -22,6 +22,8 @@ public:
     Instant now() const override;
     void discard() override;
 
+    int fd() { return port_.is_open() ? port_.tty().fd() : -1; } ///< -1: the port is gone
+
 private:
     bool ready();
     void lose();

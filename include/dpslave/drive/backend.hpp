@@ -56,6 +56,10 @@ public:
     /// What went wrong in the last call, in words for the log ("EE >05C8"); empty when nothing did.
     virtual std::string last_trouble() const = 0;
 
+    /// Judges what has come while nothing was asked: what is late is measured when it comes, not when the
+    /// next question is asked. Takes as long as octets come, two of the longest answers at most.
+    virtual void listen() {}
+
     /// What came of this drive beside answers in time.
     virtual AnswerCounts counts(UnitAddress unit) const
     {

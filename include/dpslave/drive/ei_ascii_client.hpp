@@ -51,6 +51,7 @@ public:
     bool probe(UnitAddress unit) override;
     std::string last_trouble() const override { return trouble_; }
     AnswerCounts counts(UnitAddress unit) const override;
+    void listen() override;
     std::string_view last_answer() const override { return answer_; }
 
 private:

@@ -33,10 +33,12 @@ struct Question {
 
 /// What came of a drive beside answers in time, for a person who looks for the fault.
 struct AnswerCounts {
-    std::uint64_t damaged = 0;        ///< frames with a wrong check sum, a parity fault or no form
-    std::uint64_t late = 0;           ///< answers after their time-out
-    std::uint64_t foreign = 0;        ///< frames that answer nothing that was asked
-    std::uint32_t late_in_a_row = 0;  ///< late ones since the last answer in time
+    std::uint64_t damaged = 0;       ///< frames with a wrong check sum, a parity fault or no form
+    std::uint64_t bad_checksum = 0;  ///< those of them that were whole but for it; EI-ASCII
+    std::uint64_t not_accepted = 0;  ///< requests that the drive refused for their check sum; EI-ASCII: EE 02
+    std::uint64_t late = 0;          ///< answers after their time-out
+    std::uint64_t foreign = 0;       ///< frames that answer nothing that was asked
+    std::uint32_t late_in_a_row = 0; ///< late ones since the last answer in time
     std::chrono::nanoseconds delay{}; ///< the longest of them, from the last octet of its question
     friend bool operator==(const AnswerCounts&, const AnswerCounts&) = default;
 };
@@ -93,6 +95,8 @@ public:
     void clear();
 
     void damaged(DriveNumber drive) { ++counts_[drive].damaged; }
+    void bad_checksum(DriveNumber drive) { ++counts_[drive].bad_checksum; } ///< beside damaged()
+    void not_accepted(DriveNumber drive) { ++counts_[drive].not_accepted; }
     void foreign(DriveNumber drive) { ++counts_[drive].foreign; }
     AnswerCounts counts(DriveNumber drive) const;
 

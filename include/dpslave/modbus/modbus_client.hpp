@@ -68,6 +68,7 @@ public:
     std::string last_trouble() const override { return trouble_; } ///< "exception 2 (illegal data address)"
 
     drive::AnswerCounts counts(drive::UnitAddress unit) const override;
+    void listen() override;
 
 private:
     class Exchange;

@@ -29,6 +29,12 @@ struct RtuSettings {
     std::chrono::milliseconds reopen_after{500};
 };
 
+/// What happened to the port, a sentence with its path for the log.
+struct PortNews {
+    bool is_trouble = false; ///< else it is good again
+    std::string text;
+};
+
 class RtuLine;
 
 /// The port and the client on it.
@@ -56,6 +62,12 @@ public:
     bool probe(drive::UnitAddress unit) override { return client_->probe(unit); }
     std::string last_trouble() const override; ///< also: "/dev/ttyS2 has gone"
     drive::AnswerCounts counts(drive::UnitAddress unit) const override { return client_->counts(unit); }
+    void listen() override { client_->listen(); }
+
+    /// What happened to the port since the last call, oldest first. A port that comes and goes has endless
+    /// news: who writes the log keeps it short.
+    std::vector<PortNews> take_port_news();
+    int fd() const; ///< -1: the port is gone
 
 private:
     ModbusRtu(const RtuSettings& settings, std::unique_ptr<RtuLine> line);
