@@ -13,6 +13,7 @@ constexpr std::string_view kGateway = "dpslaved";
 constexpr std::int64_t kSome = 3;         ///< in a minute: a sound line has none
 constexpr std::int64_t kShare = 100;      ///< one in so many transactions
 constexpr double kFirstQuestions = 5'000; ///< ms: a drive that was not asked yet is not silent
+constexpr double kOfNow = 15'000;         ///< ms: a lost drive is asked every few seconds
 
 constexpr std::array kGoneSteps = std::to_array<std::string_view>({
     "Look whether the adapter is plugged in and where it is now: ls -l /dev/serial/by-id",
@@ -42,11 +43,26 @@ constexpr std::array kNoiseSteps = std::to_array<std::string_view>({
     "A lower rate of drive and [[line]] is less sensitive.",
     "dpctl counters: do drive_silences and drive_damaged still grow?",
 });
-constexpr std::array kNotUnderstoodSteps = std::to_array<std::string_view>({
+constexpr std::array kUnreadableSteps = std::to_array<std::string_view>({
+    "Compare rate and format of [[line]] with those that the drive is set to.",
+    "Let the gateway look for it: dpctl doctor --probe tries other rates and formats and names what answers.",
+    "Check the cable to the drive: screen, routing away from motor cables, the common of the port (0 V), A "
+    "and "
+    "B.",
+    "Where every answer is whole but for its checksum: look at what stands between, a converter or a "
+    "gateway.",
+});
+constexpr std::array kNotAcceptedSteps = std::to_array<std::string_view>({
     "Check the cable from the gateway to the drive: it is this direction that is disturbed.",
+    "RS-485: check A and B, the bias, and a terminator at both ends of a long cable; look whether the "
+    "transceiver cuts off the first character.",
+    "dpctl counters: does drive_not_accepted still grow?",
+});
+constexpr std::array kNotUnderstoodSteps = std::to_array<std::string_view>({
+    "Look at what the drive says: journalctl -u dpslaved has its EE (03 framing, 07 format of the message).",
     "Check that the format ([[line]] format) is that of the drive: with another parity it cannot read what "
-    "it "
-    "gets.",
+    "it gets.",
+    "Check the cable from the gateway to the drive.",
 });
 constexpr std::array kForeignSteps = std::to_array<std::string_view>({
     "Check that no other drive of this line has the same unit.",
@@ -76,23 +92,46 @@ std::string seen_gone(const Facts& f)
     const Json& d = part(f.station, "drive");
     return is_gone(d) ? fmt::format("{} of line {} is not there", text(d, "port"), text(d, "line")) : "";
 }
+/// Is it the time-out, and not the drive, that is wrong? Then it is not silent.
+bool is_late(const Facts& f)
+{
+    return counted(f.station_counters, "drive_late").within(kOfNow);
+}
+/// "23 answers could not be read in the last minute, 20 of them only for a wrong checksum".
+std::string damaged_words(const Facts& f)
+{
+    const Count damaged = counted(f.station_counters, "drive_damaged");
+    const std::int64_t checksum = counted(f.station_counters, "drive_bad_checksum").minute;
+    return fmt::format("{} could not be read {}{}", plural(damaged.minute, "answer"), lately(damaged),
+                       checksum == 0
+                           ? std::string{}
+                           : fmt::format(", {} of them only for a wrong checksum",
+                                         checksum == damaged.minute ? "all" : std::to_string(checksum)));
+}
+/// It answers, and nothing of it can be read: it is not silent.
+bool is_unreadable(const Facts& f)
+{
+    const Count damaged = counted(f.station_counters, "drive_damaged");
+    return is_silent(f) && damaged.minute >= kSome && damaged.within(kOfNow);
+}
+std::string seen_unreadable(const Facts& f)
+{
+    if (!is_unreadable(f)) return {};
+    const Json& d = part(f.station, "drive");
+    return fmt::format("{}; {}, and {}", settings_of(d), damaged_words(f),
+                       flag(d, "ever_answered") ? "it answered well before" : "none was ever good");
+}
 std::string seen_never(const Facts& f)
 {
     const Json& d = part(f.station, "drive");
-    if (!is_silent(f) || flag(d, "ever_answered")) return {};
-    if (counted(f.station_counters, "drive_late").minute > 0) return {};
-    const Count damaged = counted(f.station_counters, "drive_damaged");
-    return fmt::format("{}; {}{}", settings_of(d), plural(integer(d, "silences").value_or(0), "request"),
-                       damaged.total > 0
-                           ? fmt::format(" and no answer, only {} that cannot be read: rate or format",
-                                         plural(damaged.total, "run of octets"))
-                           : std::string{" and never an answer"});
+    if (!is_silent(f) || flag(d, "ever_answered") || is_late(f) || is_unreadable(f)) return {};
+    return fmt::format("{}; {} and never an answer", settings_of(d),
+                       plural(integer(d, "silences").value_or(0), "request"));
 }
 std::string seen_silent(const Facts& f)
 {
     const Json& d = part(f.station, "drive");
-    if (!is_silent(f) || !flag(d, "ever_answered")) return {};
-    if (counted(f.station_counters, "drive_late").minute > 0) return {};
+    if (!is_silent(f) || !flag(d, "ever_answered") || is_late(f) || is_unreadable(f)) return {};
     const Count lost = counted(f.station_counters, "drive_losses");
     return fmt::format("{}; it does not answer{}", settings_of(d),
                        lost.last_ms ? " since " + age(lost.last_ms) : std::string{});
@@ -100,7 +139,7 @@ std::string seen_silent(const Facts& f)
 std::string seen_late(const Facts& f)
 {
     const Count late = counted(f.station_counters, "drive_late");
-    if (late.minute < kSome) return {};
+    if (late.minute < kSome || !is_late(f)) return {};
     const Json& d = part(f.station, "drive");
     const std::int64_t needed = counted(f.station_counters, "drive_needs_timeout_ms").total;
     const std::int64_t delay = counted(f.station_counters, "drive_delay_ms").total;
@@ -112,11 +151,11 @@ std::string seen_late(const Facts& f)
 }
 std::string seen_damaged(const Facts& f)
 {
-    const Count damaged = counted(f.station_counters, "drive_damaged");
-    if (damaged.minute < kSome || !flag(part(f.station, "drive"), "ever_answered")) return {};
-    return fmt::format("{} a wrong checksum or broke off {}",
-                       damaged.minute == 1 ? "1 answer had" : fmt::format("{} answers had", damaged.minute),
-                       lately(damaged));
+    if (counted(f.station_counters, "drive_damaged").minute < kSome || is_unreadable(f)) return {};
+    if (!flag(part(f.station, "drive"), "ever_answered")) return {};
+    const std::int64_t good = counted(f.station_counters, "drive_reads").minute +
+                              counted(f.station_counters, "drive_writes").minute;
+    return fmt::format("{}, beside {} good ones", damaged_words(f), good);
 }
 std::string seen_foreign(const Facts& f)
 {
@@ -126,12 +165,20 @@ std::string seen_foreign(const Facts& f)
                        foreign.minute == 1 ? "1 answer was" : fmt::format("{} answers were", foreign.minute),
                        lately(foreign));
 }
+std::string seen_not_accepted(const Facts& f)
+{
+    const Count refused = counted(f.station_counters, "drive_not_accepted");
+    if (refused.minute < kSome) return {};
+    return fmt::format("the drive refused {} for a wrong checksum (EE 02) {}",
+                       plural(refused.minute, "write"), lately(refused));
+}
+/// Those that were not for the checksum.
 std::string seen_not_understood(const Facts& f)
 {
     const Count refused = counted(f.station_counters, "drive_not_understood");
-    if (refused.minute < kSome) return {};
-    return fmt::format("the drive could not take {} {}: wrong checksum (EE 02) or wrong form",
-                       plural(refused.minute, "request"), lately(refused));
+    const std::int64_t others = refused.minute - counted(f.station_counters, "drive_not_accepted").minute;
+    if (others < kSome) return {};
+    return fmt::format("the drive could not take {} {}", plural(others, "request"), lately(refused));
 }
 std::string seen_noise(const Facts& f)
 {
@@ -157,6 +204,9 @@ constexpr std::array kRules = std::to_array<Rule>({
     {"drive.gone", Scope::station, Rank::gone, "the port of the drive line has vanished",
      "The port of the drive line is gone: adapter pulled, or its driver failed", kGoneSteps, kGateway,
      seen_gone},
+    {"drive.unreadable", Scope::station, Rank::stands, "answers of the drive come, and none can be read",
+     "The drive answers, but damaged: rate or format of the line, or a disturbed cable", kUnreadableSteps,
+     kGateway, seen_unreadable},
     {"drive.never", Scope::station, Rank::stands, "the drive has never answered",
      "The drive was never heard: cable, unit, rate or format", kNeverSteps, kGateway, seen_never},
     {"drive.late", Scope::station, Rank::stands, "answers of the drive come after timeout_ms",
@@ -171,9 +221,13 @@ constexpr std::array kRules = std::to_array<Rule>({
     {"drive.damaged", Scope::station, Rank::recent, "answers of the drive are damaged",
      "The cable from the drive is disturbed, or its format is another one", kNoiseSteps, kGateway,
      seen_damaged},
-    {"drive.not_understood", Scope::station, Rank::recent, "the drive cannot take requests (EE 02)",
-     "The cable to the drive is disturbed: it gets wrong checksums", kNotUnderstoodSteps, kGateway,
-     seen_not_understood},
+    {"drive.not_accepted", Scope::station, Rank::recent,
+     "the drive refuses requests for their checksum (EE 02)",
+     "Checksum refused: the cable to the drive is disturbed", kNotAcceptedSteps, kGateway, seen_not_accepted},
+    {"drive.not_understood", Scope::station, Rank::recent,
+     "the drive cannot take requests for another reason",
+     "The drive cannot read what it gets: format of the line, or a disturbed cable", kNotUnderstoodSteps,
+     kGateway, seen_not_understood},
     {"drive.noise", Scope::station, Rank::recent, "more than one request in a hundred is not answered",
      "The cable of the drive is disturbed, or the drive is overloaded", kNoiseSteps, kGateway, seen_noise},
 });

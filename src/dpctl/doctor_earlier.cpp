@@ -26,6 +26,7 @@ constexpr std::array kOfStation = std::to_array<Named>({
     {"drive_silences", "requests that the drive did not answer"},
     {"drive_late", "answers of the drive that came too late"},
     {"drive_damaged", "answers of the drive that were damaged"},
+    {"drive_not_accepted", "writes that the drive refused for a wrong checksum"},
     {"drive_not_understood", "requests that the drive could not take"},
 });
 constexpr std::string_view kFlaw = "flaw: ";

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace dpslave::dpctl {
 namespace {
 
@@ -129,6 +131,15 @@ std::string seen_asked_only(const Facts& f)
                        lately(diag));
 }
 
+/// The request was spoilt on its way: that says nothing about the tag.
+bool was_spoilt(const Facts& f, const Json& word)
+{
+    const Json& refused = list(f.diagnosis, "refused");
+    return std::any_of(refused.begin(), refused.end(), [&](const Json& one) {
+        return text(one, "code") == "not_understood" && integer(one, "tag") == integer(word, "tag");
+    });
+}
+
 /// The words of `direction` that are in `state`, each with its tag and value.
 std::string words_that_are(const Facts& f, std::string_view direction, std::string_view state)
 {
@@ -136,6 +147,7 @@ std::string words_that_are(const Facts& f, std::string_view direction, std::stri
     for (const Json& word : list(f.io, "words")) {
         if (text(word, "state") != state || (!direction.empty() && text(word, "direction") != direction))
             continue;
+        if (was_spoilt(f, word)) continue;
         const std::string name = text(word, "name", "");
         all += fmt::format("{}tag {}{} = {} ({} octet {})", all.empty() ? "" : ", ", number(word, "tag"),
                            name.empty() ? "" : " " + name, text(word, "value"), text(word, "direction"),

@@ -483,18 +483,18 @@ TEST_P(DoctorDrive, NamesWhatWasCountedThreeTimesInAMinute)
 
 INSTANTIATE_TEST_SUITE_P(
     Counters, DoctorDrive,
-    testing::Values(
-        DriveCount{"Silences", "drive_silences", "drive.noise",
-                   "23 of 523 requests were not answered in the last minute"},
-        DriveCount{"Damaged", "drive_damaged", "drive.damaged",
-                   "23 answers had a wrong checksum or broke off in the last minute"},
-        DriveCount{"Foreign", "drive_foreign", "drive.foreign",
-                   "23 answers were not to what was asked, in the last minute"},
-        DriveCount{
-            "NotUnderstood", "drive_not_understood", "drive.not_understood",
-            "the drive could not take 23 requests in the last minute: wrong checksum (EE 02) or wrong form"},
-        DriveCount{"Late", "drive_late", "drive.late",
-                   "23 answers came after timeout_ms = 200 in the last minute"}),
+    testing::Values(DriveCount{"Silences", "drive_silences", "drive.noise",
+                               "23 of 523 requests were not answered in the last minute"},
+                    DriveCount{"Damaged", "drive_damaged", "drive.damaged",
+                               "23 answers could not be read in the last minute, beside 500 good ones"},
+                    DriveCount{"Foreign", "drive_foreign", "drive.foreign",
+                               "23 answers were not to what was asked, in the last minute"},
+                    DriveCount{"NotUnderstood", "drive_not_understood", "drive.not_understood",
+                               "the drive could not take 23 requests in the last minute"},
+                    DriveCount{"NotAccepted", "drive_not_accepted", "drive.not_accepted",
+                               "the drive refused 23 writes for a wrong checksum (EE 02) in the last minute"},
+                    DriveCount{"Late", "drive_late", "drive.late",
+                               "23 answers came after timeout_ms = 200 in the last minute"}),
     [](const auto& row) { return row.param.name; });
 
 TEST_F(Doctor, ADriveThatIsAlwaysLateIsToldTheTimeThatItNeeds)
@@ -507,6 +507,40 @@ TEST_F(Doctor, ADriveThatIsAlwaysLateIsToldTheTimeThatItNeeds)
     EXPECT_EQ(found().front(), "drive.late");
     EXPECT_THAT(found(), Not(Contains("drive.never")));
     EXPECT_THAT(evidence("drive.late"), HasSubstr("the slowest took 310 ms: set timeout_ms = 388 at least"));
+}
+
+TEST_F(Doctor, ADriveWhoseAnswersCannotBeReadIsNotCalledSilent)
+{
+    station()["drive"]["link"] = "silent";
+    count_of_station("drive_damaged", 23);
+    count_of_station("drive_bad_checksum", 20);
+
+    EXPECT_THAT(found(), ElementsAre("drive.unreadable", "board.internal"));
+    EXPECT_THAT(
+        evidence("drive.unreadable"),
+        HasSubstr("23 answers could not be read in the last minute, 20 of them only for a wrong checksum, "
+                  "and it answered well before"));
+    EXPECT_THAT(steps("drive.unreadable"), HasSubstr("dpctl doctor --probe"));
+}
+
+TEST_F(Doctor, ADriveThatWasLateAWhileAgoMayBeSilentNow)
+{
+    station()["drive"]["link"] = "silent";
+    set_count(1, "drive_late", 23, 23, 40'000.0);
+
+    EXPECT_EQ(found().front(), "drive.silent");
+}
+
+TEST_F(Doctor, ARequestThatWasSpoiltOnItsWaySaysNothingAboutItsTag)
+{
+    word_is(0, "refused");
+    const Json tag = replies.io["stations"][0]["words"][0]["tag"];
+    EXPECT_EQ(found().front(), "station.refused");
+
+    drive_refuses(tag.get<unsigned>(), "not_understood", "tag 7: NAK, EE >02C2 (checksum (BCC) error)");
+    count_of_station("drive_not_understood", 23);
+    count_of_station("drive_not_accepted", 23);
+    EXPECT_THAT(found(), ElementsAre("drive.not_accepted"));
 }
 
 TEST_F(Doctor, NamesThreeCausesForAStationAtMost)

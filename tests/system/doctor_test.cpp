@@ -2,11 +2,17 @@
 // Set-ups that are broken on purpose: the first cause that the doctor names is the true one.
 #include "gateway.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+
+#include <optional>
+#include <string>
 
 namespace dpslave::test {
 namespace {
 
+using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -202,6 +208,135 @@ TEST(DoctorOfTags, NamesEachKindOfWrongTagAndNotThePersonsOwn)
 }
 
 // ---------------------------------------------------------------- the drive
+
+/// A master that exchanges data with a drive on which all is well.
+class SickDrive : public ::testing::Test {
+protected:
+    void begins(Wiring wiring = {})
+    {
+        gateway.emplace(std::move(wiring));
+        master.emplace(*gateway, Arguments{"--tags", "55,57,56w"});
+        ASSERT_TRUE(master->does("start 30s"));
+        ASSERT_TRUE(is("well"));
+    }
+    /// The first finding of the station: what a loaded machine does to the bus is not meant here.
+    Json first() const
+    {
+        const Json reply = gateway->json({"doctor"});
+        for (const Json& one : reply.at("findings"))
+            if (!one.at("station").is_null()) return one;
+        return {{"rule", "well"}, {"evidence", ""}, {"steps", Json::array()}};
+    }
+    ::testing::AssertionResult is(const std::string& rule) const
+    {
+        std::string seen;
+        if (eventually([&] { return (seen = first().at("rule")) == rule; }))
+            return ::testing::AssertionSuccess();
+        return ::testing::AssertionFailure() << "the first cause is " << seen << ", not " << rule;
+    }
+    std::string evidence() const { return first().at("evidence"); }
+    std::string steps() const { return first().at("steps").dump(); }
+    std::optional<Gateway> gateway;
+    std::optional<Master> master;
+};
+
+TEST_F(SickDrive, WithNoiseOnItsCableIsNamedWithCounts)
+{
+    begins();
+    gateway->drive_line().tell("errors 0.0005");
+
+    EXPECT_TRUE(is("drive.damaged"));
+    EXPECT_THAT(evidence(), ContainsRegex("[0-9]+ answers could not be read in the last minute, .*"
+                                          "beside [0-9]+ good ones"));
+    EXPECT_THAT(steps(), HasSubstr("screen"));
+}
+
+TEST_F(SickDrive, ThatAnswersGarbageIsNotCalledSilent)
+{
+    begins();
+    gateway->drive().tell("garbage");
+
+    EXPECT_TRUE(is("drive.unreadable"));
+    EXPECT_THAT(evidence(), AllOf(HasSubstr("could not be read"), HasSubstr("it answered well before"),
+                                  HasSubstr("38.4 kbit/s, 7E1")));
+    EXPECT_THAT(steps(), AllOf(HasSubstr("rate and format"), HasSubstr("--probe")));
+}
+
+TEST_F(SickDrive, ThatAnswersWithAWrongChecksumIsToldApartFromGarbage)
+{
+    begins();
+    gateway->drive().tell("bad-bcc");
+
+    EXPECT_TRUE(is("drive.unreadable"));
+    EXPECT_THAT(evidence(), HasSubstr("all of them only for a wrong checksum"));
+}
+
+TEST_F(SickDrive, ThatWasNeverReadableIsNotSaidToHaveNeverAnswered)
+{
+    gateway.emplace(Wiring{.drive = {"--fault", "bad-bcc"}});
+
+    master.emplace(*gateway, Arguments{"--tags", "55"});
+    master->tell("start 30s");
+    EXPECT_TRUE(is("drive.unreadable"));
+    EXPECT_THAT(evidence(), HasSubstr("none was ever good"));
+}
+
+/// Of the timeout_ms that the doctor asks for, in milliseconds; 0: of none.
+int timeout_asked_for(const std::string& said)
+{
+    const std::string words = "set timeout_ms = ";
+    const std::size_t at = said.find(words);
+    return at == std::string::npos ? 0 : std::stoi(said.substr(at + words.size()));
+}
+
+TEST_F(SickDrive, ThatIsAlwaysLateIsToldTheTimeoutThatItReallyNeeds)
+{
+    begins();
+    gateway->drive().tell("slow 300");
+
+    EXPECT_TRUE(is("drive.late"));
+    EXPECT_TRUE(eventually([&] { return timeout_asked_for(evidence()) != 0; }));
+    const int needed = timeout_asked_for(evidence());
+    EXPECT_GE(needed, 300);
+    EXPECT_LT(needed, 1000) << "it is measured when the answer comes, not when the next question is asked";
+
+    write_file(gateway->config(), replaced(gateway->config_text(), "[[station]]",
+                                           fmt::format("timeout_ms = {}\n[[station]]", needed)));
+    EXPECT_EQ(gateway->dpctl({"reload"}).status, 0);
+    EXPECT_TRUE(is("well")) << "what the doctor advises helps";
+}
+
+TEST_F(SickDrive, ThatRefusesOurChecksumHasThatAsItsOwnCause)
+{
+    begins();
+    gateway->drive().tell("nak 02C2");
+
+    EXPECT_TRUE(is("drive.not_accepted"));
+    EXPECT_THAT(evidence(), HasSubstr("wrong checksum (EE 02)"));
+    EXPECT_THAT(steps(), HasSubstr("from the gateway to the drive"));
+}
+
+TEST_F(SickDrive, ThatRefusesTheFormOfARequestIsToldApartFromAChecksum)
+{
+    begins();
+    gateway->drive().tell("nak 07C7");
+
+    EXPECT_TRUE(is("drive.not_understood"));
+}
+
+TEST_F(SickDrive, WhosePortVanishesIsNamedAndWellAgainWhenItReturns)
+{
+    begins();
+    gateway->unplug_drive();
+
+    EXPECT_TRUE(is("drive.gone"));
+    EXPECT_THAT(evidence(), HasSubstr("of line p3 is not there"));
+    EXPECT_THAT(gateway->dpctl({"status"}).out, HasSubstr("port gone"));
+    EXPECT_THAT(steps(), HasSubstr("/dev/serial/by-id"));
+
+    gateway->plug_drive();
+    EXPECT_TRUE(is("well"));
+}
 
 TEST(DoctorOfTheDrive, NamesOneThatFellSilent)
 {

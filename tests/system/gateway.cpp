@@ -82,7 +82,7 @@ void write_file(const fs::path& file, const std::string& text)
 Gateway::Gateway(Wiring wiring) : wiring_(std::move(wiring))
 {
     plug_bus();
-    line_ = paced_line(wiring_.drive_baud, "10", drive_end(), folder_ / "drive-gateway");
+    plug_drive_line();
     if (!wiring_.table.empty()) write_file(folder_ / "tags.csv", wiring_.table);
     if (wiring_.simulated) start_drive();
     if (wiring_.lamps) {
@@ -204,6 +204,23 @@ void Gateway::plug_bus()
 void Gateway::unplug_bus()
 {
     bus_->end();
+}
+
+void Gateway::plug_drive_line()
+{
+    line_ = paced_line(wiring_.drive_baud, "10", drive_end(), folder_ / "drive-gateway");
+}
+
+void Gateway::plug_drive()
+{
+    plug_drive_line();
+    start_drive();
+}
+
+void Gateway::unplug_drive()
+{
+    drive_->end();
+    line_->end();
 }
 
 Arguments Gateway::dpctl_command(Arguments arguments) const

@@ -68,12 +68,15 @@ public:
     Gateway(const Gateway&) = delete;
     Gateway& operator=(const Gateway&) = delete;
 
-    Process& bus() { return *bus_; } ///< dpsim line of the PROFIBUS
+    Process& bus() { return *bus_; }         ///< dpsim line of the PROFIBUS
+    Process& drive_line() { return *line_; } ///< dpsim line between the gateway and the drive
     Process& drive() { return *drive_; }
     Process& daemon() { return *daemon_; }
     void start_daemon(); ///< and waits until it serves
     void unplug_bus();   ///< as a USB adapter that is pulled: the tty vanishes
     void plug_bus();
+    void unplug_drive(); ///< the same on the drive's side
+    void plug_drive();
 
     std::filesystem::path drive_end() const { return folder_ / "drive-end"; }
     std::filesystem::path bus_end() const { return folder_ / "bus-plc"; } ///< where the masters are
@@ -110,6 +113,7 @@ public:
     std::string spoken_on_the_bus();
 
 private:
+    void plug_drive_line();
     void start_drive();
 
     Wiring wiring_;
