@@ -141,6 +141,17 @@ std::string with_article(std::string_view type)
     return fmt::format("{} {}", is_vowel ? "an" : "a", type);
 }
 
+/// A master exchanges data with it. Held at the start it is in the state and exchanges nothing.
+bool exchanges(const StationView& station)
+{
+    return station.bus.state == dp::State::data_exch && !station.bus.holds;
+}
+
+std::ptrdiff_t exchanging(const View& view)
+{
+    return std::count_if(view.stations.begin(), view.stations.end(), exchanges);
+}
+
 /// As a controller shows it in its Comms list (C-007).
 json comms_status(const StationView& station)
 {
@@ -185,9 +196,6 @@ std::string_view text(AccessError error) noexcept
 
 json bus_json(const View& view, Instant now)
 {
-    const auto exchanging =
-        std::count_if(view.stations.begin(), view.stations.end(),
-                      [](const StationView& one) { return one.bus.state == dp::State::data_exch; });
     return {{"port", view.config->bus.port},
             {"baud", static_cast<std::uint32_t>(view.bus.baud)},
             {"baud_state", fdl::text(view.bus.baud_state)},
@@ -198,7 +206,7 @@ json bus_json(const View& view, Instant now)
             {"driver_works", view.bus.driver_works},
             {"unanswered", unanswered_json(view, now)},
             {"stations", view.stations.size()},
-            {"exchanging", exchanging},
+            {"exchanging", exchanging(view)},
             {"last_telegram_age_ms", age_json(view.bus.last_telegram, now)}};
 }
 
@@ -217,6 +225,7 @@ json station_json(const StationView& station, Instant now)
             {"sync", bus.sync},
             {"freeze", bus.freeze},
             {"clear", bus.clear},
+            {"held", bus.holds},
             {"ride", ride_json(station, now)},
             {"silent_because", station.silent_because.empty() ? json(nullptr) : json(station.silent_because)},
             {"stat_diag", bus.stat_diag},
@@ -338,14 +347,12 @@ json io_json(const StationView& station, Instant now)
 
 std::string status_line(const View& view)
 {
-    const auto exchanging =
-        std::count_if(view.stations.begin(), view.stations.end(),
-                      [](const StationView& one) { return one.bus.state == dp::State::data_exch; });
-    std::string line = fmt::format("{} of {} in Data_Exch", exchanging, view.stations.size());
+    std::string line = fmt::format("{} of {} in Data_Exch", exchanging(view), view.stations.size());
     if (view.bus.valid && !view.bus.port_open) line += "; port of the bus gone";
     for (const StationView& one : view.stations) {
         line += fmt::format("; {}: {}", one.config->name, dp::text(one.bus.state));
         if (one.bus.master != 0xFF) line += fmt::format(" with master {}", one.bus.master);
+        if (one.bus.holds) line += ", held: the scale of a tag is not known";
         if (one.bus.clear) line += " in Clear";
         if (one.drive.ride_ends) line += ", RIDE THROUGH";
         if (!one.line_open)

@@ -92,9 +92,11 @@ int do_is_exchanging(const Options& options, Terminal& terminal)
         if (!is_meant(station, options.station)) continue;
         ++meant;
         const bool is_healthy = text(part(station, "drive"), "link") == "answers" && !flag(station, "clear");
-        if (text(station, "state") == "Data_Exch" && (is_healthy || !options.healthy)) ++exchanging;
-        lines += fmt::format("{} (address {}): {}{}, drive {}\n", text(station, "name"),
+        const bool is_exchanging = text(station, "state") == "Data_Exch" && !flag(station, "held");
+        if (is_exchanging && (is_healthy || !options.healthy)) ++exchanging;
+        lines += fmt::format("{} (address {}): {}{}{}, drive {}\n", text(station, "name"),
                              number(station, "address"), text(station, "state"),
+                             flag(station, "held") ? ", held for a tag without scale" : "",
                              flag(station, "clear") ? " in Clear" : "", text(part(station, "drive"), "link"));
     }
     if (options.json) lines = json_text(*reply) + '\n';

@@ -53,6 +53,7 @@ std::string drive(const Json& d)
 std::string state_text(const Json& s)
 {
     std::string result = text(s, "state");
+    if (flag(s, "held")) result += ", held";
     if (flag(s, "clear")) result += " in Clear";
     if (!part(s, "ride").empty()) result += ", RIDE THROUGH";
     return result;
@@ -77,6 +78,8 @@ std::string remarks(const Json& s, Look look)
     const std::string name = text(s, "name");
     std::string out;
     const auto add = [&](const std::string& what) { out += paragraph(name + ": ", what, look.width); };
+    if (flag(s, "held"))
+        add("held at the start: the scale of a tag is not known; dpctl diag names tag and answer");
     if (flag(s, "clear")) add("the master is in Clear: 0 goes to every output of the drive");
     if (!part(s, "ride").empty()) add("RIDE THROUGH: " + ride_text(s));
     if (const std::string why = text(s, "silent_because", ""); !why.empty()) add(why);
@@ -96,6 +99,9 @@ std::string station_block(const Json& s, Look look)
     block.add("device", fmt::format("{} (profile {})", text(s, "device"), text(s, "profile")));
     block.add("state", state + (master ? fmt::format(", master {}", *master) : ", no master"),
               tone_of_state(state));
+    if (flag(s, "held"))
+        block.add("held", "the scale of a tag is not known, and no data are exchanged: dpctl diag",
+                  Tone::bad);
     if (flag(s, "clear")) block.add("Clear", "the master is in Clear: 0 goes to every output", Tone::bad);
     if (!part(s, "ride").empty()) block.add("RIDE THROUGH", ride_text(s), Tone::bad);
     if (const std::string why = text(s, "silent_because", ""); !why.empty()) block.add("silent", why);
@@ -138,9 +144,10 @@ Table station_table(const Json& stations)
     Table table({"STATION", ">ADDRESS", "PROFILE", "STATE", ">MASTER", "DRIVE", "LINE"});
     for (const Json& s : stations) {
         const std::string state = text(s, "state"), link = link_of(part(s, "drive"));
-        table.add({text(s, "name"), number(s, "address"), text(s, "profile"),
-                   Cell{state_text(s), flag(s, "clear") ? Tone::bad : tone_of_state(state)},
-                   number(s, "master"), Cell{link, tone_of_link(link)}, text(part(s, "drive"), "line")});
+        table.add(
+            {text(s, "name"), number(s, "address"), text(s, "profile"),
+             Cell{state_text(s), flag(s, "clear") || flag(s, "held") ? Tone::bad : tone_of_state(state)},
+             number(s, "master"), Cell{link, tone_of_link(link)}, text(part(s, "drive"), "line")});
     }
     return table;
 }

@@ -72,6 +72,17 @@ TEST(DpctlStatus, NamesWhatLooksNormalAndIsNot)
         EXPECT_NE(picture.find(said), std::string::npos) << said << '\n' << picture;
 }
 
+TEST(DpctlStatus, SaysOfAStationThatIsHeldThatItExchangesNothing)
+{
+    Json reply = fixture("GetStatus");
+    reply["stations"][0]["held"] = true;
+
+    const std::string picture = render_status(reply, Look{false, 120});
+    EXPECT_NE(picture.find("Data_Exch, held"), std::string::npos) << picture;
+    EXPECT_NE(picture.find("unwinder: held at the start: the scale of a tag is not known"),
+              std::string::npos);
+}
+
 TEST(DpctlIo, DoesNotSayOfAMasterInClearThatItsOutputsGoToTheDrive)
 {
     Json reply = fixture("GetIo");
