@@ -31,6 +31,11 @@ int tell(const control::ReplyMessage& error, const Options& options, Terminal& t
     const control::ReplyMessage shown{printable_texts(error.parameters), printable(error.error),
                                       error.continues};
     terminal.err << "dpctl: " << explain(shown) << '\n';
+    const Json& known = list(shown.parameters, "known");
+    if (shown.error == "org.dpslaved.Control.StationRequired" && !known.empty())
+        terminal.err << "Add its name to the command, for example: "
+                     << (options.station_is_option ? "--station " : "") << joined(Json::array({known[0]}), "")
+                     << '\n';
     return error.error == "org.dpslaved.Control.NoSuchStation" ? kUsage : kNo;
 }
 

@@ -381,7 +381,11 @@ int run(const std::vector<std::string>& arguments, Terminal& terminal)
         own.footer(footer_of(subcommand));
         subcommand.needs == Needs::files ? add_json(own, options) : add_common(own, options);
         subcommand.arguments(own, options);
-        own.callback([&chosen, &subcommand] { chosen = subcommand.run; });
+        own.callback([&chosen, &subcommand, &options, &own] {
+            chosen = subcommand.run;
+            const CLI::App& level = options.set ? *own.get_subcommand("set") : own;
+            options.station_is_option = level.get_option_no_throw("--station") != nullptr;
+        });
     }
     add_gsd(app, chosen);
     try {

@@ -17,8 +17,7 @@ std::string no_such_station(const Json& p)
 }
 std::string station_required(const Json& p)
 {
-    return fmt::format("there are several stations, say which one with --station: {}",
-                       joined(list(p, "known"), ", "));
+    return fmt::format("there are several stations, say which one: {}", joined(list(p, "known"), ", "));
 }
 std::string not_permitted(const Json& p)
 {

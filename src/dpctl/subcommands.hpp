@@ -16,7 +16,8 @@ struct Options {
     std::string socket = "/run/dpslaved/control.sock";
     double timeout_s = 5;
     bool json = false;
-    std::string station; ///< name or address; empty = not said
+    std::string station;            ///< name or address; empty = not said
+    bool station_is_option = false; ///< the command takes --station, else it is a word of its own
     int tag = 0;
     std::string parameter; ///< of the TEC OPTION function block
     std::string value;

@@ -185,8 +185,8 @@ TEST_F(DpctlProgram, EndsWith1AndAReasonWhenItIsRefused)
 
     const Ran which = run({"read", "7"});
     EXPECT_EQ(which.exit, 1);
-    EXPECT_EQ(which.err,
-              "dpctl: there are several stations, say which one with --station: unwinder, rewinder\n");
+    EXPECT_EQ(which.err, "dpctl: there are several stations, say which one: unwinder, rewinder\n"
+                         "Add its name to the command, for example: --station unwinder\n");
 
     const Ran drive = run({"write", "1", "5", "--station", "5"});
     EXPECT_EQ(drive.exit, 1);

@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(
                   "there is no station 'x'; there are: unwinder, rewinder"},
         Explained{"StationRequired", "org.dpslaved.Control.StationRequired",
                   R"({"known":["unwinder","rewinder"]})",
-                  "there are several stations, say which one with --station: unwinder, rewinder"},
+                  "there are several stations, say which one: unwinder, rewinder"},
         Explained{"NotPermitted", "org.dpslaved.Control.NotPermitted", R"({"group":"dpslaved"})",
                   "only root and members of the group 'dpslaved' may do this; try: sudo dpctl ..., or let "
                   "root add you: "
