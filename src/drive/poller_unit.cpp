@@ -210,8 +210,10 @@ std::optional<Transaction> Poller::Unit::next(Instant now)
 /// What this round still has.
 std::optional<Transaction> Poller::Unit::asked(Instant now)
 {
-    if (const Tag* row = zero_waits_ ? nullptr : safe_state_.next(now))
-        return make_write(Purpose::safe_state, row, 0);
+    if (!zero_waits_) {
+        if (const Tag* row = safe_state_.next(now)) return make_write(Purpose::safe_state, row, 0);
+        if (const Tag* row = safe_state_.next_proof(now)) return make_read(Purpose::safe_state, row);
+    }
     if (wrote_last_)
         if (auto read = cyclic_read(now)) return read; // fast outputs do not starve inputs
     if (auto transaction = ordered()) return transaction;

@@ -101,7 +101,7 @@ private:
     void done_read(const Outcome& outcome, Instant now);
     void compare(const Outcome& outcome);
     void done_output(AccessError error, Instant now);
-    void done_zero(const Tag* row, AccessError error, Instant now);
+    void done_zero(const Transaction& transaction, const Outcome& outcome, Instant now);
     void done_demand(const Transaction& transaction, const Outcome& outcome);
     void done_operate(const Transaction& transaction, const Outcome& outcome);
     void count(const Transaction& transaction, AccessError error);
@@ -134,7 +134,7 @@ private:
 
     int orders_in_round_ = 0;     ///< transactions of Demand Data in this round
     bool order_was_last_ = false; ///< of Demand Data or dpctl: now a cyclic one first
-    bool zero_waits_ = false;     ///< the last zero was not answered: something else first
+    bool zero_waits_ = false;     ///< the last zero was not answered or not held: something else first
     bool in_round_ = false;       ///< something was read for the master since the round began
     std::optional<Instant> round_began_;
 

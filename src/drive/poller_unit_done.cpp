@@ -32,6 +32,13 @@ std::optional<AccessError> proof_of(std::uint16_t written, const Outcome& outcom
     return outcome.error;
 }
 
+/// Also a value that does not fit: then it is not this word.
+bool shows_another_word(std::uint16_t written, const Outcome& outcome)
+{
+    if (outcome.error == AccessError::none) return outcome.words.front() != written;
+    return outcome.error == AccessError::out_of_range || outcome.error == AccessError::value_not_encoded;
+}
+
 /// A drive that refuses because it runs, or is not in configuration mode, says the same as for a tag that is
 /// read only or a value out of range; only the row of the table tells (EI-ASCII reference, section 4).
 AccessError with_reason(const Transaction& transaction, AccessError error)
@@ -77,7 +84,7 @@ void Poller::Unit::done(const Transaction& transaction, const Outcome& outcome, 
             [[fallthrough]];
         case Purpose::input:
         case Purpose::watch: done_read(what, now); break;
-        case Purpose::safe_state: done_zero(transaction.tag, what.error, now); break;
+        case Purpose::safe_state: done_zero(transaction, what, now); break;
         case Purpose::demand: done_demand(transaction, what); break;
         case Purpose::operate: done_operate(transaction, what); break;
         case Purpose::probe:
@@ -186,8 +193,17 @@ void Poller::Unit::done_output(AccessError error, Instant now)
     outputs_.done(error, now);
 }
 
-void Poller::Unit::done_zero(const Tag* row, AccessError error, Instant now)
+/// A zero that the drive does not hold is treated like one that it has not understood.
+void Poller::Unit::done_zero(const Transaction& transaction, const Outcome& outcome, Instant now)
 {
+    const Tag* const row = transaction.tag;
+    AccessError error = outcome.error;
+    if (transaction.kind == Transaction::Kind::write) {
+        if (error == AccessError::none && proven_by_reading(transaction)) return safe_state_.written(row);
+    } else if (shows_another_word(0, outcome)) {
+        safe_state_.not_held(row);
+        error = AccessError::not_understood;
+    }
     zero_waits_ = error == AccessError::no_answer || error == AccessError::not_understood;
     if (error == AccessError::no_answer || is_repeated(error, zeros_not_understood_)) return;
     if (error == AccessError::not_understood)

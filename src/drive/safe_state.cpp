@@ -8,7 +8,19 @@ namespace dpslave::drive {
 void SafeState::add(const Tag* row)
 {
     remove(row);
-    zeros_.push_back({row, std::nullopt, kAtOnce});
+    zeros_.push_back({.row = row, .lost_at = std::nullopt});
+}
+
+void SafeState::written(const Tag* row)
+{
+    for (Zero& zero : zeros_)
+        if (zero.row == row) zero.written = true;
+}
+
+void SafeState::not_held(const Tag* row)
+{
+    for (Zero& zero : zeros_)
+        if (zero.row == row) zero.written = false;
 }
 
 void SafeState::remove(const Tag* row)
@@ -32,12 +44,23 @@ Instant SafeState::due_at(const Zero& zero) const
     return std::max(*zero.lost_at + *after_, zero.not_before);
 }
 
-const Tag* SafeState::next(Instant now) const
+const Tag* SafeState::due(Instant now, bool written) const
 {
     if (!after_) return nullptr;
-    const auto at = std::find_if(zeros_.begin(), zeros_.end(),
-                                 [&](const Zero& zero) { return zero.lost_at && due_at(zero) <= now; });
+    const auto at = std::find_if(zeros_.begin(), zeros_.end(), [&](const Zero& zero) {
+        return zero.lost_at && zero.written == written && due_at(zero) <= now;
+    });
     return at == zeros_.end() ? nullptr : at->row;
+}
+
+const Tag* SafeState::next(Instant now) const
+{
+    return due(now, false);
+}
+
+const Tag* SafeState::next_proof(Instant now) const
+{
+    return due(now, true);
 }
 
 void SafeState::postpone(const Tag* row, Instant now)
@@ -48,7 +71,10 @@ void SafeState::postpone(const Tag* row, Instant now)
 
 void SafeState::drive_returned()
 {
-    for (Zero& zero : zeros_) zero.not_before = kAtOnce;
+    for (Zero& zero : zeros_) {
+        zero.not_before = kAtOnce;
+        zero.written = false; // it may have been without power
+    }
 }
 
 bool SafeState::untold() const

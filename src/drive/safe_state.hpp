@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The outputs of layouts that have ended and that nobody writes any more: each is written 0 once when its
-/// ride through the loss of the master is over (RIDE THROUGH of HA463561U002, X-46).
+/// The outputs of layouts that have ended and that nobody writes any more: each is written 0 when its ride
+/// through the loss of the master is over (RIDE THROUGH of HA463561U002, X-46). Where the answer to a write
+/// names nothing (EI-ASCII), a read-back has to show the 0; all zeros are written before the first is read.
 #pragma once
 
 #include "read_plan.hpp"
@@ -25,6 +26,8 @@ public:
     void add(const Tag* row);
     /// It was zeroed, or the drive refused that, or the present layout writes it.
     void remove(const Tag* row);
+    void written(const Tag* row);  ///< acknowledged, and still to be read back
+    void not_held(const Tag* row); ///< the read-back shows another word: it is written again
     void tell_time(Instant now);
     /// Each of them is now the row that `row_of` makes of it.
     template <class RowOf>
@@ -40,7 +43,8 @@ public:
     }
 
     const Tag* next(Instant now) const;         ///< the tag to be zeroed now; nullptr = none
-    void postpone(const Tag* row, Instant now); ///< not understood: another one goes first
+    const Tag* next_proof(Instant now) const;   ///< the tag to be read back now; nullptr = none
+    void postpone(const Tag* row, Instant now); ///< not understood or not held: another one goes first
     void drive_returned();                      ///< what was postponed is tried at once
     bool untold() const;                        ///< the time is to be told, whatever comes next
     Instant next_due() const;
@@ -54,9 +58,11 @@ private:
         const Tag* row = nullptr;
         std::optional<Instant> lost_at; ///< none: not told yet
         Instant not_before = kAtOnce;
+        bool written = false; ///< and not proven yet
     };
 
     Instant due_at(const Zero& zero) const;
+    const Tag* due(Instant now, bool written) const;
 
     ZeroAfter after_;
     bool rides_ = true;

@@ -208,6 +208,73 @@ TEST_F(PollerLoss, TheZeroIsRepeatedUntilItIsAnswered)
     EXPECT_EQ(bench.writes_of(10) + bench.writes_of(11), 3u);
 }
 
+TEST_F(PollerLoss, AnAcknowledgedZeroCountsWhenItIsReadBack)
+{
+    exchanges();
+    drive().not_kept = {10}; // as if the write had got lost and noise looked like its ACK
+    bench.master_leaves(0);
+    while (bench.writes_of(10) == 0) ASSERT_TRUE(bench.step());
+    drive().not_kept.clear();
+    bench.run(2s);
+    EXPECT_EQ(drive().words[10], 0);
+    EXPECT_EQ(bench.writes_of(10), 2u);
+    EXPECT_EQ(bench.writes_of(11), 1u);
+    EXPECT_FALSE(bench.poller.safe_state_pending());
+}
+
+TEST_F(PollerLoss, EveryZeroIsWrittenBeforeTheFirstIsReadBack)
+{
+    exchanges();
+    bench.master_leaves(0);
+    bench.steps(4);
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(bench.log[i].purpose, Purpose::safe_state) << i;
+        EXPECT_EQ(bench.log[i].kind, i < 2 ? Transaction::Kind::write : Transaction::Kind::read) << i;
+    }
+    EXPECT_FALSE(bench.poller.safe_state_pending());
+}
+
+TEST_F(PollerLoss, AZeroThatTheDriveNeverHoldsStopsNeitherTheOthersNorTheCycle)
+{
+    exchanges();
+    drive().not_kept = {10};
+    bench.master_leaves(0);
+    bench.run(9s);
+    EXPECT_EQ(bench.writes_of(10), 3u) << "once a round, then every 10 s";
+    EXPECT_EQ(drive().words[11], 0);
+    EXPECT_GE(bench.reads_of(1), 200u);
+    EXPECT_TRUE(bench.poller.safe_state_pending());
+    drive().not_kept.clear();
+    bench.run(2s);
+    EXPECT_EQ(drive().words[10], 0);
+    EXPECT_FALSE(bench.poller.safe_state_pending());
+}
+
+TEST_F(PollerLoss, AZeroThatCannotBeReadBackCountsWithItsAck)
+{
+    exchanges();
+    drive().read_errors[10] = AccessError::unsupported_type;
+    bench.master_leaves(0);
+    bench.run(1s);
+    EXPECT_EQ(bench.writes_of(10), 1u);
+    EXPECT_FALSE(bench.poller.safe_state_pending());
+}
+
+TEST_F(PollerLoss, AZeroThatWasNotReadBackBeforeTheDriveWasLostIsWrittenAgain)
+{
+    exchanges();
+    bench.master_leaves(0);
+    bench.steps(2);
+    drive().alive = false;
+    bench.run(2s);
+    ASSERT_FALSE(seen().answers);
+    drive().words[10] = 5; // it was without power
+    drive().alive = true;
+    bench.run(9s);
+    EXPECT_EQ(drive().words[10], 0);
+    EXPECT_FALSE(bench.poller.safe_state_pending());
+}
+
 TEST_F(PollerLoss, TheZeroReachesADriveThatIsLostAtThatMomentAndReturnsLater)
 {
     exchanges();

@@ -129,5 +129,11 @@ TEST(FoundOnTheLine, ADriveIsNotAskedAgainForWhatItOwesUntilThatSettles)
     EXPECT_EQ(run_ei(500'303, ei_client).violation, "");
 }
 
+/// The zero after the loss of the master got lost, and noise looked like its ACK.
+TEST(FoundOnTheLine, TheZeroAfterTheLossOfTheMasterIsThereWhenItCounts)
+{
+    EXPECT_EQ(run_ei(900'468, ei_client).violation, "");
+}
+
 } // namespace
 } // namespace dpslave::drive_line

@@ -21,8 +21,9 @@ namespace dpslave::drive {
 /// Tags that a unit may have read beside those that the master chose.
 inline constexpr std::size_t kMaxWatched = 8;
 
-/// What becomes of the outputs when the master is lost: each is written 0 once after this time, and writing
-/// stops; none = writing stops and nothing is zeroed (X-46; RIDE THROUGH of HA463561U002).
+/// What becomes of the outputs when the master is lost: each is written 0 after this time until it is proven
+/// to be there, and writing stops; none = writing stops and nothing is zeroed (X-46; RIDE THROUGH of
+/// HA463561U002).
 using ZeroAfter = std::optional<std::chrono::nanoseconds>;
 
 /// What a drive has answered, as far as it is shown; ends with NUL.
