@@ -260,7 +260,7 @@ json info_json(const StationView& station, std::optional<std::uint8_t> pending,
         bauds.push_back(static_cast<std::uint32_t>(kBauds[i]));
         max_tsdr.push_back(personality.max_tsdr[i].count);
     }
-    const std::size_t demand_octets = personality.demand == dp::DemandForm::none ? 0 : 8;
+    const std::size_t demand_octets = personality.demand == dp::DemandForm::none ? 0 : dp::kDemandOctets;
     std::size_t most_octets = demand_octets + 2 * personality.max_parameters;
     if (personality.max_words != 0) most_octets = std::min(most_octets, 2 * personality.max_words);
     return {

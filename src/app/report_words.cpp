@@ -54,11 +54,6 @@ std::string_view advice_for(dp::Refusal why)
     return "";
 }
 
-bool is_cfg(dp::Refusal why)
-{
-    return why >= dp::Refusal::cfg_empty;
-}
-
 } // namespace
 
 json diagnosis_octets_json(const StationConfig& station, Bytes diagnosis)
@@ -80,7 +75,7 @@ Explanation explain(const dp::RefusalDetail& refusal)
 {
     using enum dp::Refusal;
     Explanation result;
-    result.telegram = is_cfg(refusal.why) ? "Chk_Cfg" : "Set_Prm";
+    result.telegram = dp::service_of(refusal.why) == dp::Service::chk_cfg ? "Chk_Cfg" : "Set_Prm";
     result.what = dp::text(refusal.why);
     result.advice = advice_for(refusal.why);
     switch (refusal.why) {

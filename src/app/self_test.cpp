@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpslave/app/self_test.hpp"
 
+#include "dpslave/dp/sap.hpp"
 #include "dpslave/fdl/telegram.hpp"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 namespace dpslave::app {
 namespace {
 
-constexpr std::uint8_t kStation = 5, kMaster = 2, kSrdHighFirst = 0x6D, kSlaveDiag = 60, kMasterSap = 62;
+constexpr std::uint8_t kStation = 5, kMaster = 2, kSrdHighFirst = 0x6D;
 
 std::optional<fdl::Telegram> understood(Bytes octets)
 {
@@ -22,10 +23,10 @@ bool is_understood_and_sent_as_it_is(Bytes known)
 {
     const auto telegram = understood(known);
     const fdl::Frame sent =
-        fdl::encode_sd2(kStation, kMaster, kSrdHighFirst, kSlaveDiag, kMasterSap, Bytes{});
+        fdl::encode_sd2(kStation, kMaster, kSrdHighFirst, dp::sap::kSlaveDiag, dp::sap::kMaster, Bytes{});
     return telegram && telegram->da == kStation && telegram->sa == kMaster && telegram->fc == kSrdHighFirst &&
-           telegram->dsap == kSlaveDiag && telegram->ssap == kMasterSap && telegram->data.empty() &&
-           std::ranges::equal(sent.bytes(), known);
+           telegram->dsap == dp::sap::kSlaveDiag && telegram->ssap == dp::sap::kMaster &&
+           telegram->data.empty() && std::ranges::equal(sent.bytes(), known);
 }
 
 bool is_refused_with_any_bit_wrong(Bytes known)

@@ -8,12 +8,6 @@ namespace {
 
 static_assert(kDemandOctets + 2 * kMaxParameters <= 244, "no legal layout exceeds a telegram");
 
-RefusalDetail refuse(Refusal why, std::size_t octet, std::size_t expected, std::size_t got)
-{
-    return {why, static_cast<std::uint16_t>(octet), static_cast<std::uint16_t>(expected),
-            static_cast<std::uint16_t>(got)};
-}
-
 const Identifier* find(const Personality& personality, std::uint8_t octet)
 {
     for (const Identifier& identifier : personality.identifiers)
@@ -37,12 +31,12 @@ void add(Configuration& taken, std::uint16_t tag, const Identifier& identifier)
 
 } // namespace
 
-RefusalDetail check_chk_cfg(const Personality& personality, std::span<const std::uint16_t> tags, Bytes cfg,
-                            Configuration& taken)
+Result<Configuration, RefusalDetail> check_chk_cfg(const Personality& personality,
+                                                   std::span<const std::uint16_t> tags, Bytes cfg)
 {
-    taken = {};
     if (cfg.empty()) return refuse(Refusal::cfg_empty, 0, 1, 0);
 
+    Configuration taken;
     taken.demand = personality.demand_identifier != 0 && cfg[0] == personality.demand_identifier;
     const std::size_t first = taken.demand ? 1 : 0;
     const std::size_t most = std::min(personality.max_parameters, kMaxParameters);
@@ -75,18 +69,18 @@ RefusalDetail check_chk_cfg(const Personality& personality, std::span<const std:
         add(taken, has_tags && i < tags.size() ? tags[i] : static_cast<std::uint16_t>(i + 1), identifier);
     }
     if (count == 0 && !personality.may_have_no_parameters) return refuse(Refusal::cfg_too_few, 0, 1, 0);
-    if (!has_tags) return {};
+    if (!has_tags) return taken;
     if (count < tags.size()) return refuse(Refusal::cfg_too_few, 0, tags.size(), count);
     if (count > tags.size())
         return refuse(Refusal::cfg_too_many, first + tags.size() + 1, tags.size(), count);
-    return {};
+    return taken;
 }
 
 RefusalDetail cfg_difference(Bytes accepted, Bytes cfg)
 {
     const auto [a, b] = std::mismatch(accepted.begin(), accepted.end(), cfg.begin(), cfg.end());
     const auto at = static_cast<std::size_t>(a - accepted.begin());
-    return refuse(Refusal::cfg_changed, at + 1, a == accepted.end() ? 0u : *a, b == cfg.end() ? 0u : *b);
+    return refuse(Refusal::cfg_changed, at + 1, a == accepted.end() ? 0u : *a, b == cfg.end() ? 0u : *b).why;
 }
 
 } // namespace dpslave::dp

@@ -2,13 +2,11 @@
 /// Global_Control: what two octets order. Source: wire reference 4.10.
 #pragma once
 
-#include "dpslave/base/bytes.hpp"
+#include "dpslave/dp/process_data.hpp"
 
 #include <cstdint>
 
 namespace dpslave::dp {
-
-enum class Switch : std::uint8_t { keep, on, off };
 
 struct GlobalCommand {
     bool clear = false;         ///< carried out before the others

@@ -2,6 +2,7 @@
 #include "dpslave/dp/set_prm.hpp"
 
 #include <algorithm>
+#include <optional>
 
 namespace dpslave::dp {
 namespace {
@@ -20,46 +21,41 @@ constexpr std::uint8_t kWdBase1ms = 0x04;
 // two lowest bits concern the ASIC's start and stop bit check; they are no business of ours and do no harm.
 constexpr std::uint8_t kDpv1Only = 0xF8;
 
-constexpr std::size_t kDpv1Status = 3; // octets
+/// Nothing: it may be taken.
+using Objection = std::optional<Failure<RefusalDetail>>;
 
-RefusalDetail refuse(Refusal why, std::size_t octet, std::size_t expected, std::size_t got)
+Objection check_length(const PrmLayout& prm, std::size_t length)
 {
-    return {why, static_cast<std::uint16_t>(octet), static_cast<std::uint16_t>(expected),
-            static_cast<std::uint16_t>(got)};
-}
-
-RefusalDetail check_length(const PrmLayout& prm, std::size_t length)
-{
-    if (length == 0 && prm.may_be_absent) return {};
+    if (length == 0 && prm.may_be_absent) return std::nullopt;
     if (length < prm.min_length) return refuse(Refusal::prm_length, 0, prm.min_length, length);
     if (length > prm.max_length) return refuse(Refusal::prm_length, 0, prm.max_length, length);
     if (length < prm.tags_at) return refuse(Refusal::prm_length, 0, prm.tags_at, length);
     const bool odd = (length - prm.tags_at) % 2 != 0;
     if (odd && prm.list != TagList::none) return refuse(Refusal::prm_length, 0, length - 1, length);
-    return {};
+    return std::nullopt;
 }
 
-RefusalDetail check_dpv1_status(const Personality& personality, Bytes user)
+Objection check_dpv1_status(const Personality& personality, Bytes user)
 {
-    if (!personality.prm.dpv1_status || user.size() < kDpv1Status) return {};
+    if (!personality.prm.dpv1_status || user.size() < kDpv1Status) return std::nullopt;
     const unsigned impossible = personality.fail_safe ? kDpv1Only & ~unsigned{kFailSafe} : kDpv1Only;
     const std::array<unsigned, kDpv1Status> forbidden{impossible, 0xFF, 0xFF};
     for (std::size_t i = 0; i < kDpv1Status; ++i)
         if ((user[i] & forbidden[i]) != 0)
             return refuse(Refusal::prm_dpv1, kPrmHeader + i + 1, user[i] & ~forbidden[i], user[i]);
-    return {};
+    return std::nullopt;
 }
 
-RefusalDetail read_tags(const PrmLayout& prm, Bytes user, Parameters& taken)
+Objection read_tags(const PrmLayout& prm, Bytes user, Parameters& taken)
 {
     taken.tag_count = 0;
-    if (prm.list == TagList::none) return {};
+    if (prm.list == TagList::none) return std::nullopt;
     std::size_t zero_at = 0; // octet of Set_Prm; 0 = no zero yet
     for (std::size_t at = prm.tags_at; at + 2 <= user.size(); at += 2) {
         const std::size_t octet = kPrmHeader + at + 1;
         const std::uint16_t tag = be16(user, at);
         if (tag == 0) {
-            if (prm.list == TagList::first_zero_ends) return {};
+            if (prm.list == TagList::first_zero_ends) return std::nullopt;
             if (prm.list == TagList::exact) return refuse(Refusal::prm_zero_tag, octet, 1, 0);
             if (zero_at == 0) zero_at = octet;
             continue;
@@ -70,7 +66,7 @@ RefusalDetail read_tags(const PrmLayout& prm, Bytes user, Parameters& taken)
             return refuse(Refusal::prm_length, 0, prm.tags_at + 2 * kMaxParameters, user.size());
         taken.tag_list[taken.tag_count++] = tag;
     }
-    return {};
+    return std::nullopt;
 }
 
 } // namespace
@@ -87,12 +83,20 @@ Tbit min_tsdr_of(Bytes telegram, Tbit old)
     return wanted == Tbit{0} ? old : std::max(wanted, kSmallestMinTsdr);
 }
 
-RefusalDetail check_set_prm(const Personality& personality, Bytes telegram, Parameters& taken)
+std::chrono::milliseconds watchdog_of(Bytes telegram, bool dpv1_status)
+{
+    const bool fine_base = dpv1_status && telegram.size() >= kPrmHeader + kDpv1Status &&
+                           (telegram[kPrmHeader] & kWdBase1ms) != 0;
+    return std::chrono::milliseconds{fine_base ? 1 : 10} * (telegram[1] * telegram[2]);
+}
+
+Result<Parameters, RefusalDetail> check_set_prm(const Personality& personality, Bytes telegram)
 {
     const std::uint8_t status = telegram[0];
     const std::uint16_t ident = be16(telegram, 4);
     if (ident != personality.ident) return refuse(Refusal::prm_ident, 5, personality.ident, ident);
 
+    Parameters taken;
     taken.sync_requested = (status & kSyncReq) != 0;
     taken.freeze_requested = (status & kFreezeReq) != 0;
     unsigned possible = 0xFF;
@@ -106,17 +110,14 @@ RefusalDetail check_set_prm(const Personality& personality, Bytes telegram, Para
             return refuse(Refusal::prm_watchdog, factor + 1, 1, 0);
 
     const Bytes user = telegram.subspan(kPrmHeader);
-    if (const auto wrong = check_length(personality.prm, user.size()); wrong.why != Refusal::none)
-        return wrong;
-    if (const auto wrong = check_dpv1_status(personality, user); wrong.why != Refusal::none) return wrong;
-    if (const auto wrong = read_tags(personality.prm, user, taken); wrong.why != Refusal::none) return wrong;
+    if (const auto wrong = check_length(personality.prm, user.size())) return *wrong;
+    if (const auto wrong = check_dpv1_status(personality, user)) return *wrong;
+    if (const auto wrong = read_tags(personality.prm, user, taken)) return *wrong;
     if (!taken.user.assign(user)) return refuse(Refusal::prm_length, 0, kMaxUserPrm, user.size());
 
-    const bool fine_base =
-        personality.prm.dpv1_status && user.size() >= kDpv1Status && (user[0] & kWdBase1ms) != 0;
-    taken.watchdog = std::chrono::milliseconds{fine_base ? 1 : 10} * (telegram[1] * telegram[2]);
+    taken.watchdog = watchdog_of(telegram, personality.prm.dpv1_status);
     taken.groups = telegram[6];
-    return {};
+    return taken;
 }
 
 } // namespace dpslave::dp

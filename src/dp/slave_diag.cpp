@@ -6,25 +6,23 @@
 namespace dpslave::dp {
 namespace {
 
-/// Octets of the block that begins with `header`, itself included; 0 = no legal header (wire reference 5.3).
-constexpr std::size_t block_length(std::uint8_t header)
-{
-    switch (header >> 6) {
-        case 2: return 3; // channel-related
-        case 3: return 1; // revision number
-        default: {        // device- or identifier-related
-            const std::size_t length = header & 0x3F;
-            return length >= 2 ? length : 0;
-        }
-    }
-}
-
 constexpr unsigned flag(bool set, unsigned mask)
 {
     return set ? mask : 0u;
 }
 
 } // namespace
+
+std::size_t block_length(Bytes rest)
+{
+    std::size_t length = rest[0] & 0x3FU; // device- or identifier-related
+    if (rest[0] >> 6 == 2) length = 3;    // channel-related
+    if (rest[0] >> 6 == 3)
+        length = 1; // revision number
+    else if (length < 2)
+        length = 0;
+    return length <= rest.size() ? length : 0;
+}
 
 void encode(const StandardDiagnosis& d, ByteBuffer<244>& into)
 {
@@ -41,15 +39,22 @@ void encode(const StandardDiagnosis& d, ByteBuffer<244>& into)
     into.push16(d.ident);
 }
 
-ExtendedDiagnosis::Outcome ExtendedDiagnosis::set(Bytes blocks, bool fault, std::size_t room)
+ExtendedDiagnosis::Outcome ExtendedDiagnosis::set(Bytes blocks, bool fault)
 {
+    std::array<std::uint8_t, kLongestBlock> zeros{};
+    if (blocks.empty() && personality_.diag_octets != 0) {
+        const std::size_t length = std::min<std::size_t>(personality_.diag_octets + 1u, zeros.size());
+        zeros[0] = static_cast<std::uint8_t>(length); // bits 7 and 6 clear: device-related
+        blocks = Bytes{zeros}.first(length);
+    }
     ByteBuffer<244 - kStandardDiagnosis> kept;
-    room = std::min(room, kept.capacity());
+    const std::size_t longest = std::max(personality_.max_diag_length, kStandardDiagnosis);
+    const std::size_t room = std::min(longest - kStandardDiagnosis, kept.capacity());
     bool overflow = false;
     bool well_formed = true;
     for (Bytes rest = blocks; !rest.empty();) {
-        const std::size_t length = block_length(rest[0]);
-        well_formed = length != 0 && length <= rest.size();
+        const std::size_t length = block_length(rest);
+        well_formed = length != 0;
         if (!well_formed) break;
         overflow = kept.size() + length > room;
         if (overflow) break;

@@ -8,11 +8,12 @@
 /// DP-V1.
 #pragma once
 
-#include "dpslave/dp/slave.hpp"
+#include "dpslave/dp/state_machine.hpp"
 
 #include <array>
 #include <cstdint>
 #include <initializer_list>
+#include <optional>
 #include <string_view>
 
 namespace dpslave::dp {
@@ -53,37 +54,36 @@ enum class Trigger : std::uint8_t {
     count,
 };
 
-/// What goes back. `data`: what the effect makes of it (DL, DH, or SC when there is nothing to say).
-enum class Reply : std::uint8_t { none, sc, rs, rr, data };
+/// What goes back.
+enum class Reply : std::uint8_t {
+    none,
+    sc,
+    rs,
+    rr,
+    data,     ///< what the effect makes of it: DL, or SC when there is nothing to say
+    exchange, ///< the same, but DH while a diagnosis is pending
+};
 
 enum class Effect : std::uint8_t {
     none,
     power_on,       ///< forget what was before
-    leave_stop,     ///< L(stop); "L" is the leave procedure of 6.3
-    tell_diagnosis, ///< the owner's reading clears Diag_Pending, unless Stat_Diag
-    tell_configuration,
+    read_diagnosis, ///< the owner's reading clears Diag_Pending, unless Stat_Diag
+    read_configuration,
     take_min_tsdr,
-    take_parameters,     ///< Master_Add := SA; WD, min T_SDR, groups, User_Prm_Data
-    renew_parameters,    ///< L(), then take_parameters
-    fail_parameters,     ///< Prm_Fault := 1
-    fail_supported,      ///< Not_Supported := 1
-    leave_parameters,    ///< L(prm)
-    leave_supported,     ///< L(unsupported)
-    leave_unlock,        ///< L(unlock)
-    start_exchange,      ///< a new layout; outputs 0; Stat_Diag := 1 if there are inputs to wait for
-    leave_configuration, ///< L(cfg)
-    exchange,            ///< outputs taken, inputs told
-    exchange_empty,      ///< outputs to their safe state, inputs told
-    leave_length,        ///< L(length)
-    tell_inputs,
-    tell_outputs,
-    obey_control,
-    leave_watchdog, ///< L(wd)
-    tell_owner,     ///< Diag_Pending := 1
-    make_ready,     ///< Stat_Diag := 0, Diag_Pending := 1
+    take_parameters, ///< Master_Add := SA; WD, min T_SDR, groups, User_Prm_Data
+    log_foreign_prm,
+    start_exchange,   ///< a new layout; outputs 0; Stat_Diag := 1 if there are inputs to wait for
+    exchange,         ///< outputs received, inputs in the reply
+    exchange_nothing, ///< outputs to their safe state, inputs in the reply
+    read_inputs,
+    read_outputs,
+    control,          ///< Clear, Sync, Freeze
+    set_diag_pending, ///< Diag_Pending := 1
+    end_stat_diag,    ///< Stat_Diag := 0, Diag_Pending := 1
 };
 
-enum class To : std::uint8_t { same, power_on, wait_prm, wait_cfg, data_exch };
+/// The bit of Slave_Diag that a refused telegram sets; the refusal is kept and logged.
+enum class Fault : std::uint8_t { none, prm, not_supported, cfg };
 
 /// A set of states or triggers.
 template <class E>
@@ -107,13 +107,16 @@ private:
     std::uint64_t bits_ = 0;
 };
 
+/// Carried out from left to right: the fault, the leave procedure L of 6.3, the effect, the new state.
 struct Row {
     std::string_view id; ///< of wire reference 6.4; "-": a pair that 6.4 has no row for
     Set<State> in;
     Set<Trigger> on;
     Reply reply;
+    Fault fault;
+    LeaveReason leave; ///< none: L is not carried out
     Effect effect;
-    To to;
+    std::optional<State> to; ///< nothing: the state stays
 };
 
 inline constexpr State kPon = State::power_on;
@@ -127,57 +130,61 @@ inline constexpr auto kTable = [] {
     using enum Trigger;
     using T = Set<Trigger>;
     using S = Set<State>;
+    using F = Fault;
+    using L = LeaveReason;
+    using E = Effect;
+    constexpr std::nullopt_t kSame = std::nullopt;
     return std::to_array<Row>({
-    // id    in               on                                  reply        effect                        to
-    {"B1",   kPon,            start,                              Reply::none, Effect::power_on,             To::wait_prm},
-    {"-",    kPon,            T::all_but(start),                  Reply::rs,   Effect::none,                 To::same}, // nobody is attached
-    {"-",    kAny3,           start,                              Reply::none, Effect::none,                 To::same},
-    {"B2",   kAny3,           stop,                               Reply::none, Effect::leave_stop,           To::power_on},
-    {"S3",   kAny3,           set_slave_add,                      Reply::rs,   Effect::none,                 To::same},
-    {"D1",   kAny3,           slave_diag,                         Reply::data, Effect::tell_diagnosis,       To::same},
-    {"D1",   kAny3,           slave_diag_with_data,               Reply::rr,   Effect::none,                 To::same}, // 3.1
-    {"D2",   kAny3,           get_cfg,                            Reply::data, Effect::tell_configuration,   To::same},
-    {"D3",   kAny3,           get_cfg_with_data,                  Reply::rr,   Effect::none,                 To::same},
-    {"P1",   kAny3,           prm_short,                          Reply::sc,   Effect::none,                 To::same},
-    {"P2",   kAny3,           prm_min_tsdr,                       Reply::sc,   Effect::take_min_tsdr,        To::same},
-    {"P3",   kWprm,           T{prm_ok, prm_other_tags},          Reply::sc,   Effect::take_parameters,      To::wait_cfg},
-    {"P4",   kWprm,           prm_bad,                            Reply::sc,   Effect::fail_parameters,      To::same},
-    {"P5",   kWprm,           prm_unsupported,                    Reply::sc,   Effect::fail_supported,       To::same},
-    {"P6",   kWprm,           prm_unlock,                         Reply::sc,   Effect::none,                 To::same},
-    {"P7",   kWcfg,           T{prm_ok, prm_other_tags},          Reply::sc,   Effect::take_parameters,      To::same},
-    {"P8",   S{kWcfg, kDxch}, prm_bad,                            Reply::sc,   Effect::leave_parameters,     To::wait_prm},
-    {"P8",   S{kWcfg, kDxch}, prm_unsupported,                    Reply::sc,   Effect::leave_supported,      To::wait_prm},
-    {"P9",   kAny3,           prm_foreign,                        Reply::sc,   Effect::none,                 To::same}, // in Wait_Prm nobody is foreign
-    {"P10",  S{kWcfg, kDxch}, prm_unlock,                         Reply::sc,   Effect::leave_unlock,         To::wait_prm},
-    {"P11",  kDxch,           prm_ok,                             Reply::sc,   Effect::take_parameters,      To::same},
-    {"P12",  kDxch,           prm_other_tags,                     Reply::sc,   Effect::renew_parameters,     To::wait_cfg},
-    {"C1",   kWprm,           T{cfg_ok, cfg_bad, cfg_not_owner},  Reply::rs,   Effect::none,                 To::same},
-    {"C2",   kWcfg,           cfg_ok,                             Reply::sc,   Effect::start_exchange,       To::data_exch},
-    {"C3",   kWcfg,           cfg_bad,                            Reply::sc,   Effect::leave_configuration,  To::wait_prm},
-    {"C4",   kDxch,           cfg_ok,                             Reply::sc,   Effect::none,                 To::same},
-    {"C5",   kDxch,           cfg_bad,                            Reply::sc,   Effect::leave_configuration,  To::wait_prm},
-    {"C6",   S{kWcfg, kDxch}, cfg_not_owner,                      Reply::rs,   Effect::none,                 To::same},
+    // id    in               on                                  reply            fault             leave               effect                 to
+    {"B1",   kPon,            start,                              Reply::none,     F::none,          L::none,            E::power_on,           kWprm},
+    {"-",    kPon,            T::all_but(start),                  Reply::rs,       F::none,          L::none,            E::none,               kSame}, // no address is attached
+    {"-",    kAny3,           start,                              Reply::none,     F::none,          L::none,            E::none,               kSame},
+    {"B2",   kAny3,           stop,                               Reply::none,     F::none,          L::stop,            E::none,               kPon},
+    {"S3",   kAny3,           set_slave_add,                      Reply::rs,       F::none,          L::none,            E::none,               kSame},
+    {"D1",   kAny3,           slave_diag,                         Reply::data,     F::none,          L::none,            E::read_diagnosis,     kSame},
+    {"D1",   kAny3,           slave_diag_with_data,               Reply::rr,       F::none,          L::none,            E::none,               kSame}, // 3.1
+    {"D2",   kAny3,           get_cfg,                            Reply::data,     F::none,          L::none,            E::read_configuration, kSame},
+    {"D3",   kAny3,           get_cfg_with_data,                  Reply::rr,       F::none,          L::none,            E::none,               kSame},
+    {"P1",   kAny3,           prm_short,                          Reply::sc,       F::none,          L::none,            E::none,               kSame},
+    {"P2",   kAny3,           prm_min_tsdr,                       Reply::sc,       F::none,          L::none,            E::take_min_tsdr,      kSame},
+    {"P3",   kWprm,           T{prm_ok, prm_other_tags},          Reply::sc,       F::none,          L::none,            E::take_parameters,    kWcfg},
+    {"P4",   kWprm,           prm_bad,                            Reply::sc,       F::prm,           L::none,            E::none,               kSame},
+    {"P5",   kWprm,           prm_unsupported,                    Reply::sc,       F::not_supported, L::none,            E::none,               kSame},
+    {"P6",   kWprm,           prm_unlock,                         Reply::sc,       F::none,          L::none,            E::none,               kSame},
+    {"P7",   kWcfg,           T{prm_ok, prm_other_tags},          Reply::sc,       F::none,          L::none,            E::take_parameters,    kSame},
+    {"P8",   S{kWcfg, kDxch}, prm_bad,                            Reply::sc,       F::prm,           L::prm_fault,       E::none,               kWprm},
+    {"P8",   S{kWcfg, kDxch}, prm_unsupported,                    Reply::sc,       F::not_supported, L::not_supported,   E::none,               kWprm},
+    {"P9",   kAny3,           prm_foreign,                        Reply::sc,       F::none,          L::none,            E::log_foreign_prm,    kSame}, // in Wait_Prm no master is foreign
+    {"P10",  S{kWcfg, kDxch}, prm_unlock,                         Reply::sc,       F::none,          L::unlock,          E::none,               kWprm},
+    {"P11",  kDxch,           prm_ok,                             Reply::sc,       F::none,          L::none,            E::take_parameters,    kSame},
+    {"P12",  kDxch,           prm_other_tags,                     Reply::sc,       F::none,          L::new_parameters,  E::take_parameters,    kWcfg},
+    {"C1",   kWprm,           T{cfg_ok, cfg_bad, cfg_not_owner},  Reply::rs,       F::none,          L::none,            E::none,               kSame},
+    {"C2",   kWcfg,           cfg_ok,                             Reply::sc,       F::none,          L::none,            E::start_exchange,     kDxch},
+    {"C3",   kWcfg,           cfg_bad,                            Reply::sc,       F::cfg,           L::cfg_fault,       E::none,               kWprm},
+    {"C4",   kDxch,           cfg_ok,                             Reply::sc,       F::none,          L::none,            E::none,               kSame},
+    {"C5",   kDxch,           cfg_bad,                            Reply::sc,       F::cfg,           L::cfg_fault,       E::none,               kWprm},
+    {"C6",   S{kWcfg, kDxch}, cfg_not_owner,                      Reply::rs,       F::none,          L::none,            E::none,               kSame},
     {"X1",   S{kWprm, kWcfg}, T{data_ok, data_empty, data_length, data_not_owner},
-                                                                  Reply::rs,   Effect::none,                 To::same},
-    {"X2",   kDxch,           data_ok,                            Reply::data, Effect::exchange,             To::same},
-    {"X3",   kDxch,           data_empty,                         Reply::data, Effect::exchange_empty,       To::same},
-    {"X4",   kDxch,           data_length,                        Reply::rs,   Effect::leave_length,         To::wait_prm},
-    {"X5",   kDxch,           data_not_owner,                     Reply::rs,   Effect::none,                 To::same},
-    {"R1",   kDxch,           read_inputs,                        Reply::data, Effect::tell_inputs,          To::same},
-    {"R1",   kDxch,           read_outputs,                       Reply::data, Effect::tell_outputs,         To::same},
-    {"R2",   kDxch,           read_back_with_data,                Reply::rr,   Effect::none,                 To::same},
+                                                                  Reply::rs,       F::none,          L::none,            E::none,               kSame},
+    {"X2",   kDxch,           data_ok,                            Reply::exchange, F::none,          L::none,            E::exchange,           kSame},
+    {"X3",   kDxch,           data_empty,                         Reply::exchange, F::none,          L::none,            E::exchange_nothing,   kSame},
+    {"X4",   kDxch,           data_length,                        Reply::rs,       F::none,          L::output_length,   E::none,               kWprm},
+    {"X5",   kDxch,           data_not_owner,                     Reply::rs,       F::none,          L::none,            E::none,               kSame},
+    {"R1",   kDxch,           read_inputs,                        Reply::data,     F::none,          L::none,            E::read_inputs,        kSame},
+    {"R1",   kDxch,           read_outputs,                       Reply::data,     F::none,          L::none,            E::read_outputs,       kSame},
+    {"R2",   kDxch,           read_back_with_data,                Reply::rr,       F::none,          L::none,            E::none,               kSame},
     {"R3",   S{kWprm, kWcfg}, T{read_inputs, read_outputs, read_back_with_data},
-                                                                  Reply::rs,   Effect::none,                 To::same},
-    {"G1",   kDxch,           control,                            Reply::none, Effect::obey_control,         To::same},
-    {"G2",   kDxch,           control_not_ours,                   Reply::none, Effect::none,                 To::same},
-    {"G2",   S{kWprm, kWcfg}, T{control, control_not_ours},       Reply::none, Effect::none,                 To::same},
-    {"W1",   S{kWcfg, kDxch}, watchdog_expired,                   Reply::none, Effect::leave_watchdog,       To::wait_prm},
-    {"-",    kWprm,           watchdog_expired,                   Reply::none, Effect::none,                 To::same}, // it is off there
-    {"A1",   S{kWcfg, kDxch}, diagnosis_changed,                  Reply::none, Effect::tell_owner,           To::same}, // Wait_Cfg has an owner too
-    {"-",    kWprm,           diagnosis_changed,                  Reply::none, Effect::none,                 To::same}, // nobody to tell
-    {"A2",   kDxch,           inputs_ready,                       Reply::none, Effect::make_ready,           To::same},
-    {"-",    S{kWprm, kWcfg}, inputs_ready,                       Reply::none, Effect::none,                 To::same},
-    {"M2",   kAny3,           other_sap,                          Reply::rs,   Effect::none,                 To::same},
+                                                                  Reply::rs,       F::none,          L::none,            E::none,               kSame},
+    {"G1",   kDxch,           control,                            Reply::none,     F::none,          L::none,            E::control,            kSame},
+    {"G2",   kDxch,           control_not_ours,                   Reply::none,     F::none,          L::none,            E::none,               kSame},
+    {"G2",   S{kWprm, kWcfg}, T{control, control_not_ours},       Reply::none,     F::none,          L::none,            E::none,               kSame},
+    {"W1",   S{kWcfg, kDxch}, watchdog_expired,                   Reply::none,     F::none,          L::watchdog,        E::none,               kWprm},
+    {"-",    kWprm,           watchdog_expired,                   Reply::none,     F::none,          L::none,            E::none,               kSame}, // it is off there
+    {"A1",   S{kWcfg, kDxch}, diagnosis_changed,                  Reply::none,     F::none,          L::none,            E::set_diag_pending,   kSame}, // Wait_Cfg has an owner too
+    {"-",    kWprm,           diagnosis_changed,                  Reply::none,     F::none,          L::none,            E::none,               kSame}, // there is no owner
+    {"A2",   kDxch,           inputs_ready,                       Reply::none,     F::none,          L::none,            E::end_stat_diag,      kSame},
+    {"-",    S{kWprm, kWcfg}, inputs_ready,                       Reply::none,     F::none,          L::none,            E::none,               kSame},
+    {"M2",   kAny3,           other_sap,                          Reply::rs,       F::none,          L::none,            E::none,               kSame},
     });
 }();
 // clang-format on
@@ -199,7 +206,21 @@ consteval bool is_total()
 }
 static_assert(is_total());
 
+/// The table by state and trigger, so that a telegram costs one look-up.
+inline constexpr auto kRowNumber = [] {
+    std::array<std::array<std::uint8_t, kTriggers>, kStates> numbers{};
+    for (std::size_t s = 0; s < kStates; ++s)
+        for (std::size_t t = 0; t < kTriggers; ++t)
+            for (std::size_t r = 0; r < kTable.size(); ++r)
+                if (kTable[r].in.has(static_cast<State>(s)) && kTable[r].on.has(static_cast<Trigger>(t)))
+                    numbers[s][t] = static_cast<std::uint8_t>(r);
+    return numbers;
+}();
+
 /// The one row for this pair.
-const Row& row_of(State in, Trigger on);
+constexpr const Row& row_of(State in, Trigger on)
+{
+    return kTable[kRowNumber[static_cast<std::size_t>(in)][static_cast<std::size_t>(on)]];
+}
 
 } // namespace dpslave::dp

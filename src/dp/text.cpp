@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpslave/dp/refusal.hpp"
-#include "dpslave/dp/slave.hpp"
+#include "dpslave/dp/state.hpp"
 
 namespace dpslave::dp {
 
@@ -50,6 +50,27 @@ std::string_view text(Refusal why) noexcept
         case Refusal::cfg_changed: return "Cfg_Data is another than the accepted one while data is exchanged";
     }
     return "?";
+}
+
+Service service_of(Refusal why) noexcept
+{
+    switch (why) {
+        case Refusal::none: break;
+        case Refusal::prm_ident:
+        case Refusal::prm_watchdog:
+        case Refusal::prm_not_supported:
+        case Refusal::prm_length:
+        case Refusal::prm_dpv1:
+        case Refusal::prm_tag_too_large:
+        case Refusal::prm_zero_tag: return Service::set_prm;
+        case Refusal::cfg_empty:
+        case Refusal::cfg_too_long:
+        case Refusal::cfg_identifier:
+        case Refusal::cfg_too_few:
+        case Refusal::cfg_too_many:
+        case Refusal::cfg_changed: return Service::chk_cfg;
+    }
+    return Service::none;
 }
 
 } // namespace dpslave::dp

@@ -51,20 +51,6 @@ void standard_part(Bytes data, Decoded& into)
         into.faults.push_back(fmt::format("Master_Add is {}: 0 to 126, or 255 for none", data[3]));
 }
 
-/// Octets of the block that begins here; 0 = its header promises what cannot be.
-std::size_t block_length(Bytes rest)
-{
-    const std::size_t length = rest[0] & 0x3FU;
-    std::size_t wanted = 0;
-    switch (rest[0] >> 6) {
-        case 0:
-        case 1: wanted = length < 2 ? 0 : length; break;
-        case 2: wanted = 3; break;
-        default: wanted = 1; break;
-    }
-    return wanted <= rest.size() ? wanted : 0;
-}
-
 /// Octet `i` behind the header of the device's own block.
 std::string device_octet(Bytes block, std::size_t i, const profile::Profile& device)
 {
@@ -145,7 +131,7 @@ void check_device(Bytes data, const profile::Profile& device, Decoded& into)
 bool are_blocks(Bytes octets)
 {
     while (!octets.empty()) {
-        const std::size_t length = block_length(octets);
+        const std::size_t length = dp::block_length(octets);
         if (length == 0) return false;
         octets = octets.subspan(length);
     }
@@ -155,7 +141,7 @@ bool are_blocks(Bytes octets)
 void decode_extended(Bytes blocks, std::size_t at, const DecodeContext& context, Decoded& into)
 {
     while (!blocks.empty()) {
-        const std::size_t length = block_length(blocks);
+        const std::size_t length = dp::block_length(blocks);
         if (length == 0) {
             const bool too_short = (blocks[0] >> 6) < 2 && (blocks[0] & 0x3FU) < 2;
             into.octets.push_back({at + 1, blocks[0], "header of a block"});

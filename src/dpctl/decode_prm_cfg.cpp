@@ -14,8 +14,6 @@
 namespace dpslave::dpctl {
 namespace {
 
-constexpr std::size_t kDpv1Octets = 3;
-
 struct BitName {
     std::uint8_t mask;
     std::string_view name;
@@ -60,8 +58,7 @@ std::string lock_words(Bytes data)
 std::string watchdog_words(Bytes data, bool dpv1_status)
 {
     if ((data[0] & 0x08) == 0) return "off";
-    const bool short_base = dpv1_status && data.size() > dp::kPrmHeader && (data[dp::kPrmHeader] & 0x04) != 0;
-    return age(static_cast<double>(data[1]) * data[2] * (short_base ? 1 : 10));
+    return age(static_cast<double>(dp::watchdog_of(data, dpv1_status).count()));
 }
 
 /// "271 SPEED TRIM".
@@ -76,7 +73,7 @@ std::string user_octet(Bytes user, std::size_t at, const profile::Profile* devic
 {
     if (device == nullptr) return fmt::format("User_Prm_Data, octet {}", at + 1);
     const dp::PrmLayout& prm = device->personality.prm;
-    if (prm.dpv1_status && at < kDpv1Octets) {
+    if (prm.dpv1_status && at < dp::kDpv1Status) {
         if (at == 0) return "DPV1_Status_1: " + bit_names(user[0], kDpv1Status1);
         return at == 1 ? "DPV1_Status_2: " + bit_names(user[1], kDpv1Status2)
                        : "DPV1_Status_3: " + bit_names(user[2], kDpv1Status3);
@@ -93,7 +90,6 @@ std::string user_octet(Bytes user, std::size_t at, const profile::Profile* devic
 /// Where and why the device would refuse it.
 void add_refusal(const dp::RefusalDetail& refusal, const profile::Profile& device, Decoded& into)
 {
-    if (refusal.why == dp::Refusal::none) return;
     const std::string where = refusal.octet == 0 ? "" : fmt::format(", octet {}", refusal.octet);
     into.faults.push_back(fmt::format("profile {} would refuse it: {}{} (expected {}, here {})", device.name,
                                       dp::text(refusal.why), where, refusal.expected, refusal.got));
@@ -104,11 +100,11 @@ void judge_set_prm(Bytes data, DecodeContext& context, Decoded& into)
     if (dp::lock_of(data) != dp::Lock::lock) return;
     dp::Personality personality = context.device->personality;
     if (!context.device->ident) personality.ident = be16(data, 4); // the site's own
-    dp::Parameters taken;
-    const dp::RefusalDetail refusal = dp::check_set_prm(personality, data, taken);
-    add_refusal(refusal, *context.device, into);
-    if (refusal.why == dp::Refusal::none)
-        context.tags = std::vector<std::uint16_t>(taken.tags().begin(), taken.tags().end());
+    const auto taken = dp::check_set_prm(personality, data);
+    if (taken)
+        context.tags = std::vector<std::uint16_t>(taken->tags().begin(), taken->tags().end());
+    else
+        add_refusal(taken.error(), *context.device, into);
 }
 
 /// Words of a general identifier or of a length octet: "4 words in and 4 words out, consistent as a whole".
@@ -255,8 +251,8 @@ void decode_cfg(Bytes data, const DecodeContext& context, bool check, Decoded& i
     if (!check || context.device == nullptr) return;
     const dp::Personality& personality = context.device->personality;
     const std::vector<std::uint16_t> tags = context.tags ? *context.tags : assumed_tags(data, personality);
-    dp::Configuration taken;
-    add_refusal(dp::check_chk_cfg(personality, tags, data, taken), *context.device, into);
+    if (const auto taken = dp::check_chk_cfg(personality, tags, data); !taken)
+        add_refusal(taken.error(), *context.device, into);
 }
 
 } // namespace dpslave::dpctl

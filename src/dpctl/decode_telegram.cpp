@@ -2,6 +2,8 @@
 // Layer 2: delimiters, addresses, FC, SAPs; and the services that need few words.
 #include "decode.hpp"
 
+#include "dpslave/dp/sap.hpp"
+
 #include <fmt/format.h>
 
 #include <array>
@@ -12,9 +14,7 @@ namespace {
 using fdl::Flaw;
 using fdl::Telegram;
 
-constexpr std::uint8_t kMasterSap = 62;
-
-/// Wire reference 4.1.
+/// Those of a DP slave and its neighbours (wire reference 4.1).
 struct Sap {
     std::uint8_t number;
     std::string_view name;
@@ -26,17 +26,15 @@ constexpr std::array kSaps = std::to_array<Sap>({
     {51, "MS1 read and write (DP-V1)"},
     {53, "Set_Ext_Prm (DP-V2)"},
     {54, "master to master"},
-    {55, "Set_Slave_Add"},
-    {56, "RD_Inp"},
-    {57, "RD_Outp"},
-    {58, "Global_Control"},
-    {59, "Get_Cfg"},
-    {60, "Slave_Diag"},
-    {61, "Set_Prm"},
-    {62, "Chk_Cfg"},
+    {dp::sap::kSetSlaveAdd, "Set_Slave_Add"},
+    {dp::sap::kRdInp, "RD_Inp"},
+    {dp::sap::kRdOutp, "RD_Outp"},
+    {dp::sap::kGlobalControl, "Global_Control"},
+    {dp::sap::kGetCfg, "Get_Cfg"},
+    {dp::sap::kSlaveDiag, "Slave_Diag"},
+    {dp::sap::kSetPrm, "Set_Prm"},
+    {dp::sap::kChkCfg, "Chk_Cfg"},
 });
-constexpr std::uint8_t kSetSlaveAdd = 55, kRdInp = 56, kRdOutp = 57, kGlobalControl = 58, kGetCfg = 59,
-                       kSlaveDiag = 60, kSetPrm = 61, kChkCfg = 62;
 
 /// Wire reference 2.3 and 2.4.
 constexpr std::array<std::string_view, 16> kRequests = {"time event",
@@ -199,14 +197,14 @@ void decode_request(const Telegram& telegram, DecodeContext& context, Decoded& i
 {
     const Bytes data = telegram.data;
     switch (telegram.dsap.value_or(0)) {
-        case kSetSlaveAdd: return decode_set_slave_add(data, into);
-        case kRdInp: return wants_no_data(data, "RD_Inp", into);
-        case kRdOutp: return wants_no_data(data, "RD_Outp", into);
-        case kGlobalControl: return decode_global_control(data, into);
-        case kGetCfg: return wants_no_data(data, "Get_Cfg", into);
-        case kSlaveDiag: return wants_no_data(data, "Slave_Diag", into);
-        case kSetPrm: return decode_set_prm(data, context, into);
-        case kChkCfg: return decode_cfg(data, context, true, into);
+        case dp::sap::kSetSlaveAdd: return decode_set_slave_add(data, into);
+        case dp::sap::kRdInp: return wants_no_data(data, "RD_Inp", into);
+        case dp::sap::kRdOutp: return wants_no_data(data, "RD_Outp", into);
+        case dp::sap::kGlobalControl: return decode_global_control(data, into);
+        case dp::sap::kGetCfg: return wants_no_data(data, "Get_Cfg", into);
+        case dp::sap::kSlaveDiag: return wants_no_data(data, "Slave_Diag", into);
+        case dp::sap::kSetPrm: return decode_set_prm(data, context, into);
+        case dp::sap::kChkCfg: return decode_cfg(data, context, true, into);
         default: add_data_line(data, telegram.dsap ? "data" : "outputs", into);
     }
 }
@@ -215,10 +213,10 @@ void decode_reply(const Telegram& telegram, const DecodeContext& context, Decode
 {
     const Bytes data = telegram.data;
     switch (telegram.ssap.value_or(0)) {
-        case kRdInp: return add_data_line(data, "inputs", into);
-        case kRdOutp: return add_data_line(data, "outputs", into);
-        case kGetCfg: return decode_cfg(data, context, false, into);
-        case kSlaveDiag: return decode_diagnosis(data, context, into);
+        case dp::sap::kRdInp: return add_data_line(data, "inputs", into);
+        case dp::sap::kRdOutp: return add_data_line(data, "outputs", into);
+        case dp::sap::kGetCfg: return decode_cfg(data, context, false, into);
+        case dp::sap::kSlaveDiag: return decode_diagnosis(data, context, into);
         default: add_data_line(data, telegram.ssap ? "data" : "inputs", into);
     }
 }
@@ -256,7 +254,7 @@ void check_addresses(const Telegram& telegram, Decoded& into)
         into.faults.push_back("only one of DSAP and SSAP is there: a DP slave answers RS");
     const auto own = service_sap(telegram);
     const auto masters = telegram.is_request() ? telegram.ssap : telegram.dsap;
-    if (own && masters && *own >= kSetSlaveAdd && *masters != kMasterSap)
+    if (own && masters && *own >= dp::sap::kSetSlaveAdd && *masters != dp::sap::kMaster)
         into.faults.push_back(fmt::format(
             "the master's SAP of this service is 62, here is {}: a DP slave answers RS", *masters));
 }

@@ -7,8 +7,7 @@
 namespace dpslave::profile {
 namespace {
 
-constexpr std::size_t kDemandOctets = 8; ///< in either direction (HA389815 ch. 7)
-constexpr std::size_t kMaxOctets = 244;  ///< of one direction (wire reference 4.6)
+constexpr std::size_t kMaxOctets = 244; ///< of one direction (wire reference 4.6)
 
 std::string hex_of(std::uint16_t word)
 {
@@ -153,9 +152,9 @@ private:
     {
         const std::size_t parameters = personality_.max_parameters;
         const bool demand = personality_.demand_identifier != 0;
-        const std::size_t longest = (demand ? kDemandOctets : 0) + 2 * parameters;
+        const std::size_t longest = (demand ? dp::kDemandOctets : 0) + 2 * parameters;
         const std::size_t both = identifier(true, true) != nullptr ? 2 : 1;
-        std::size_t sum = 2 * (demand ? kDemandOctets : 0) + 2 * both * parameters;
+        std::size_t sum = 2 * (demand ? dp::kDemandOctets : 0) + 2 * both * parameters;
         if (personality_.max_words > 0) sum = std::min(sum, 2 * personality_.max_words);
         const dp::PrmLayout& prm = personality_.prm;
         if (prm.list == dp::TagList::exact)
@@ -230,8 +229,8 @@ private:
             out_ += word.writes ? 2 : 0;
         }
         if (wanted_.demand) {
-            in_ += kDemandOctets;
-            out_ += kDemandOctets;
+            in_ += dp::kDemandOctets;
+            out_ += dp::kDemandOctets;
             if (personality_.demand_identifier == 0)
                 refuse("the device of the profile " + profile_.name +
                        " has no Demand Data: leave --demand out.");

@@ -8,8 +8,7 @@
 namespace dpslave::profile {
 namespace {
 
-/// Most octets of User_Prm_Data that fit in one Set_Prm (wire reference 5).
-constexpr std::int64_t kMaxUserPrmData = 237;
+constexpr std::int64_t kMaxUserPrmData = dp::kMaxUserPrm;
 /// Words in and out of Demand Data, and the most that 244 octets in each direction have room for.
 constexpr std::int64_t kDemandWords = 8, kMaxWords = 244;
 

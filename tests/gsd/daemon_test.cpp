@@ -42,12 +42,10 @@ struct Master {
 std::optional<dp::Configuration> accepted(const dp::Personality& personality, const Octets& prm,
                                           const Octets& cfg)
 {
-    dp::Parameters parameters;
-    if (dp::check_set_prm(personality, prm, parameters).why != dp::Refusal::none) return std::nullopt;
-    dp::Configuration configuration;
-    if (dp::check_chk_cfg(personality, parameters.tags(), cfg, configuration).why != dp::Refusal::none)
-        return std::nullopt;
-    return configuration;
+    const auto parameters = dp::check_set_prm(personality, prm);
+    if (!parameters) return std::nullopt;
+    const auto configuration = dp::check_chk_cfg(personality, parameters->tags(), cfg);
+    return configuration ? std::optional{*configuration} : std::nullopt;
 }
 
 struct Case {

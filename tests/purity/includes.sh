@@ -16,7 +16,7 @@ case $room in
     base)    doors=$nothing                                       outside=$nothing forbidden=$impure ;;
     fdl)     doors='base/.*'                                      outside=$nothing forbidden=$impure ;;
     dp)      doors='base/.*|fdl/sap_user\.hpp'                    outside=$nothing forbidden=$impure ;;
-    tec)     doors='base/.*|dp/slave\.hpp|drive/poller\.hpp'      outside=$nothing forbidden=$impure ;;
+    tec)     doors='base/.*|dp/snapshot\.hpp|drive/poller\.hpp'   outside=$nothing forbidden=$impure ;;
     led)     doors='base/.*'                                      outside=$nothing forbidden=$impure ;;
     drive)   doors='base/.*'                                      outside=$nothing forbidden=$impure ;;
     gsd)     doors='base/.*'                                      outside=$nothing forbidden=$impure ;;

@@ -10,7 +10,8 @@
 #include "dpslave/base/mailbox.hpp"
 #include "dpslave/base/process_image.hpp"
 #include "dpslave/base/ring.hpp"
-#include "dpslave/dp/slave.hpp"
+#include "dpslave/dp/event_log.hpp"
+#include "dpslave/dp/snapshot.hpp"
 #include "dpslave/drive/poller.hpp"
 #include "dpslave/fdl/station.hpp"
 

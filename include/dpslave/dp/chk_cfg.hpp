@@ -4,6 +4,7 @@
 
 #include "dpslave/base/bytes.hpp"
 #include "dpslave/base/process_image.hpp"
+#include "dpslave/base/result.hpp"
 #include "dpslave/dp/personality.hpp"
 #include "dpslave/dp/refusal.hpp"
 
@@ -11,9 +12,6 @@
 #include <span>
 
 namespace dpslave::dp {
-
-/// Octets of Demand Data in either direction, in front of the parameters.
-inline constexpr std::size_t kDemandOctets = 8;
 
 /// What an accepted Chk_Cfg brings. The layout has no generation yet.
 struct Configuration {
@@ -24,11 +22,11 @@ struct Configuration {
     Layout layout{};
 };
 
-/// `tags` are those of the Set_Prm before. `taken` is complete only when nothing is refused.
-RefusalDetail check_chk_cfg(const Personality& personality, std::span<const std::uint16_t> tags, Bytes cfg,
-                            Configuration& taken);
+/// What `cfg` (Cfg_Data) configures, or why it is refused. `tags` are those of the Set_Prm before.
+Result<Configuration, RefusalDetail> check_chk_cfg(const Personality& personality,
+                                                   std::span<const std::uint16_t> tags, Bytes cfg);
 
-/// What differs, when a master in Data_Exch checks other octets than the accepted ones.
+/// The first octet that differs, when a master in Data_Exch checks other octets than the accepted ones.
 RefusalDetail cfg_difference(Bytes accepted, Bytes cfg);
 
 } // namespace dpslave::dp

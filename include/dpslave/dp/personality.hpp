@@ -12,6 +12,11 @@
 
 namespace dpslave::dp {
 
+/// Most octets of User_Prm_Data in one Set_Prm (wire reference 4.4).
+inline constexpr std::size_t kMaxUserPrm = 237;
+/// Octets of Demand Data in either direction, in front of the parameters (HA389815 ch. 7).
+inline constexpr std::size_t kDemandOctets = 8;
+
 /// A legal identifier octet of Cfg_Data and what its parameter does: one word per direction.
 struct Identifier {
     std::uint8_t octet = 0;

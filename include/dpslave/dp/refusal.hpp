@@ -2,6 +2,9 @@
 /// Why a Set_Prm or Chk_Cfg was refused, exactly enough that a person can mend the master's configuration.
 #pragma once
 
+#include "dpslave/base/result.hpp"
+
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -31,6 +34,10 @@ enum class Refusal : std::uint8_t {
 };
 std::string_view text(Refusal why) noexcept;
 
+/// Which telegram a refusal is about.
+enum class Service : std::uint8_t { none, set_prm, chk_cfg };
+Service service_of(Refusal why) noexcept;
+
 /// A refused telegram explained: which octet, what was expected, what came.
 struct RefusalDetail {
     Refusal why = Refusal::none;
@@ -39,5 +46,12 @@ struct RefusalDetail {
     std::uint16_t got = 0;
     friend bool operator==(const RefusalDetail&, const RefusalDetail&) = default;
 };
+
+/// Precondition: the numbers are those of a telegram, below 65536.
+constexpr Failure<RefusalDetail> refuse(Refusal why, std::size_t octet, std::size_t expected, std::size_t got)
+{
+    return {{why, static_cast<std::uint16_t>(octet), static_cast<std::uint16_t>(expected),
+             static_cast<std::uint16_t>(got)}};
+}
 
 } // namespace dpslave::dp

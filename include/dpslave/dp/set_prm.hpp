@@ -4,6 +4,7 @@
 
 #include "dpslave/base/bytes.hpp"
 #include "dpslave/base/process_image.hpp"
+#include "dpslave/base/result.hpp"
 #include "dpslave/dp/personality.hpp"
 #include "dpslave/dp/refusal.hpp"
 
@@ -16,7 +17,8 @@ namespace dpslave::dp {
 
 /// Octets before User_Prm_Data; a shorter Set_Prm is discarded.
 inline constexpr std::size_t kPrmHeader = 7;
-inline constexpr std::size_t kMaxUserPrm = 237;
+/// Octets of DPV1_Status in front of User_Prm_Data, where a device has it.
+inline constexpr std::size_t kDpv1Status = 3;
 
 /// min T_SDR after power-on, and the smallest that a Set_Prm can bring about. Source: wire reference 4.4.
 inline constexpr Tbit kSmallestMinTsdr{11};
@@ -33,6 +35,10 @@ Lock lock_of(Bytes telegram);
 /// `old` changed by octet 4: 0 keeps it, 1..10 count as 11. Precondition: telegram.size() >= kPrmHeader.
 Tbit min_tsdr_of(Bytes telegram, Tbit old);
 
+/// T_WD by the two factors, if the watchdog is on. `dpv1_status`: the device has DPV1_Status, with WD_Base.
+/// Precondition: telegram.size() >= kPrmHeader.
+std::chrono::milliseconds watchdog_of(Bytes telegram, bool dpv1_status);
+
 /// What an accepted Set_Prm brings.
 struct Parameters {
     bool watchdog_on = false;
@@ -47,8 +53,8 @@ struct Parameters {
     std::span<const std::uint16_t> tags() const { return std::span{tag_list}.first(tag_count); }
 };
 
-/// Checks 5 to 8 of wire reference 4.4, in that order: ident, Sync/Freeze, watchdog factors, User_Prm_Data.
-/// `taken` is complete only when nothing is refused. Precondition: telegram.size() >= kPrmHeader.
-RefusalDetail check_set_prm(const Personality& personality, Bytes telegram, Parameters& taken);
+/// What the telegram brings, or why it is refused. Checks 5 to 8 of wire reference 4.4, in that order: ident,
+/// Sync/Freeze, watchdog factors, User_Prm_Data. Precondition: telegram.size() >= kPrmHeader.
+Result<Parameters, RefusalDetail> check_set_prm(const Personality& personality, Bytes telegram);
 
 } // namespace dpslave::dp

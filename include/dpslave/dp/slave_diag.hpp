@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dpslave/base/bytes.hpp"
+#include "dpslave/dp/personality.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +12,11 @@ namespace dpslave::dp {
 
 inline constexpr std::size_t kStandardDiagnosis = 6;
 inline constexpr std::size_t kLongestBlock = 63; ///< device-related, header included (six bits of length)
-inline constexpr std::uint8_t kNoMaster = 0xFF;  ///< Master_Add of a slave that nobody has parameterised
+inline constexpr std::uint8_t kNoMaster = 0xFF;  ///< Master_Add of a slave that no master has parameterised
+
+/// Octets of the block of extended diagnosis that begins here, its header included; 0 = the header promises
+/// what is not there (wire reference 5.3). Precondition: not empty.
+std::size_t block_length(Bytes rest);
 
 /// What the six standard octets say, by name.
 struct StandardDiagnosis {
@@ -34,20 +39,24 @@ void encode(const StandardDiagnosis& diagnosis, ByteBuffer<244>& into);
 /// The extended part: blocks back to back as they go on the wire, no more whole blocks than fit.
 class ExtendedDiagnosis {
 public:
+    /// Begins with the device's own block as zeros, if it has one. `personality` outlives it.
+    explicit ExtendedDiagnosis(const Personality& personality) : personality_(personality) { set({}, false); }
+
     /// What became of the blocks.
     struct Outcome {
         bool changed = false; ///< what a master would read is another now: the owner must be told
         bool well_formed =
             false; ///< false: a header promised what was not there; from there on nothing was taken
     };
-    /// `room`: octets beside the standard part. `fault`: a block reports a fault, not only a status.
-    Outcome set(Bytes blocks, bool fault, std::size_t room);
+    /// None: the device's own block as zeros. `fault`: a block reports a fault, not only a status.
+    Outcome set(Bytes blocks, bool fault);
 
     Bytes blocks() const { return blocks_; }
     bool fault() const { return fault_ && !blocks_.empty(); }
     bool overflow() const { return overflow_; }
 
 private:
+    const Personality& personality_;
     ByteBuffer<244 - kStandardDiagnosis> blocks_;
     bool fault_ = false;
     bool overflow_ = false;

@@ -7,7 +7,7 @@
 
 #include "dpslave/base/bytes.hpp"
 #include "dpslave/base/option_state.hpp"
-#include "dpslave/dp/slave.hpp"
+#include "dpslave/dp/snapshot.hpp"
 #include "dpslave/drive/poller.hpp"
 
 #include <array>

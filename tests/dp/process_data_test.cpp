@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The process data by themselves: no telegram, no state, no master.
+#include "bench.hpp"
+
+#include "dpslave/dp/process_data.hpp"
+
+namespace test {
+namespace {
+
+using dpslave::dp::Switch;
+
+/// One input word, one output word.
+class ProcessData : public testing::Test {
+protected:
+    ProcessData()
+    {
+        dpslave::dp::Configuration configuration;
+        configuration.in_length = configuration.out_length = 2;
+        configuration.reads = true;
+        configuration.layout.count = 2;
+        configuration.layout.parameters[0] = {.tag = 1, .reads = true};
+        configuration.layout.parameters[1] = {.tag = 2, .writes = true};
+        data.begin(configuration, kBegin);
+    }
+    bool input_is(std::uint16_t word, bool tried = true)
+    {
+        dpslave::InputImage image{.generation = data.configuration().layout.generation,
+                                  .every_input_tried = tried};
+        image.words[0] = word;
+        return data.set_inputs(image);
+    }
+    std::string inputs() const
+    {
+        dpslave::ByteBuffer<244> reply;
+        data.append_inputs(reply);
+        return show({reply.bytes().begin(), reply.bytes().end()});
+    }
+    std::string outputs() const
+    {
+        dpslave::ByteBuffer<244> reply;
+        data.append_outputs(reply);
+        return show({reply.bytes().begin(), reply.bytes().end()});
+    }
+
+    static constexpr dpslave::Instant kBegin{std::chrono::seconds{7}};
+    dpslave::dp::Personality device = example_device();
+    dpslave::dp::ProcessData data{device};
+};
+
+TEST_F(ProcessData, HoldTheOutputsUnderSyncUntilSyncOrUnsync)
+{
+    data.receive(octets("00 01"));
+    EXPECT_TRUE(data.set_sync(Switch::on));
+    data.receive(octets("00 02"));
+    EXPECT_EQ(outputs(), "00 01");
+    EXPECT_FALSE(data.set_sync(Switch::on)); // as before, and what came is taken
+    EXPECT_EQ(outputs(), "00 02");
+    data.receive(octets("00 03"));
+    EXPECT_FALSE(data.set_sync(Switch::keep));
+    EXPECT_EQ(outputs(), "00 02");
+    EXPECT_TRUE(data.set_sync(Switch::off));
+    EXPECT_EQ(outputs(), "00 03");
+}
+
+TEST_F(ProcessData, HoldTheInputsUnderFreezeUntilFreezeOrUnfreeze)
+{
+    input_is(0x1111);
+    EXPECT_TRUE(data.set_freeze(Switch::on));
+    input_is(0x2222);
+    EXPECT_EQ(inputs(), "11 11");
+    EXPECT_FALSE(data.set_freeze(Switch::on));
+    EXPECT_EQ(inputs(), "22 22");
+    input_is(0x3333);
+    EXPECT_TRUE(data.set_freeze(Switch::off));
+    EXPECT_EQ(inputs(), "33 33");
+}
+
+TEST_F(ProcessData, ClearIsTheFirstOneOnlyAfterAControlWithout)
+{
+    data.receive(octets("00 01"));
+
+    EXPECT_TRUE(data.set_clear(true));
+    EXPECT_EQ(outputs(), "00 00");
+    EXPECT_FALSE(data.set_clear(true));
+    EXPECT_FALSE(data.set_clear(false));
+    EXPECT_TRUE(data.set_clear(true));
+}
+
+TEST_F(ProcessData, ClearGoesThroughSync)
+{
+    data.receive(octets("00 01"));
+    data.set_sync(Switch::on);
+
+    data.set_clear(true);
+
+    EXPECT_EQ(outputs(), "00 00");
+    EXPECT_TRUE(data.sync());
+}
+
+TEST_F(ProcessData, StatDiagMayEndWhenEveryInputWasTriedOrHadItsTime)
+{
+    EXPECT_TRUE(data.stat_diag());
+    EXPECT_FALSE(input_is(0x1111, false));
+    EXPECT_EQ(data.ready_by(), kBegin + std::chrono::seconds{1});
+    EXPECT_TRUE(input_is(0x1111, true));
+    EXPECT_TRUE(data.give_up_waiting());
+    EXPECT_TRUE(input_is(0x1111, false));
+
+    data.end_stat_diag();
+
+    EXPECT_FALSE(data.stat_diag());
+    EXPECT_EQ(data.ready_by(), dpslave::kNever);
+    EXPECT_FALSE(input_is(0x1111, true));
+}
+
+TEST_F(ProcessData, EndTellsTheDriveSideByOrderAndByImage)
+{
+    const auto generation = data.configuration().layout.generation;
+    data.receive(octets("00 01"));
+    EXPECT_TRUE(data.take_outputs()->may_write);
+    EXPECT_FALSE(data.take_outputs());
+
+    data.end();
+
+    EXPECT_EQ(data.take_left()->generation, generation);
+    EXPECT_FALSE(data.take_left());
+    const auto after = data.take_outputs();
+    EXPECT_FALSE(after->may_write);
+    EXPECT_EQ(after->layout.generation, 0u);
+    EXPECT_EQ(after->words[1], 0);
+    EXPECT_EQ(data.configuration().out_length, 0u);
+}
+
+} // namespace
+} // namespace test
