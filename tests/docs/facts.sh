@@ -1,0 +1,67 @@
+#!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
+# facts.sh ROOT: fails if a page has lost a fact that misleads or endangers its reader when it is missing. One fact a line:
+# page | words that follow each other there (a regular expression) | source. Emphasis and line breaks do not count.
+set -eu
+cd "$1"
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+cat > "$scratch/facts" <<'END'
+docs/wiring.md | wait at least 5 minutes | HA463561, safety
+docs/wiring.md | below 50 V between all power terminals and earth | HA463561, safety
+docs/wiring.md | [Dd]o not fit, plug or remove anything under power | HA389815, installation
+docs/wiring.md | No high-voltage test on wiring that is connected to the drive | HA463561, safety
+docs/wiring.md | not recommended with these drives. Where one is mandatory, use type B only | HA463561, safety
+docs/wiring.md | Do not dismantle the drive | HA463561, safety
+docs/wiring.md | After a drive was replaced, restore all parameters | HA463561, safety
+docs/wiring.md | A fieldbus is no safety function | HA463561, risk assessment
+docs/wiring.md | \(installation-details\.md\) | HA463561, contents of the manual's first page
+docs/installation-details.md | Model number .* Serial number .* Where it is installed | HA463561, installation details
+docs/devices/2408f-2404f.md | HD \| common \| common .* HE \| A\(\+\) .* HF \| B\(-\) | 2408/2404 handbook, table 1-3
+docs/devices/2408f-2404f.md | HB \| not used \| A'\(\+\), receives .* HC \| not used \| B'\(-\), receives | 2408/2404 handbook, table 1-3
+docs/devices/2408f-2404f.md | A is positive here: the reverse of PROFIBUS | 2408/2404 handbook, table 1-3
+docs/devices/2408f-2404f.md | HD \| B/B' \| RxD/TxD positive .* HE \| A/A' \| RxD/TxD negative | HA026290, wiring
+docs/devices/2408f-2404f.md | mains supply and for 24 V .* mains on a 24 V controller destroys it | HA026290, wiring
+docs/devices/2408f-2404f.md | proportional band 0, integral > ?time off, derivative time off | HA026290, gain scheduling
+docs/devices/2408f-2404f.md | put your Ident_Number here | X-16
+docs/devices/option-board.md | Not proven: P3 MODE = FIELD BUS together with EI-ASCII.* Try in this order | [DEC]
+docs/devices/technology-box.md | -32768 to 32767.* 32768 to 65535 as well | B-049
+docs/devices/technology-box.md | P3, no multi-drop port | product manual of the 590+
+docs/devices/technology-box.md | What is not known is not guessed.* dpctl doctor --probe | [DEC]
+docs/devices/technology-box.md | Any other value than 0 can compromise safety | B-047
+docs/master.md | only where the gateway's machine keeps the MaxTsdr of that GSD | wire reference 11.6
+docs/master.md | It is computed, not measured | wire reference 11.6
+docs/master.md | 584S, 590, 620 that we make \| 0 \| General | wire reference 9
+docs/master.md | the listings of HA389815 \| not stated | HA389815, appendix A
+docs/master.md | SONSTIGE \(OTHERS\) \| Others, not DRIVES | HA389815, appendix B
+README.md | only if the machine keeps the MaxTsdr of that GSD | wire reference 11.6
+README.md | first run also installs packages and builds the programs | tools/demo
+README.md | /dev/serial/by-id/ | udev
+gsd/README.md | if the machine keeps its MaxTsdr | wire reference 11.6
+debian/README.md | only where the machine keeps its MaxTsdr | wire reference 11.6
+END
+for page in docs/devices/option-board.md docs/devices/technology-box.md docs/devices/2408f-2404f.md; do
+    echo "$page | keeps its GSD only where the machine keeps the MaxTsdr of that GSD | wire reference 11.6"
+done >> "$scratch/facts"
+
+# missing FOLDER: the facts that its pages do not have.
+missing() {
+    while IFS= read -r line; do
+        page=${line%% | *}
+        words=${line#* | }
+        words=${words% | *}
+        tr '\n' ' ' < "$1/$page" | sed 's/[*`]//g; s/  */ /g' | grep -qE -e "$words" || echo "$page does not say: $words"
+    done < "$scratch/facts"
+}
+
+# It would notice: pages without a word have no fact.
+cut -d' ' -f1 "$scratch/facts" | sort -u | while read -r page; do
+    mkdir -p "$scratch/empty/$(dirname "$page")"
+    : > "$scratch/empty/$page"
+done
+[ "$(missing "$scratch/empty" | wc -l)" -eq "$(wc -l < "$scratch/facts")" ] || { echo "this check is blind" && exit 2; }
+
+missing . > "$scratch/missing"
+cat "$scratch/missing"
+[ ! -s "$scratch/missing" ]
