@@ -30,6 +30,17 @@ docs/devices/technology-box.md | -32768 to 32767.* 32768 to 65535 as well | B-04
 docs/devices/technology-box.md | P3, no multi-drop port | product manual of the 590+
 docs/devices/technology-box.md | What is not known is not guessed.* dpctl doctor --probe | [DEC]
 docs/devices/technology-box.md | Any other value than 0 can compromise safety | B-047
+docs/wiring.md | type A, m \| 1200 \| 1200 \| 1200 \| 1000 \| 400 \| 200 .* type B, m \| 1200 \| 1200 \| 1200 \| 600 \| 200 \| not allowed | B-022
+docs/wiring.md | 390 Ω \]── B ──\[ 220 Ω \]── A ──\[ 390 Ω | A-025
+docs/wiring.md | earth the shield at one end only. Never connect it to the signal reference | B-023
+docs/wiring.md | Terminate both ends of a segment, and nothing in between | B-025
+docs/devices/option-board.md | 1 \| 0Vext \|.* 2 \| \+5VDCext \|.* 3 \| B/B' \| RxD/TxD-P .* 4 \| A/A' \| RxD/TxD-N .* 5 \| RTS \| TTL, high while transmitting.* 6 \| 0Vext | A-020
+docs/devices/option-board.md | TX- \| TBG.1 \| TBA.1 .* TX\+ \| TBG.2 \| TBA.2 .* RX- \| TBG.3 \| TBA.3 .* RX\+ \| TBG.4 \| TBA.4 | A-023
+docs/devices/option-board.md | 390 Ω from terminal 2 to B, .*220 Ω between B and A, .*390 Ω from A to 0 V. That is terminal 1 on 584S and 590, terminal 6 on the 620 | A-025
+docs/devices/technology-box.md | 3 \| B/B' \| RxD/TxD-P .* 4 \| A/A' \| RxD/TxD-N .* 6 \| GND \| EMC ground | B-024
+docs/devices/technology-box.md | shows the terminals from the back | B-026
+docs/devices/technology-box.md | set the DIL switch SW1 .* yellow/green|yellow/green .* set the DIL switch SW1 | B-027
+docs/devices/2408f-2404f.md | Never connect the shield to it | C-003
 docs/master.md | only where the gateway's machine keeps the MaxTsdr of that GSD | wire reference 11.6
 docs/master.md | It is computed, not measured | wire reference 11.6
 docs/master.md | 584S, 590, 620 that we make \| 0 \| General | wire reference 9
