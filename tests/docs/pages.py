@@ -13,7 +13,7 @@ import re
 import subprocess
 import sys
 
-LONGEST = 40  # words of a sentence
+LONGEST = 33  # words of a sentence
 # Written for people who install, operate and repair. The reference and the table of promises are for those who change the code.
 PAGES = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md", "debian/README.md", "gsd/README.md",
          "config/tags/README.md", "docs/*.md", "docs/devices/*.md", "docs/man/*.scd"]
