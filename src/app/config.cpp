@@ -63,13 +63,31 @@ std::shared_ptr<const profile::Profile> Shelf::profile(const std::string& name)
 std::shared_ptr<const drive::TagTable> Shelf::tags(const std::filesystem::path& file)
 {
     const auto [entry, is_new] = tables_.try_emplace(file);
-    if (!is_new) return entry->second;
+    if (!is_new || !has_room_for(file)) return entry->second;
     auto loaded = profile::load_tags(file);
     if (loaded)
         entry->second = std::make_shared<const drive::TagTable>(*std::move(loaded));
     else
         keep(loaded.error());
     return entry->second;
+}
+
+/// Said once, of the first table that is too much. A file that cannot be read takes no room: its reader says
+/// why.
+bool Shelf::has_room_for(const std::filesystem::path& table)
+{
+    const bool had_room = size_of_tables_ <= kMaxTablesTogether;
+    std::error_code unreadable;
+    if (const auto size = std::filesystem::file_size(table, unreadable);
+        !unreadable && size <= profile::kMaxFileSize)
+        size_of_tables_ += size;
+    if (size_of_tables_ <= kMaxTablesTogether) return true;
+    if (had_room)
+        keep({{table.string(), 0, 0,
+               "with this table the tag tables of the stations have more than 2 MiB together: name one table "
+               "for "
+               "drives of one kind, and leave out the tags that nobody uses."}});
+    return false;
 }
 
 void Shelf::keep(const profile::Faults& faults)

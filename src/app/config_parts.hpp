@@ -4,7 +4,9 @@
 
 #include "dpslave/app/config.hpp"
 #include "dpslave/profile/document.hpp"
+#include "dpslave/profile/text_file.hpp"
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <set>
@@ -21,6 +23,10 @@ struct ReadLine {
     profile::Place name_at;
 };
 
+/// In octets, of the tag tables that stations name, all together: a reload reads them on the main thread, and
+/// the service's watchdog allows 5 s. The largest table that is shipped has 160 KiB.
+inline constexpr std::uintmax_t kMaxTablesTogether = 2 * profile::kMaxFileSize;
+
 /// Profiles and tag tables, each file read and judged once however many stations use it.
 class Shelf {
 public:
@@ -36,12 +42,14 @@ public:
     const profile::Faults& faults() const { return faults_; }
 
 private:
+    bool has_room_for(const std::filesystem::path& table);
     void keep(const profile::Faults& faults);
 
     std::filesystem::path folder_;
     std::vector<std::string> names_;
     std::map<std::string, std::shared_ptr<const profile::Profile>> profiles_;
     std::map<std::filesystem::path, std::shared_ptr<const drive::TagTable>> tables_;
+    std::uintmax_t size_of_tables_ = 0; ///< in octets, of those in tables_
     profile::Faults faults_;
     std::set<std::string> told_; ///< each of them in words
 };

@@ -385,6 +385,7 @@ Document::Document(const std::filesystem::path& file) : name_(file.string()), ro
         faults_.push_back(content.error());
         return;
     }
+    content = utf8(*content); // an editor of old machines saves "Zürich" in ISO 8859-1, as with tag tables
     if (const auto place = too_deep(*content)) {
         fault(*place, "tables, lists or dotted keys are nested deeper than " + std::to_string(kMaxNesting) +
                           " here: nothing of ours is.");

@@ -18,6 +18,8 @@ namespace {
 
 using drive::Tag;
 
+constexpr std::size_t kMostColumns = 200; ///< own columns of a user included
+
 class TableReader {
 public:
     explicit TableReader(std::string file) : file_(std::move(file)) {}
@@ -55,6 +57,12 @@ private:
     bool header(const Row& row)
     {
         columns_.width = row.cells.size();
+        if (columns_.width > kMostColumns) {
+            fault(row.line, 1,
+                  "the first line names " + std::to_string(columns_.width) + " columns, more than the " +
+                      std::to_string(kMostColumns) + " that a table may have: check its commas.");
+            return false;
+        }
         std::vector<std::string> names;
         for (std::size_t i = 0; i < row.cells.size(); ++i) {
             const Cell& cell = row.cells[i];

@@ -584,6 +584,38 @@ TEST_F(ConfigFile, all_faults_of_configuration_profiles_and_tables_are_told_in_o
                     StartsWith("empty.csv:2:1: "), StartsWith("own.csv:3:1: ")));
 }
 
+/// A station with a table of its own.
+std::string station_with(const char* name, const char* address, const char* unit, const char* table)
+{
+    return std::string{"\n[[station]]\nname = \""} + name + "\"\naddress = " + address +
+           "\nprofile = \"590\"\nline = \"p3\"\nunit = \"" + unit + "\"\ntags = \"" + table + "\"\n";
+}
+
+TEST_F(ConfigFile, tag_tables_that_take_too_long_to_read_together_are_refused_once)
+{
+    const std::string large = "tag,name\n1,SPEED\n" + std::string(900 * 1024, '\n');
+    for (const char* const name : {"a.csv", "b.csv", "c.csv", "d.csv"})
+        folder_.write(std::string{"etc/"} + name, large);
+    const std::string two =
+        kGood + station_with("a", "6", "01", "a.csv") + station_with("b", "7", "02", "b.csv");
+
+    EXPECT_EQ(good(two + station_with("c", "8", "03", "a.csv")).stations.size(), 4U)
+        << "one table of two stations";
+    EXPECT_THAT(
+        short_forms(bad(two + station_with("c", "8", "03", "c.csv") + station_with("d", "9", "04", "d.csv"))),
+        ElementsAre(HasSubstr("more than 2 MiB together")));
+}
+
+TEST_F(ConfigFile, a_table_that_is_too_large_by_itself_is_not_blamed_on_the_others)
+{
+    folder_.write("etc/a.csv", std::string(3 * 1024 * 1024, '\n'));
+    folder_.write("etc/b.csv", "tag,name\n1,SPEED\n");
+
+    EXPECT_THAT(short_forms(bad(kGood + station_with("a", "6", "01", "a.csv") +
+                                station_with("b", "7", "02", "b.csv"))),
+                ElementsAre(HasSubstr("larger than 1 MiB")));
+}
+
 TEST_F(ConfigFile, a_table_of_two_profiles_tells_its_faults_once)
 {
     folder_.write("tags/empty.csv", "tag\nx\n");

@@ -95,6 +95,26 @@ TEST_F(TomlDocument, with_thousands_of_faults_tells_the_first_ones_and_that_ther
     EXPECT_THAT(faults.back().what, HasSubstr("more faults"));
 }
 
+TEST_F(TomlDocument, of_iso_8859_1_or_utf_8_says_what_its_author_wrote)
+{
+    for (const char* const content : {"name = \"Z\xFCrich\"\n", "name = \"Z\u00FCrich\"\n"}) {
+        Document& document = read(content);
+
+        EXPECT_EQ(document.root().text("name"), "Z\u00FCrich");
+        EXPECT_THAT(document.faults(), IsEmpty());
+    }
+}
+
+TEST_F(TomlDocument, of_iso_8859_1_cannot_bring_a_control_character_to_a_terminal)
+{
+    Document& document = read("name = \"\x9B"
+                              "2J\"\n");
+
+    EXPECT_EQ(document.root().text("name"), std::nullopt);
+    ASSERT_EQ(document.faults().size(), 1u);
+    EXPECT_THAT(document.faults()[0].what, HasSubstr("control character"));
+}
+
 TEST_F(TomlDocument, faults_show_the_text_of_others_without_what_a_terminal_obeys)
 {
     Document& document = read("\"\\u001b[2J\\u009b\\u202e\\u000aforged\" = 1\nname = \"Z\u00FCrich\"\n");

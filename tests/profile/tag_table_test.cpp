@@ -68,6 +68,23 @@ TEST_F(TagTable, with_thousands_of_rows_of_wrong_form_tells_the_first_ones_and_t
     EXPECT_EQ(bad(content).size(), profile::kMaxFaults + 1);
 }
 
+TEST_F(TagTable, whose_first_line_is_nothing_but_commas_is_refused_with_what_to_do)
+{
+    const Faults faults = bad("tag" + std::string(200, ',') + "\n1\n");
+
+    ASSERT_EQ(faults.size(), 1u);
+    EXPECT_EQ(faults[0].line, 1u);
+    EXPECT_THAT(faults[0].what, AllOf(HasSubstr("201 columns"), HasSubstr("check its commas")));
+}
+
+TEST_F(TagTable, may_have_many_columns_of_its_user)
+{
+    std::string header = "tag,name";
+    for (int i = 2; i < 200; ++i) header += ",own" + std::to_string(i);
+
+    EXPECT_EQ(good(header + "\n1,SPEED" + std::string(198, ',') + "\n").find(1)->name, "SPEED");
+}
+
 TEST_F(TagTable, of_many_names_for_one_tag_keeps_each_once)
 {
     std::string content = "tag,name\n";
