@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Octets of a Modbus RTU line become frames. The check sums are those of a second hand (scripted_slave).
+#include "frame_receiver.hpp"
+#include "scripted_slave.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace dpslave::modbus::test {
+namespace {
+
+using testing::ElementsAre;
+using Found = FrameReceiver::Found;
+
+class ModbusFrameReceiver : public testing::Test {
+protected:
+    /// What was found with each octet in turn, without the nothings.
+    std::vector<Found> hears(const Octets& octets)
+    {
+        std::vector<Found> found;
+        for (const std::uint8_t octet : octets)
+            if (const Found one = receiver.feed(octet); one != Found::nothing) found.push_back(one);
+        return found;
+    }
+    std::vector<std::uint8_t> frame() const { return {receiver.frame().begin(), receiver.frame().end()}; }
+
+    FrameReceiver receiver;
+};
+
+TEST_F(ModbusFrameReceiver, GivesAFrameWithItsLastOctetAndWithoutItsCheckSum)
+{
+    EXPECT_THAT(hears(framed("01 03 02 12 34")), ElementsAre(Found::frame));
+    EXPECT_THAT(frame(), ElementsAre(0x01, 0x03, 0x02, 0x12, 0x34));
+    EXPECT_FALSE(receiver.in_frame());
+}
+
+TEST_F(ModbusFrameReceiver, KnowsEveryAnswerByItsLength)
+{
+    for (const char* answer : {"01 03 04 11 11 22 22", "01 04 02 11 11", "01 06 00 02 00 05",
+                               "01 10 00 02 00 03", "01 08 00 00 12 34", "01 83 02"})
+        EXPECT_THAT(hears(framed(answer)), ElementsAre(Found::frame)) << answer;
+}
+
+TEST_F(ModbusFrameReceiver, FindsTwoFramesThatFollowEachOtherWithoutSilence)
+{
+    Octets both = framed("01 03 02 11 11");
+    for (const std::uint8_t octet : framed("02 03 02 22 22")) both.push_back(octet);
+
+    EXPECT_THAT(hears(both), ElementsAre(Found::frame, Found::frame));
+    EXPECT_EQ(frame()[0], 0x02);
+}
+
+TEST_F(ModbusFrameReceiver, GivesNoFrameWithAWrongCheckSum)
+{
+    Octets wrong = framed("01 03 02 12 34");
+    wrong.back() ^= 0x01;
+
+    EXPECT_THAT(hears(wrong), ElementsAre());
+    EXPECT_EQ(receiver.silence(), Found::broken);
+}
+
+TEST_F(ModbusFrameReceiver, GivesNoFrameWithAParityFaultInIt)
+{
+    const Octets good = framed("01 03 02 12 34");
+    hears({good.begin(), good.begin() + 3});
+    EXPECT_EQ(receiver.fault(), Found::broken);
+    EXPECT_THAT(hears({good.begin() + 3, good.end()}), ElementsAre());
+    EXPECT_THAT(hears(good), ElementsAre()) << "nothing counts until the line was silent";
+
+    EXPECT_EQ(receiver.silence(), Found::nothing) << "it was told already";
+    EXPECT_THAT(hears(good), ElementsAre(Found::frame));
+}
+
+TEST_F(ModbusFrameReceiver, GivesNoFrameWhoseRestComesBehindASilence)
+{
+    const Octets good = framed("01 03 02 12 34");
+    hears({good.begin(), good.begin() + 4});
+    EXPECT_TRUE(receiver.in_frame());
+    EXPECT_EQ(receiver.silence(), Found::broken);
+    EXPECT_THAT(hears({good.begin() + 4, good.end()}), ElementsAre());
+}
+
+TEST_F(ModbusFrameReceiver, TakesTheEchoOfARequestForAFrame)
+{
+    const Octets request = framed("01 03 00 07 00 02");
+    EXPECT_THAT(hears(request), ElementsAre()) << "it has the length of no answer";
+    receiver.silence();
+
+    receiver.sent(0x01, octets("03 00 07 00 02"));
+    EXPECT_THAT(hears(request), ElementsAre(Found::frame));
+    EXPECT_THAT(frame(), ElementsAre(0x01, 0x03, 0x00, 0x07, 0x00, 0x02));
+}
+
+TEST_F(ModbusFrameReceiver, GivesUpALineThatIsNeverSilent)
+{
+    EXPECT_THAT(hears(Octets(600, 0x55)), ElementsAre(Found::broken));
+}
+
+} // namespace
+} // namespace dpslave::modbus::test
