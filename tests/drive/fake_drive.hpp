@@ -214,6 +214,7 @@ public:
     bool unplugged = false;
     bool echoes = false; ///< the transceiver hears what it sends
     std::string sent;    ///< octets of all requests
+    Instant asked_at{};  ///< begin of the last request
 
     std::chrono::nanoseconds character() const { return character_; }
     void comes_by_itself(const std::string& octets, std::chrono::nanoseconds after = 0ns)
@@ -234,6 +235,7 @@ public:
     bool write(Bytes octets) override
     {
         if (unplugged) return false;
+        asked_at = time;
         Instant at = time;
         for (const std::uint8_t octet : octets) {
             at += character_;

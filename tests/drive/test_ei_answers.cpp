@@ -66,6 +66,31 @@ protected:
     EiEchoAuto() : EiAnswers(EchoMode::automatic) {}
 };
 
+// ---- the silence before a question
+
+/// What the port still holds back of the last answer has to come before the next question.
+TEST(EiHoldBack, IsHowLongTheLineWasSilentBeforeEachQuestion)
+{
+    for (const std::chrono::milliseconds holds : {0ms, 1ms, 16ms}) {
+        FakeDrive drive{'0', '0'};
+        drive.parameters["ow"].text = ">000A";
+        test::SimulatedLine line;
+        line.drives = {&drive};
+        EiAsciiClient client{
+            line,
+            {.baud = 9600, .timeout = 200ms, .rules = {.settle = {}, .hold_back = holds, .echo = {}}},
+            {{kFirst, MnemonicRule::dc_590plus}}};
+        std::uint16_t word = 0;
+        for (int i = 0; i < 3; ++i) {
+            const Instant answered = line.time;
+            ASSERT_EQ(client.read(kFirst, word_tag(536), {&word, 1}), AccessError::none);
+            if (i == 0) continue;
+            EXPECT_GE(line.asked_at - answered, holds);
+            EXPECT_LE(line.asked_at - answered, holds + 1ms) << "no longer than that";
+        }
+    }
+}
+
 // ---- values
 
 TEST_F(EiAnswers, ADriveThatIsAlwaysLateByALittleGivesNoValueToTheOther)
