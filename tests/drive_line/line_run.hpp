@@ -44,6 +44,7 @@ public:
     void change(std::size_t drive);
     void leave(std::size_t drive);
     const OutputImage& image(std::size_t drive) const { return masters_[drive].image; }
+    const drive::UnitSnapshot& seen(std::size_t drive) const { return poller_.snapshot(drive); }
 
     /// Called after each transaction.
     std::function<void(const drive::Transaction&, AccessError, Instant began)> on_transaction;
