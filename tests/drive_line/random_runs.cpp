@@ -39,6 +39,7 @@ RunResult run(std::uint64_t seed, const Make& make, bool is_modbus, RunOptions o
     Chance chance{seed};
     Conditions conditions = drive_line::conditions(chance);
     if (options.calm) conditions.make_calm();
+    if (options.late) conditions.make_late();
     Line line{conditions.line, chance};
     line.faults = conditions.faults;
     std::deque<std::string> told;
@@ -74,6 +75,18 @@ void Conditions::make_calm()
     line.echo = false;
     echo = drive::EchoMode::off;
     line.port_holds = 0ns;
+}
+
+void Conditions::make_late()
+{
+    drives = 3;
+    tags_are_shared = true;
+    line.timeout = 100ms;
+    faults = {};
+    faults.late = faults.a_little_late = 1'500;
+    faults.never = faults.answer_lost = 300;
+    faults.question_lost = 800;
+    faults.duplicate = 3'000;
 }
 
 std::string Conditions::text() const

@@ -25,6 +25,8 @@ struct Conditions {
     std::size_t drives = 1;
     bool tags_are_shared = true;
     void make_calm(); ///< no faults but those of the drives themselves
+    /// Three drives that share tags, often late, with duplicates and losses: where owed answers decide most.
+    void make_late();
     std::string text() const;
 };
 Conditions conditions(Chance& chance);
@@ -50,6 +52,7 @@ std::unique_ptr<drive::Backend> modbus_client(ModbusFrames& line, const Conditio
 struct RunOptions {
     std::uint64_t transactions = 2'000;
     bool calm = false;
+    bool late = false;
     bool traces = false;
 };
 
