@@ -402,7 +402,8 @@ std::string bad_value_words(const drive::Tag& tag, AccessError error)
                                with_article(drive::text(tag.type)));
         default:
             return fmt::format("takes {}{}{}", with_article(drive::text(tag.type)),
-                               tag.decimals > 0 ? fmt::format(" with up to {} decimals", tag.decimals)
+                               tag.decimals > 0 ? fmt::format(" with up to {} decimal{}", tag.decimals,
+                                                              tag.decimals == 1 ? "" : "s")
                                                 : std::string{},
                                names_of_values(tag));
     }

@@ -236,5 +236,18 @@ TEST_F(Report, OfAValueThatCannotBeWrittenNamesThoseThatCan)
                 HasSubstr("one of SP1, SP2"));
 }
 
+TEST_F(Report, OfAValueThatCannotBeWrittenCountsTheDecimalsAsAPersonDoes)
+{
+    drive::Tag tag;
+    const auto words = [&](std::uint8_t decimals) {
+        tag.decimals = decimals;
+        return app::bad_value_words(tag, AccessError::value_not_encoded);
+    };
+
+    EXPECT_EQ(words(0), "takes an INT");
+    EXPECT_EQ(words(1), "takes an INT with up to 1 decimal");
+    EXPECT_EQ(words(2), "takes an INT with up to 2 decimals");
+}
+
 } // namespace
 } // namespace dpslave
