@@ -321,7 +321,9 @@ void survey_arguments(CLI::App& app, Options& options)
                          ->type_name("TIME")
                          ->check([](const std::string& text) {
                              return profile::parse_duration(text) ? std::string{}
-                                                                  : text + ": write a time as 90s, 10m or 2h";
+                                                                  : profile::in_quotes(text) +
+                                                                        ": write a time up to 30 days, as "
+                                                                        "90s, 10m or 2h";
                          });
     app.add_option("--passes", options.passes, "Ask each tag so often")
         ->type_name("N")

@@ -40,12 +40,14 @@ private:
     Row read_row()
     {
         row_is_good_ = true;
-        Row row{line_, true, {}};
+        const char* const begin = rest_.data();
+        Row row{line_, true, {}, {}};
         for (;;) {
             row.cells.push_back(read_cell());
             if (at_end_of_line()) break;
             take(); // the comma
         }
+        row.written = {begin, static_cast<std::size_t>(rest_.data() - begin)};
         if (rest_.starts_with('\r')) take();
         if (!rest_.empty()) take();
         return row;

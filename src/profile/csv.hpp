@@ -20,6 +20,7 @@ struct Row {
     unsigned line = 0;
     bool good = true; ///< false: it has a fault of form, and its cells mean nothing
     std::vector<Cell> cells;
+    std::string_view written; ///< as it stands in the content, without its end of line
 };
 
 /// The rows of `content`, which is UTF-8, empty lines left out. LF and CR LF end a line; a quoted cell may

@@ -5,6 +5,7 @@
 
 #include "dpslave/profile/profile.hpp"
 #include "dpslave/profile/survey.hpp"
+#include "dpslave/profile/text_file.hpp"
 
 #include <algorithm>
 
@@ -23,16 +24,7 @@ public:
     {
         if (!faults.empty() || rows_.empty()) return;
         for (const Cell& cell : rows_.front().cells) columns_.push_back(cell.text);
-        std::vector<std::size_t> lines{0};
-        for (std::size_t i = 0; i < table.size(); ++i)
-            if (table[i] == '\n') lines.push_back(i + 1);
-        for (std::size_t i = 0; i < rows_.size(); ++i) {
-            const std::size_t from = lines[rows_[i].line - 1];
-            const std::size_t to = i + 1 < rows_.size() ? lines[rows_[i + 1].line - 1] : table.size();
-            std::string_view slice = table.substr(from, to - from);
-            while (slice.ends_with('\n') || slice.ends_with('\r')) slice.remove_suffix(1);
-            written_.emplace_back(slice);
-        }
+        for (const Row& row : rows_) written_.emplace_back(row.written);
     }
 
     std::size_t rows() const { return rows_.size(); }
@@ -209,12 +201,17 @@ private:
 Result<SurveyedTable, Faults> merge_survey(std::string_view table, const std::string& file,
                                            const Survey& seen)
 {
+    const bool is_marked = table.starts_with(kByteOrderMark);
+    if (is_marked) table.remove_prefix(kByteOrderMark.size());
     if (table.empty()) table = kNewTable;
     const auto tags = read_tags(table, file);
     if (!tags) return Failure{tags.error()};
     Faults faults;
     TableText text{table, file, faults};
-    return Merger{std::move(text), *tags}.merge(seen);
+    if (!faults.empty()) return Failure{faults};
+    SurveyedTable merged = Merger{std::move(text), *tags}.merge(seen);
+    if (is_marked) merged.text.insert(0, kByteOrderMark); // the program of this person goes by it
+    return merged;
 }
 
 } // namespace dpslave::profile

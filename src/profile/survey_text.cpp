@@ -108,7 +108,8 @@ Result<std::vector<TagSpan>, std::string> parse_tag_spans(std::string_view text)
         const auto last =
             dash == std::string_view::npos ? first : whole<std::uint16_t>(item.substr(dash + 1));
         if (!first || !last || (rest.empty() && comma != std::string_view::npos))
-            return Failure{in_quotes(item) + ": write tags from 0 to 65535, as in 1-600,1000-1127"};
+            return Failure{in_quotes(text) +
+                           ": write tags from 0 to 65535 without blanks, as in 1-600,1000-1127"};
         if (*first > *last)
             return Failure{in_quotes(item) + ": the first tag is above the last one: exchange them"};
         spans.push_back({*first, *last});

@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cerrno>
-#include <string_view>
 #include <system_error>
 
 namespace dpslave::profile {
@@ -72,8 +71,7 @@ Result<std::string, Fault> read_text_file(const std::filesystem::path& file)
         const std::string& why = content.error().why;
         return Failure{Fault{file.string(), 0, 0, "the file cannot be read: " + why + "."}};
     }
-    constexpr std::string_view mark = "\xEF\xBB\xBF";
-    if (content->starts_with(mark)) content->erase(0, mark.size());
+    if (content->starts_with(kByteOrderMark)) content->erase(0, kByteOrderMark.size());
     return *std::move(content);
 }
 

@@ -214,6 +214,40 @@ TEST(SurveyTable, a_table_to_which_nothing_is_added_keeps_its_columns)
     EXPECT_EQ(merged(before, {{55, saw({"1.25"})}}).text, before);
 }
 
+TEST(SurveyTable, lines_of_blanks_between_the_rows_do_not_become_rows)
+{
+    const SurveyedTable table =
+        merged("tag,type,decimals\n \t\n55,INT,2\n   \n\n56,INT,2  \n \n", {{7, saw({"1.5"}, "a7")}});
+
+    EXPECT_EQ(table.text, "tag,type,decimals,min,max,mnemonic,notes,confirmed,seen_min,seen_max\n"
+                          "55,INT,2,,,,,,,\n"
+                          "56,INT,2  ,,,,,,,\n"
+                          "7,INT,1,,,a7,,no,1.5,1.5\n");
+}
+
+TEST(SurveyTable, a_byte_order_mark_and_lines_that_end_as_a_spreadsheet_ends_them_stay)
+{
+    const std::string mark = "\xEF\xBB\xBF";
+    const std::string header = "tag,name,type,decimals,min,max,mnemonic,notes,confirmed,seen_min,seen_max\r\n";
+    const auto joined = merge_survey(mark + header + "55,Drehzahl \xC3\xBC,INT,2,,,,,yes,,\r\n", "t.csv",
+                                     {{7, saw({"1.5"}, "a7")}});
+    ASSERT_TRUE(joined);
+    EXPECT_EQ(joined->text, mark + header + "55,Drehzahl \xC3\xBC,INT,2,,,,,yes,,\r\n"
+                                            "7,,INT,1,,,a7,,no,1.5,1.5\r\n");
+    const auto alone = merge_survey(mark, "t.csv", {});
+    ASSERT_TRUE(alone) << "a file with nothing but the mark";
+    EXPECT_EQ(alone->text, mark + std::string{kHeader});
+}
+
+TEST(SurveyTable, names_in_latin_1_stay_octet_by_octet)
+{
+    const std::string before = "tag,name,type,decimals,min,max,mnemonic,notes,confirmed,seen_min,seen_max\n"
+                               "55,Geschwindigkeit \xE4,INT,2,,,,,yes,,\n";
+    const SurveyedTable table = merged(before, {{7, saw({"1.5"}, "a7")}});
+
+    EXPECT_EQ(table.text, before + "7,,INT,1,,,a7,,no,1.5,1.5\n");
+}
+
 TEST(SurveyTable, two_tags_that_one_mnemonic_reaches_get_one_row)
 {
     const std::string before = std::string{kHeader} + "140,FIELD CURRENT,INT,1,,,,0F,,,,yes,,\n";

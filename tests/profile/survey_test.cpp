@@ -237,6 +237,8 @@ TEST(SurveyTags, what_is_no_such_list_is_refused)
          {"", "1,", ",1", "1-", "-5", "5-1", "65536", "0x37", "1 - 5", "1;5", "1--5"})
         EXPECT_FALSE(parse_tag_spans(text)) << text;
     EXPECT_THAT(parse_tag_spans("5-1").error(), HasSubstr("exchange"));
+    EXPECT_THAT(parse_tag_spans("5,").error(), HasSubstr("\"5,\": write tags")) << "5 alone is right";
+    EXPECT_THAT(parse_tag_spans("1, 3").error(), HasSubstr("without blanks"));
 }
 
 TEST(SurveyTags, are_told_as_spans)

@@ -7,11 +7,15 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace dpslave::profile {
 
 /// In octets. Files of people are small; more than this is a wrong path.
 inline constexpr std::size_t kMaxFileSize = 1024U * 1024U;
+
+/// Spreadsheet programs put it in front of a table in UTF-8.
+inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 /// What stands in `file`, octet by octet. Never waits: what is no regular file (a pipe, a terminal, a
 /// device) or is longer than kMaxFileSize is refused. The reason is a clause without the file's name.
