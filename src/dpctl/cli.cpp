@@ -320,10 +320,10 @@ void survey_arguments(CLI::App& app, Options& options)
     auto* duration = app.add_option("--for", options.duration, "Go on for so long: 90s, 10m, 2h")
                          ->type_name("TIME")
                          ->check([](const std::string& text) {
-                             return profile::parse_duration(text) ? std::string{}
-                                                                  : profile::in_quotes(text) +
-                                                                        ": write a time up to 30 days, as "
-                                                                        "90s, 10m or 2h";
+                             return profile::parse_duration(text)
+                                        ? std::string{}
+                                        : profile::in_quotes(text) + ": write a time up to 30 days, as "
+                                                                     "90s, 10m or 2h";
                          });
     app.add_option("--passes", options.passes, "Ask each tag so often")
         ->type_name("N")

@@ -57,7 +57,8 @@ std::string count(std::size_t number, const char* one)
 
 std::string progress_line(const SurveyProgress& p)
 {
-    const std::string left = p.left
+    const std::string left = p.waits_for_drive ? std::string{"the drive does not answer, waiting for it"}
+                             : p.left
                                  ? fmt::format("{}{} left", p.is_time_given ? "" : "about ", about(*p.left))
                                  : std::string{"the pace is not measured yet"};
     return fmt::format("{} of {} asked: {} answer, {} denied, {} silent; {}", p.visited, count(p.tags, "tag"),

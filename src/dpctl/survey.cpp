@@ -67,9 +67,10 @@ private:
     std::optional<End> read_one(control::Client& client, const EndSignals& end, std::uint16_t tag);
     std::optional<End> wait_for(bool for_drive, const EndSignals& end);
     bool take(const Json& reply, std::uint16_t tag);
+    profile::Survey seen_in_scope() const;
     SurveyProgress progress() const;
     void say_progress(bool last);
-    std::optional<std::string> save_now_and_then();
+    void save_now_and_then();
     int report(End end);
 
     const Options& options_;
@@ -81,6 +82,8 @@ private:
     std::optional<std::chrono::seconds> time_; ///< --for
     Clock::time_point began_ = Clock::now(), saved_ = began_, said_ = began_;
     std::optional<Clock::time_point> waits_since_; ///< for the drive, or for another survey
+    bool waits_for_drive_ = false;
+    std::string not_saved_; ///< why not, the last time
 };
 
 int Run::go(const EndSignals& end)
@@ -94,6 +97,9 @@ int Run::go(const EndSignals& end)
             terminal_.out << fmt::format("{} begins with the {} of {}.\n", files_.table(),
                                          plural(static_cast<std::int64_t>(files_.rows_taken_over()), "tag"),
                                          scope_.tag_table);
+        if (!files_.not_taken_over().empty())
+            terminal_.out << fmt::format("{} begins without the rows of the table in force: {}\n",
+                                         files_.table(), files_.not_taken_over());
         if (scope_.protocol == "modbus-rtu")
             terminal_.out << "Modbus shows 16 bits of each tag and no text: every row will be a WORD; type "
                              "and decimals "
@@ -113,10 +119,7 @@ End Run::read_all(control::Client& client, const EndSignals& end)
         const auto tag = plan_.next(files_.seen);
         if (!tag) return End::done;
         if (const auto ended = read_one(client, end, *tag)) return *ended;
-        if (const auto failed = save_now_and_then()) {
-            terminal_.err << "dpctl: " << *failed << '\n';
-            return End::failed;
-        }
+        save_now_and_then();
         say_progress(false);
     }
 }
@@ -144,6 +147,7 @@ std::optional<End> Run::read_one(control::Client& client, const EndSignals& end,
         if (!is_busy && take((*reply)->parameters, tag)) {
             pace_.took(Clock::now() - asked_at);
             waits_since_.reset();
+            waits_for_drive_ = false;
             return std::nullopt;
         }
         if (const auto ended = wait_for(!is_busy, end)) return ended;
@@ -154,8 +158,12 @@ std::optional<End> Run::wait_for(bool for_drive, const EndSignals& end)
 {
     const auto now = Clock::now();
     if (!waits_since_) waits_since_ = now;
-    if (time_ && now >= began_ + *time_) return End::time_is_over;
-    if (now >= *waits_since_ + kGiveUpAfter) return for_drive ? End::no_drive : End::other;
+    waits_for_drive_ = for_drive;
+    say_progress(false);
+    if (time_ && now >= began_ + *time_) return for_drive ? End::no_drive : End::time_is_over;
+    // Who has said how long it is to go on is not left before.
+    const bool gives_up = now >= *waits_since_ + kGiveUpAfter && !(time_ && for_drive);
+    if (gives_up) return for_drive ? End::no_drive : End::other;
     if (end.within(for_drive ? kWaitForDrive_ms : kWaitForOther_ms)) return End::interrupted;
     return std::nullopt;
 }
@@ -181,13 +189,24 @@ bool Run::take(const Json& reply, std::uint16_t tag)
     return true;
 }
 
+/// A record that is resumed may have others.
+profile::Survey Run::seen_in_scope() const
+{
+    profile::Survey seen;
+    for (const profile::TagSpan span : scope_.tags)
+        seen.insert(files_.seen.lower_bound(span.first), files_.seen.upper_bound(span.last));
+    return seen;
+}
+
 SurveyProgress Run::progress() const
 {
     SurveyProgress progress;
+    const profile::Survey seen = seen_in_scope();
     progress.tags = plan_.tags();
-    progress.visited = plan_.visited(files_.seen);
+    progress.visited = seen.size();
+    progress.waits_for_drive = waits_for_drive_;
     std::size_t reads = 0;
-    for (const auto& [tag, one] : files_.seen) {
+    for (const auto& [tag, one] : seen) {
         reads += one.asked();
         ++(one.answers > 0 ? progress.answering : one.denials > 0 ? progress.denied : progress.silent);
     }
@@ -222,26 +241,34 @@ void Run::say_progress(bool last)
     terminal_.out << std::flush;
 }
 
-std::optional<std::string> Run::save_now_and_then()
+/// What fails is tried again: a person saves the table, or makes room on the disk.
+void Run::save_now_and_then()
 {
-    if (Clock::now() < saved_ + kSaveEvery) return std::nullopt;
-    auto failed = files_.save();
+    if (Clock::now() < saved_ + kSaveEvery) return;
+    const std::string failed = files_.save().value_or("");
     saved_ = Clock::now();
-    return failed;
+    if (!failed.empty() && failed != not_saved_)
+        terminal_.err << (terminal_.tty ? "\r\033[K" : "")
+                      << fmt::format("dpctl: {}\nThe survey goes on and tries again.\n", failed)
+                      << std::flush;
+    not_saved_ = failed;
 }
 
 int Run::report(End end)
 {
     say_progress(true);
     if (const auto failed = files_.save()) {
-        terminal_.err << "dpctl: " << *failed << '\n';
+        terminal_.err << fmt::format(
+            "dpctl: {}\nRemove the cause, then go on with the same command and --resume: "
+            "what {} does not have is asked again.\n",
+            *failed, files_.record());
         return kNo;
     }
     SurveyReport report{scope_.station, files_.table(), files_.record(), plan_.tags(), false, {},
                         files_.joined()};
-    for (const profile::TagSpan span : scope_.tags)
-        report.seen.insert(files_.seen.lower_bound(span.first), files_.seen.upper_bound(span.last));
-    report.complete = end == End::done || (end == End::time_is_over && report.seen.size() == report.tags);
+    report.seen = seen_in_scope();
+    const bool is_time_over = end == End::time_is_over || (end == End::no_drive && time_);
+    report.complete = end == End::done || (is_time_over && report.seen.size() == report.tags);
     terminal_.out << (options_.json ? json_text(survey_json(report)) + '\n' : render_survey(report))
                   << std::flush;
     if (end == End::no_drive)

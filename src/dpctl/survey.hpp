@@ -5,6 +5,7 @@
 #include "fields.hpp"
 
 #include "dpslave/base/result.hpp"
+#include "dpslave/io/fd.hpp"
 #include "dpslave/profile/survey.hpp"
 
 #include <chrono>
@@ -15,7 +16,8 @@
 
 namespace dpslave::dpctl {
 
-/// The two files of a survey: the tag table, and beside it the record of what was read.
+/// The two files of a survey: the tag table, and beside it the record of what was read. Another survey that
+/// would write the same ones is refused meanwhile.
 class SurveyFiles {
 public:
     /// `begin_with`: a table whose rows stand in the new one where there is no `table` yet; empty = none. The
@@ -32,14 +34,22 @@ public:
     std::string table() const { return table_.string(); }
     std::string record() const { return record_.string(); }
     std::size_t rows_taken_over() const { return rows_taken_over_; } ///< of `begin_with`
+    /// Why `begin_with` could not be read, a sentence; empty: it could, or it was not needed.
+    const std::string& not_taken_over() const { return not_taken_over_; }
 
 private:
-    std::string table_now() const;
-    std::optional<std::string> join(const std::string& table_text);
+    struct Text {
+        std::string text; ///< of a tag table
+    };
+    void begin_with(const std::filesystem::path& file);
+    Result<Text, std::string> table_now() const;
+    std::optional<std::string> join(const Text& now);
 
     std::filesystem::path table_, record_;
     std::string first_table_; ///< until `table_` is there
     std::size_t rows_taken_over_ = 0;
+    std::string not_taken_over_;
+    io::Fd lock_; ///< on the record
     profile::SurveyedTable joined_;
     std::vector<std::uint16_t> added_; ///< by this survey
 };
@@ -64,6 +74,7 @@ struct SurveyProgress {
     double share = 0;                         ///< of the whole, 0 to 1
     std::optional<std::chrono::seconds> left; ///< nothing: not measured yet
     bool is_time_given = false;               ///< `left` is what is left of the time that was told
+    bool waits_for_drive = false;             ///< it does not answer
 };
 /// "412 of 1612 tags asked: 58 answer, 354 denied, 0 silent; about 1 min 10 s left".
 std::string progress_line(const SurveyProgress& progress);

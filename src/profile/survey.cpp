@@ -174,15 +174,6 @@ std::size_t SurveyPlan::tags() const
     });
 }
 
-std::size_t SurveyPlan::visited(const Survey& seen) const
-{
-    std::size_t count = 0;
-    for (const TagSpan span : spans_)
-        count += static_cast<std::size_t>(
-            std::distance(seen.lower_bound(span.first), seen.upper_bound(span.last)));
-    return count;
-}
-
 // ---- how long it takes
 
 void SurveyPace::took(std::chrono::nanoseconds one)

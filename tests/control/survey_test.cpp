@@ -110,12 +110,52 @@ TEST_F(SurveyFilesTest, ANewTableBeginsWithTheRowsOfTheOneInForce)
     const auto in_force = folder.path() / "590plus.csv";
     put(in_force, "tag,name,type\n537,SEQ STATUS,WORD\n");
 
-    const SurveyFiles files = open(false, in_force);
-
-    EXPECT_EQ(files.rows_taken_over(), 1U);
+    EXPECT_EQ(open(false, in_force).rows_taken_over(), 1U);
     EXPECT_THAT(content(table), HasSubstr("537,SEQ STATUS,WORD"));
     EXPECT_EQ(open(false, in_force).rows_taken_over(), 0U) << "the table is there by now";
     EXPECT_EQ(content(in_force), "tag,name,type\n537,SEQ STATUS,WORD\n");
+}
+
+TEST_F(SurveyFilesTest, ATableInForceThatASpreadsheetHasSavedIsTakenOverToo)
+{
+    const auto in_force = folder.path() / "590plus.csv";
+    put(in_force, "\xEF\xBB\xBFtag,name,type\r\n537,SEQ STATUS,WORD\r\n");
+
+    EXPECT_EQ(open(false, in_force).rows_taken_over(), 1U);
+    EXPECT_THAT(content(table), HasSubstr("537,SEQ STATUS,WORD"));
+}
+
+TEST_F(SurveyFilesTest, SayWhyTheRowsOfTheTableInForceAreMissing)
+{
+    const SurveyFiles none = open(false, folder.path() / "not-there.csv");
+    EXPECT_THAT(none.not_taken_over(), HasSubstr("not-there.csv: the file cannot be read"));
+    EXPECT_EQ(none.rows_taken_over(), 0U);
+}
+
+TEST_F(SurveyFilesTest, ATableThatCannotBeReadIsNotReplaced)
+{
+    const std::string large(std::size_t{1024} * 1024 + 1, 'x');
+    put(table, large);
+
+    EXPECT_THAT(SurveyFiles::open(table, {}, false).error(),
+                testing::AllOf(HasSubstr("cannot be read"), HasSubstr("larger than 1 MiB")));
+
+    EXPECT_EQ(content(table).size(), large.size());
+}
+
+TEST_F(SurveyFilesTest, OfOneSurveyAreNotThoseOfAnotherAtTheSameTime)
+{
+    {
+        SurveyFiles first = open();
+        EXPECT_THAT(SurveyFiles::open(table, {}, true).error(),
+                    testing::AllOf(HasSubstr("another survey writes this file"), HasSubstr("--table")));
+        first.seen[1].add(said("12.5"));
+        EXPECT_EQ(first.save(), std::nullopt);
+        EXPECT_THAT(SurveyFiles::open(table, {}, true).error(), HasSubstr("another survey"))
+            << "also when the file was written anew";
+        EXPECT_TRUE(SurveyFiles::open(folder.path() / "other.csv", {}, false));
+    }
+    EXPECT_EQ(open(true).seen.size(), 1U) << "its end gives them free";
 }
 
 TEST_F(SurveyFilesTest, AreWrittenWholeOrNotAtAll)
@@ -139,7 +179,8 @@ TEST_F(SurveyFilesTest, AreWrittenWholeOrNotAtAll)
 
 TEST_F(SurveyFilesTest, SayAtOnceWhatIsWrong)
 {
-    EXPECT_THAT(SurveyFiles::open(table, {}, true).error(), HasSubstr("leave --resume out"));
+    EXPECT_THAT(SurveyFiles::open(table, {}, true).error(),
+                testing::AllOf(HasSubstr("cannot be read: No such file"), HasSubstr("leave --resume out")));
     EXPECT_THAT(SurveyFiles::open(folder.path() / "none" / "t.csv", {}, false).error(),
                 HasSubstr("cannot be written"));
     EXPECT_THAT(SurveyFiles::open("/dev/null", {}, false).error(), HasSubstr("no regular file"));
@@ -164,6 +205,8 @@ TEST(SurveyProgressLine, SaysWhatWasAskedAndHowLongItTakes)
     p.left = seconds{120};
     p.is_time_given = true;
     EXPECT_THAT(progress_line(p), HasSubstr("; 2 min left")) << "told, not guessed";
+    p.waits_for_drive = true;
+    EXPECT_THAT(progress_line(p), HasSubstr("0 silent; the drive does not answer, waiting for it"));
 }
 
 TEST(SurveyReportText, SaysWhatWaitsWhatWasDeniedAndWhatContradicts)
@@ -270,6 +313,29 @@ TEST_F(SurveyProgram, ShowsABarOnATerminal)
     EXPECT_TRUE(running.prints("[###"));
     EXPECT_TRUE(running.prints("2 of 2 tags asked"));
     EXPECT_EQ(running.wait().exit, 0);
+}
+
+TEST_F(SurveyProgram, CountsOnlyTheTagsThatItWasToldToAskWhereTheRecordHasOthers)
+{
+    ASSERT_EQ(dpctl(command({"--only", "1-2"})).exit, 0);
+    Dpctl running{command({"--resume", "--only", "4", "--for", "2s"}), Dpctl::As::this_user, true};
+    EXPECT_TRUE(running.prints("] 1 of 1 tag asked: 1 answer, 0 denied, 0 silent;"));
+    EXPECT_EQ(running.wait().exit, 0);
+}
+
+TEST_F(SurveyProgram, ATableThatBecomesNoneUnderItsHandsIsLeftAloneAndTheRecordKeepsWhatWasRead)
+{
+    Dpctl running{command({"--only", "1,4", "--for", "1s"})};
+    ASSERT_TRUE(running.prints("2 tags to ask"));
+    put(table, "no,table\n1,2\n");
+
+    const Ran ran = running.wait();
+
+    EXPECT_EQ(ran.exit, 1);
+    EXPECT_THAT(ran.err, testing::AllOf(HasSubstr("no column tag"), HasSubstr("Remove the cause"),
+                                        HasSubstr("--resume")));
+    EXPECT_EQ(content(table), "no,table\n1,2\n");
+    EXPECT_THAT(content(folder.path() / "t.survey.csv"), HasSubstr("\n4,a4,"));
 }
 
 TEST_F(SurveyProgram, AContradictedRowIsNoSuccess)

@@ -202,7 +202,6 @@ TEST(SurveyPlan, says_how_many_reads_are_left)
         seen[tag].add(tag % 2 == 0 ? denied("invalid tag") : said("1."));
     seen[200] = saw({"1."});
 
-    EXPECT_EQ(once.visited(seen), 10U) << "tag 200 is not asked";
     EXPECT_EQ(once.left(seen), 90U);
     EXPECT_EQ(thrice.left(seen), 90U + 90U * 2 / 2 + 5U * 2)
         << "every second of the others will be denied, as it was until now";

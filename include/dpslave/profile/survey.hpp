@@ -101,8 +101,7 @@ public:
     /// Reads that are left, where there is an end to the passes: of tags that were not asked yet as many as
     /// the others took on the average.
     std::size_t left(const Survey& seen) const;
-    std::size_t tags() const;                      ///< that there are to ask
-    std::size_t visited(const Survey& seen) const; ///< asked at least once
+    std::size_t tags() const; ///< that there are to ask
 
 private:
     bool is_wanted(const Sighting& one) const;
