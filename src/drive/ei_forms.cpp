@@ -38,9 +38,10 @@ bool is_number(std::string_view text)
     return points <= 1 && digits > 0 && static_cast<std::size_t>(points + digits) == text.size();
 }
 
-std::string answers(const Tag& tag, std::string_view text)
+/// Whoever tells it names the tag.
+std::string answers(std::string_view text)
 {
-    return "tag " + std::to_string(tag.number) + " answers '" + std::string{text} + "'";
+    return "it answers '" + std::string{text} + "'";
 }
 
 std::string decimals_of(const Tag& tag)
@@ -54,7 +55,7 @@ std::string misfit(const Tag& tag, std::string_view text, ei::ValueFlaw flaw)
     const std::string row =
         tag.listed ? "its row says " + std::string{drive::text(tag.type)} + ", " + decimals_of(tag)
                    : "unlisted_decimals gives " + decimals_of(tag);
-    std::string what = answers(tag, text) + ", but " + row + ": " + std::string{ei::text(flaw)};
+    std::string what = answers(text) + ", but " + row + ": " + std::string{ei::text(flaw)};
     if (flaw == ei::ValueFlaw::too_many_decimals)
         what += "; the tag is refused until the table is corrected and loaded again";
     return what;
@@ -63,16 +64,15 @@ std::string misfit(const Tag& tag, std::string_view text, ei::ValueFlaw flaw)
 /// A number without a scale, and what gives it one.
 std::string no_scale(const Tag& tag, std::string_view text)
 {
-    const std::string number = std::to_string(tag.number);
     if (!tag.listed)
-        return answers(tag, text) +
-               " and is in no tag table: its decimals are not known; add a row with tag=" + number +
-               ", type and decimals, or set unlisted_decimals of the station";
+        return answers(text) + " and is in no tag table: its decimals are not known; add a row with type and "
+                               "decimals, or set "
+                               "unlisted_decimals of the station";
     if (!tag.confirmed)
-        return answers(tag, text) +
+        return answers(text) +
                ", and its row is not confirmed: compare the row with the drive's manual, then set "
                "confirmed to yes";
-    return answers(tag, text) + ", and its row has no decimals: fill in column decimals";
+    return answers(text) + ", and its row has no decimals: fill in column decimals";
 }
 
 } // namespace
@@ -99,7 +99,7 @@ EiForms::Taken EiForms::take_open(UnitAddress unit, const Tag& tag, std::string_
     seen_.erase(key(unit, tag));
     if (!has_scale(tag) && is_number(text)) return {AccessError::no_scale, 0, no_scale(tag, text)};
     if (!has_scale(tag))
-        return {AccessError::unsupported_type, 0, answers(tag, text) + ", which is neither number nor word"};
+        return {AccessError::unsupported_type, 0, answers(text) + ", which is neither number nor word"};
     const auto value = ei::decode_value(tag, text);
     if (!value) return {error_of(value.error()), 0, misfit(tag, text, value.error())};
     seen_.insert_or_assign(key(unit, tag), Form::number);

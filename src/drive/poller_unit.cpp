@@ -135,7 +135,9 @@ void Poller::Unit::go_on_as(std::size_t index, const UnitSettings& settings)
     settings_.retries = settings.retries;
     if (settings == settings_) return;
     UnitTags tags{settings};
+    tags.keep_contradicted(tags_);
     reads_.exchange(tags.reads_of(image_.layout));
+    if (lost_) reads_.drive_lost();
     outputs_.exchange(tags.outputs_of(image_.layout), settings.output_refresh);
     const auto row_of = [&tags](const Tag* row) { return tags.row(row->number); };
     safe_state_.exchange(row_of);

@@ -55,10 +55,17 @@ void ReadPlan::exchange(std::vector<Item> items)
             item.input = wanted.input;
             item.watched = wanted.watched;
             item.compared = wanted.compared;
+            item.form = wanted.form;
+            item.unscaled = wanted.unscaled;
             item.starts_block = false; // a cut on the way to a hole: the search begins anew
+            item.retry_at = {};        // its row may have what was missing
         } else if (item.asked) {
             item.word = known.word;
             item.tried = known.tried;
+            if (known.error != AccessError::no_scale) continue;
+            item.state = known.state; // the exchange does not begin with a word that was never read
+            item.error = known.error;
+            item.answer = known.answer;
         }
     }
     const bool compares = compares_;
@@ -365,7 +372,8 @@ void ReadPlan::drive_lost()
 {
     for (Item& item : items_) {
         item.tried = true; // with this result: nobody answers
-        if (excluded(item)) continue;
+        const bool waits_for_new_row = item.error == AccessError::no_scale && !item.unscaled;
+        if (excluded(item) && !waits_for_new_row) continue;
         item.state = WordState::stale;
         item.error = AccessError::no_answer;
     }

@@ -29,6 +29,12 @@ const Tag* UnitTags::row(std::uint16_t number)
     return &unlisted_.try_emplace(number, made).first->second;
 }
 
+void UnitTags::keep_contradicted(UnitTags& before)
+{
+    for (const std::uint16_t number : before.contradicted_)
+        if (is_same_value(*before.row(number), *row(number))) contradict(number);
+}
+
 AccessError UnitTags::verdict(const Tag& row, bool is_write) const
 {
     const bool never =

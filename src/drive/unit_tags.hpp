@@ -35,9 +35,10 @@ public:
     /// ascending.
     std::vector<ReadPlan::Item> reads_of(const Layout& layout);
     std::vector<OutputPlan::Item> outputs_of(const Layout& layout);
-    /// The drive has answered with more decimals than the row gives: refused for as long as this lives, which
-    /// is until the table changes.
+    /// The drive has answered with more decimals than the row gives: refused until the row changes.
     void contradict(std::uint16_t number) { contradicted_.insert(number); }
+    /// What was contradicted `before` stays so where the row is still the same.
+    void keep_contradicted(UnitTags& before);
     bool is_contradicted(std::uint16_t number) const { return contradicted_.count(number) != 0; }
 
     const std::vector<std::uint16_t>& watched() const { return watched_; } ///< kMaxWatched at most

@@ -325,7 +325,7 @@ TEST_F(EiClient, RefusesMoreDecimalsThanTheTableHasAndSaysWhich)
     dc.parameters["i0"].text = "12.345";
     EXPECT_EQ(read(kDc, demand), AccessError::contradicted);
     EXPECT_EQ(client.last_trouble(),
-              "tag 288 answers '12.345', but its row says INT, 1 decimal: it has more decimals than the tag "
+              "it answers '12.345', but its row says INT, 1 decimal: it has more decimals than the tag "
               "table gives; the tag is refused until the table is corrected and loaded again");
 }
 
@@ -367,7 +367,7 @@ TEST_F(EiClient, NeverWritesAnUnlistedNumberAndSaysWhatTheTableNeeds)
     EXPECT_EQ(write(kDc, unlisted_tag(288), 1), AccessError::no_scale);
     EXPECT_EQ(dc.parameters["i0"].writes, 0u);
     EXPECT_EQ(read(kDc, unlisted_tag(288)), AccessError::no_scale);
-    EXPECT_THAT(client.last_trouble(), HasSubstr("add a row with tag=288"));
+    EXPECT_THAT(client.last_trouble(), HasSubstr("add a row with type and decimals"));
     EXPECT_THAT(client.last_trouble(), HasSubstr("'12.5'"));
     EXPECT_EQ(client.last_answer(), "12.5");
 }

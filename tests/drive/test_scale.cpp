@@ -255,6 +255,52 @@ TEST_F(Scale, AnAnswerInHexadecimalEndsIt)
     EXPECT_STREQ(poller.snapshot(0).answer_texts[0].data(), "");
 }
 
+TEST_F(Scale, ARowThatAReloadBringsIsTakenAtOnceAndTheExchangeBeginsWithItsWord)
+{
+    const auto row_with = [](bool confirmed, bool decimals_known) {
+        Tag bare = row(kBare, TagType::number);
+        bare.decimals = decimals_known ? 1 : 0;
+        bare.decimals_known = decimals_known;
+        bare.confirmed = confirmed;
+        return TagTable{{bare}};
+    };
+    for (const bool was_confirmed : {false, true}) {
+        const TagTable before = row_with(was_confirmed, !was_confirmed), now = row_with(true, true);
+        poller.exchange({settings(before, {}, true)}, {0U}, {});
+        layout({kBare});
+        run(500ms);
+        ASSERT_TRUE(inputs.scale_missing);
+        ASSERT_EQ(inputs.words[0], 0);
+
+        poller.exchange({settings(now, {}, true)}, {0U}, {});
+        const Instant reload = line.time;
+        while (inputs.scale_missing && line.time < reload + 1s) run(1ms);
+
+        EXPECT_FALSE(inputs.scale_missing);
+        EXPECT_EQ(inputs.words[0], 75) << "the first image that lets it begin has the word";
+        poller.exchange({settings(tags, {}, true)}, {0U}, {});
+    }
+}
+
+TEST_F(Scale, ARowThatAReloadBringsEndsItAlsoWhileTheDriveIsSilent)
+{
+    layout({kBare});
+    run(500ms);
+    drive.alive = false;
+    run(5s);
+    ASSERT_TRUE(inputs.scale_missing);
+    Tag scaled = row(kBare, TagType::number);
+    scaled.decimals = 1;
+    const TagTable now{{scaled}};
+
+    poller.exchange({settings(now, {}, true)}, {0U}, {});
+    run(100ms);
+
+    EXPECT_FALSE(inputs.scale_missing) << "silence never holds";
+    EXPECT_EQ(poller.snapshot(0).states[0], WordState::stale);
+    poller.exchange({settings(tags, {}, true)}, {0U}, {});
+}
+
 TEST_F(Scale, FoundOutLaterTheInputIsZeroAndMarkedAndTheOthersGoOn)
 {
     holds(400, ">0007");
@@ -340,6 +386,33 @@ TEST_F(Scale, ARowThatAnAnswerContradictsStaysRefused)
     run(5s);
     EXPECT_EQ(inputs.words[0], 0);
     EXPECT_EQ(writes_of(kNumber), 0u);
+}
+
+TEST_F(Scale, ARowThatAnAnswerContradictsStaysRefusedThroughAReloadThatDoesNotChangeIt)
+{
+    layout({kNumber});
+    run(500ms);
+    holds(kNumber, "12.34");
+    run(500ms);
+    ASSERT_EQ(poller.snapshot(0).errors[0], AccessError::contradicted);
+    holds(kNumber, "12.5");
+    const TagTable same = table();
+    UnitSettings other_key = settings(same, {}, true);
+    other_key.output_refresh = 5s;
+
+    poller.exchange({other_key}, {0U}, {});
+    run(30s);
+    EXPECT_EQ(inputs.words[0], 0);
+    EXPECT_EQ(poller.snapshot(0).errors[0], AccessError::contradicted);
+    EXPECT_STREQ(poller.snapshot(0).answer_texts[0].data(), "12.34");
+
+    Tag two = row(kNumber, TagType::number);
+    two.decimals = 2;
+    const TagTable corrected{{two}};
+    poller.exchange({settings(corrected, {}, true)}, {0U}, {});
+    run(500ms);
+    EXPECT_EQ(inputs.words[0], 1250);
+    poller.exchange({settings(tags, {}, true)}, {0U}, {});
 }
 
 TEST_F(Scale, ADemandReadThatContradictsARowRefusesTheInputToo)
