@@ -284,6 +284,7 @@ void DriveThread::forget_trouble(const Unit& unit, const drive::Transaction& acc
 /// meanwhile; its own port is closed for it and opened again like one that was not there.
 void DriveThread::probe_line(const ProbeOrder& order, const std::stop_token& stop)
 {
+    link_.probe_tried.store(0, std::memory_order_relaxed);
     ProbeReport report{.number = order.number, .tried = 0, .answers = {}, .count = 0};
     const auto unit = std::find_if(units_.begin(), units_.end(),
                                    [&](const Unit& one) { return one.number == order.station; });
@@ -301,17 +302,28 @@ void DriveThread::probe_line(const ProbeOrder& order, const std::stop_token& sto
             const auto backend = LineBackend::open(trial, is_open);
             return backend && (*backend)->backend().probe(address);
         };
+        // The drive of another station is where it should be: what answers there is not the one looked for.
+        const auto is_of_another = [&](drive::UnitAddress address) {
+            return std::any_of(units_.begin(), units_.end(), [&](const Unit& one) {
+                return one.number != order.station && one.config->unit == address;
+            });
+        };
+        const auto is_over = [&] {
+            return stop.stop_requested() || link_.probe_ended.load(std::memory_order_relaxed) == order.number;
+        };
         for (const ProbeTry& one : probe_plan(line_, unit->config->unit)) {
             trial.baud = one.baud;
             trial.format = one.format;
             for (const drive::UnitAddress address : one.units) {
-                if (stop.stop_requested()) break;
-                ++report.tried;
+                if (is_over()) break;
+                if (is_of_another(address)) continue;
+                link_.probe_tried.store(++report.tried, std::memory_order_relaxed);
                 if (answers(address) && answers(address) && report.count < report.answers.size())
                     report.answers[report.count++] = {one.baud, one.format, address};
             }
-            if (report.count != 0) break; // what answers at one rate answers at no other
+            if (report.count != 0 || is_over()) break; // what answers at one rate answers at no other
         }
+        if (is_over()) spdlog::info("{}: the search for the drive was ended", unit->config->name);
     }
     link_.probe_reports.push(report);
 }

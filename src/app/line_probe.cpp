@@ -54,6 +54,22 @@ std::chrono::milliseconds probe_timeout(const LineConfig& line)
     return std::clamp(line.timeout, std::chrono::milliseconds{100}, std::chrono::milliseconds{300});
 }
 
+ProbeLength length_of(const std::vector<ProbeTry>& plan, const LineConfig& line)
+{
+    constexpr double kCharacters = 40; // of a question, and of what the port waits for before the next one
+    constexpr std::chrono::duration<double> kOpening{0.02};
+    ProbeLength length;
+    std::chrono::duration<double> time{};
+    for (const ProbeTry& one : plan) {
+        const auto count = static_cast<std::uint32_t>(one.units.size());
+        length.questions += count;
+        time += count *
+                (probe_timeout(line) + kOpening + std::chrono::duration<double>{kCharacters * 11 / one.baud});
+    }
+    length.longest = std::chrono::ceil<std::chrono::seconds>(time);
+    return length;
+}
+
 std::string unit_text(const LineConfig& line, drive::UnitAddress unit)
 {
     if (line.protocol == kModbusRtu) return std::to_string(unit.unit);

@@ -2,6 +2,7 @@
 #include "doctor.hpp"
 
 #include "ask.hpp"
+#include "end_signals.hpp"
 #include "words.hpp"
 
 #include <fmt/format.h>
@@ -114,9 +115,6 @@ std::optional<LineLimit> line_limit(const Json& bus)
 
 namespace {
 
-/// A probe asks each rate, format and unit in turn.
-constexpr double kProbeTimeout = 180; // s
-
 std::string probe_text(const Json& reply)
 {
     const Json& answering = list(reply, "answering");
@@ -135,15 +133,42 @@ std::string probe_text(const Json& reply)
            "dpctl reload.\n";
 }
 
-int do_probe(Options options, Terminal& terminal)
+/// How long it takes at most, and then how far it is: on a terminal only, over the same line.
+void tell_progress(const Json& reply, bool is_first, Terminal& terminal)
 {
-    options.timeout_s = std::max(options.timeout_s, kProbeTimeout);
+    if (is_first)
+        terminal.err << fmt::format("looking for the drive of {} on {}: {} s at most; Ctrl-C ends it\n",
+                                    text(reply, "station"), text(reply, "port"), number(reply, "longest_s"));
+    else if (terminal.tty)
+        terminal.err << fmt::format("\r{} of {} asked", number(reply, "tried"), number(reply, "to_try"));
+    terminal.err << std::flush;
+}
+
+int do_probe(const Options& options, Terminal& terminal)
+{
+    const EndSignals end;
     Json parameters = station_parameter(options);
     if (options.yes) parameters["yes"] = true;
-    const auto reply = ask(options, terminal, "ProbeDrive", parameters);
-    if (!reply) return reply.error();
-    terminal.out << (options.json ? json_text(*reply) + '\n' : probe_text(*reply)) << std::flush;
-    return list(*reply, "answering").empty() ? kNo : kFine;
+    auto client = control::Client::connect(options.socket, options.timeout());
+    if (!client) return tell(client.error(), terminal);
+    if (const auto failed = client->start("ProbeDrive", parameters)) return tell(*failed, terminal);
+    for (bool is_first = true;; is_first = false) {
+        auto reply = client->next(end.fd());
+        if (!reply) return tell(reply.error(), terminal);
+        if (!*reply) {
+            terminal.err << "\nended; the line goes back to its work\n";
+            return kNo;
+        }
+        if (!(*reply)->error.empty()) return tell(**reply, options, terminal);
+        Json now =
+            options.json ? std::move((*reply)->parameters) : printable_texts(std::move((*reply)->parameters));
+        if (flag(now, "done") || !(*reply)->continues) {
+            if (terminal.tty) terminal.err << "\r\033[K" << std::flush;
+            terminal.out << (options.json ? json_text(now) + '\n' : probe_text(now)) << std::flush;
+            return list(now, "answering").empty() ? kNo : kFine;
+        }
+        tell_progress(now, is_first, terminal);
+    }
 }
 
 } // namespace

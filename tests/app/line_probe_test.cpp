@@ -60,6 +60,21 @@ TEST(LineProbe, WaitsNoLongerForAnAnswerThanTheLineAndNeverForLong)
     EXPECT_EQ(probe_timeout(config), std::chrono::milliseconds{100});
 }
 
+TEST(LineProbe, SaysHowLongItTakesAtMost)
+{
+    LineConfig config = line(kModbusRtu, 9600);
+    config.timeout = std::chrono::milliseconds{200};
+    const std::vector<ProbeTry> plan{
+        {9600, config.format, {{.group = 0, .unit = 1}, {.group = 0, .unit = 2}}},
+        {1200, config.format, {{.group = 0, .unit = 1}}}};
+    const ProbeLength length = length_of(plan, config);
+    EXPECT_EQ(length.questions, 3U);
+    EXPECT_GE(length.longest, std::chrono::seconds{1}) << "3 times 200 ms, and characters at 1200 bit/s";
+    EXPECT_LE(length.longest, std::chrono::seconds{2});
+    EXPECT_LE(length_of(probe_plan(config, {.group = 0, .unit = 5}), config).longest,
+              std::chrono::seconds{60});
+}
+
 TEST(LineProbe, NamesAUnitAsTheConfigurationDoes)
 {
     EXPECT_EQ(unit_text(line(kEiAscii, 9600), {.group = 1, .unit = 10}), "1A");

@@ -102,7 +102,8 @@ std::map<std::string, json> all()
         {"GetTec", json::parse(kTec)},
         {"SetTec", json::parse(kTec)},
         {"ProbeDrive",
-         json::parse(R"({"station":"rewinder","line":"p3","port":"/dev/ttyS2","tried":130,"answering":[
+         json::parse(
+             R"({"station":"rewinder","line":"p3","port":"/dev/ttyS2","tried":130,"to_try":174,"longest_s":42,"done":true,"answering":[
             {"protocol":"ei-ascii","baud":19200,"format":"7E1","unit":"03"}]})")},
         {"Reload", json::parse(R"({"applied":true,"changes":["station rewinder removed"],
             "leaving":[{"station":"rewinder","reason":"removed"}],

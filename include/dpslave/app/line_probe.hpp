@@ -27,6 +27,13 @@ std::vector<ProbeTry> probe_plan(const LineConfig& line, drive::UnitAddress unit
 /// How long one question may take: the line's time-out, within 100 and 300 ms.
 std::chrono::milliseconds probe_timeout(const LineConfig& line);
 
+/// How much a plan is: its questions, and the time that they take if nothing answers.
+struct ProbeLength {
+    std::uint32_t questions = 0;
+    std::chrono::seconds longest{};
+};
+ProbeLength length_of(const std::vector<ProbeTry>& plan, const LineConfig& line);
+
 /// "03" of EI-ASCII, "3" of Modbus: as the configuration has it.
 std::string unit_text(const LineConfig& line, drive::UnitAddress unit);
 

@@ -176,10 +176,13 @@ struct LineOrder {
 
 /// A drive line and the main thread.
 struct LineLink {
-    Ring<LineOrder, 16> orders;              // main -> drive
-    Ring<drive::OperateAnswer, 16> answers;  // drive -> main
-    Ring<ProbeOrder, 2> probes;              // main -> drive
-    Ring<ProbeReport, 2> probe_reports;      // drive -> main
+    Ring<LineOrder, 16> orders;                // main -> drive
+    Ring<drive::OperateAnswer, 16> answers;    // drive -> main
+    Ring<ProbeOrder, 2> probes;                // main -> drive
+    Ring<ProbeReport, 2> probe_reports;        // drive -> main
+    std::atomic<std::uint32_t> probe_tried{0}; ///< drive -> main: questions of the probe that runs
+    /// main -> drive: the number of a probe that nobody waits for any more.
+    std::atomic<std::uint32_t> probe_ended{0};
     Mailbox<TroubleList> troubles;           // drive -> main
     std::atomic<bool> port_open{false};      // drive -> main
     Handover<LineWork> work;                 // main -> drive

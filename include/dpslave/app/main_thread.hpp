@@ -69,6 +69,14 @@ private:
         control::Caller who;
         std::optional<std::string> before; ///< the value of the tag when it was asked, if it was known
     };
+    /// Somebody waits for the search for a drive.
+    struct Probing {
+        std::shared_ptr<const StationConfig> config;
+        std::string line, port;
+        ProbeLength length;
+        std::optional<std::uint64_t> stream; ///< none: he waits for the end only
+        std::uint32_t told = 0;              ///< questions, as the stream was told last
+    };
     struct Watcher {
         std::optional<std::string> station; ///< its name
         std::string seen;                   ///< what it was shown last, without the ages
@@ -183,9 +191,9 @@ private:
     std::chrono::milliseconds usual_tick_ = kTick;
     Instant started_{};
     Instant next_count_{};
-    std::map<std::uint32_t, Asked> asked_; ///< by the number of the order
-    std::uint32_t next_order_ = 1;         ///< of an order or of another answer that is given later
-    std::map<std::uint32_t, std::shared_ptr<const StationConfig>> probing_; ///< by the number of the order
+    std::map<std::uint32_t, Asked> asked_;     ///< by the number of the order
+    std::uint32_t next_order_ = 1;             ///< of an order or of another answer that is given later
+    std::map<std::uint32_t, Probing> probing_; ///< by the number of the order
     static constexpr std::size_t kMaxProbes = 2;
     std::map<std::uint64_t, Watcher> watchers_;
     std::uint64_t next_stream_ = 1;
