@@ -71,6 +71,21 @@ constexpr std::array kRideSteps = std::to_array<std::string_view>({
     "The outputs of the lost master still stand at the drive: keep clear of the machine.",
     "dpctl tec set RIDE_THROUGH 0 ends it.",
 });
+constexpr std::array kStandsSteps = std::to_array<std::string_view>({
+    "The outputs of this master still stand at the drive: keep clear of the machine.",
+    "Switch the watchdog of this slave on in the master's project: then the outputs go to their safe state "
+    "when the "
+    "master is lost.",
+    "Look why the master is silent; systemctl stop dpslaved puts the outputs into their safe state.",
+});
+constexpr std::array kSyncSteps = std::to_array<std::string_view>({
+    "The master has sent Sync: new outputs count with its next Sync, or from Unsync on.",
+    "If that is not wanted: take this slave out of the group in the master's project.",
+});
+constexpr std::array kFreezeSteps = std::to_array<std::string_view>({
+    "The master has sent Freeze: inputs are read anew with its next Freeze, or from Unfreeze on.",
+    "If that is not wanted: take this slave out of the group in the master's project.",
+});
 constexpr std::array kScaleSteps = std::to_array<std::string_view>({
     "dpctl io names each tag and what the drive has answered.",
     "Give each tag a row with type and decimals, from the drive's product manual; where a survey made the "
@@ -210,6 +225,22 @@ std::string seen_watchdog(const Facts& f)
                            ? fmt::format("; it is {} ms", number(f.station, "watchdog_ms"))
                            : std::string{});
 }
+/// No telegram comes, and without a watchdog nothing ends the exchange.
+std::string seen_stands(const Facts& f)
+{
+    if (!exchanges(f) || integer(f.station, "watchdog_ms") || is_asked(f.station_counters)) return {};
+    const auto last = counted(f.station_counters, "data_exchange").last_ms;
+    return fmt::format("its watchdog is off, and the last Data_Exchange was {}",
+                       last ? age(last) + " ago" : std::string{"never"});
+}
+std::string seen_sync(const Facts& f)
+{
+    return exchanges(f) && flag(f.station, "sync") ? "Sync is on" : std::string{};
+}
+std::string seen_freeze(const Facts& f)
+{
+    return exchanges(f) && flag(f.station, "freeze") ? "Freeze is on" : std::string{};
+}
 std::string seen_restless(const Facts& f)
 {
     return f.family == Family::controller || !seen_watchdog(f).empty() ? std::string{} : restlessness(f);
@@ -229,6 +260,7 @@ std::string seen_unscaled(const Facts& f)
                             text(one, "answer"),
                             flag(one, "contradicted") ? ", more decimals than its row has" : "");
     if (tags.empty()) return {};
+    tags += "; the table is " + text(f.info, "tag_table");
     return flag(f.diagnosis, "held") ? tags + "; the master is held at the start" : tags;
 }
 std::string seen_no_table(const Facts& f)
@@ -267,6 +299,9 @@ constexpr std::array kRules = std::to_array<Rule>({
      "The master asks, but does not start this slave", kAskedOnlySteps, kGateway, seen_asked_only},
     {"station.clear", Scope::station, Rank::stands, "Data_Exch, and the last Global_Control was Clear_Data",
      "The master is in Clear (STOP): the drive gets 0", kClearSteps, kGateway, seen_clear},
+    {"station.stands", Scope::station, Rank::stands,
+     "Data_Exch without watchdog, and no telegram for ten seconds",
+     "The master is gone and its outputs stand: the watchdog is off", kStandsSteps, kGateway, seen_stands},
     {"station.ride_through", Scope::station, Rank::stands, "the master is lost and the outputs stand",
      "RIDE THROUGH is running", kRideSteps, "HA463561U002, MMI parameter descriptions", seen_ride},
     {"station.watchdog", Scope::station, Rank::stands, "the watchdog expires and the master starts again",
@@ -283,6 +318,10 @@ constexpr std::array kRules = std::to_array<Rule>({
      "a chosen tag answers with a number whose scale is not known",
      "The tag table does not say the decimals of a tag, or says too few", kScaleSteps, kGateway,
      seen_unscaled},
+    {"station.sync", Scope::station, Rank::note, "the master has sent Sync", "The outputs are held by Sync",
+     kSyncSteps, kGateway, seen_sync},
+    {"station.freeze", Scope::station, Rank::note, "the master has sent Freeze",
+     "The inputs are held by Freeze", kFreezeSteps, kGateway, seen_freeze},
     {"station.no_table", Scope::station, Rank::note, "the station has no tag table",
      "The scale of the drive's numbers is not known", kNoTableSteps, kGateway, seen_no_table},
     {"station.no_trip", Scope::station, Rank::note, "no tag tells the trip of the drive",

@@ -27,6 +27,7 @@ protected:
     {
         replies.status = fixture("GetStatus");
         replies.status["stations"].erase(1);
+        station()["freeze"] = false;
         station()["left_count"] = 0;
         station()["left_because"] = nullptr;
         replies.info = fixture("GetInfo");

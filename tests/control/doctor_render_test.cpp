@@ -106,6 +106,7 @@ TEST_F(Doctor, AsksOnlyForTheStationThatIsMeant)
     replies.status = fixture("GetStatus");
     replies.status["stations"][0]["left_count"] = 0;
 
+    replies.status["stations"][0]["freeze"] = false;
     EXPECT_THAT(diagnose(replies, "unwinder"), IsEmpty());
     EXPECT_EQ(diagnose(replies, "16").size(), 3u); // the drive, and the lists for its lamps
 }

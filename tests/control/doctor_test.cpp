@@ -543,6 +543,26 @@ TEST_F(Doctor, ARequestThatWasSpoiltOnItsWaySaysNothingAboutItsTag)
     EXPECT_THAT(found(), ElementsAre("drive.not_accepted"));
 }
 
+TEST_F(Doctor, SaysThatOutputsStandWhereTheMasterIsGoneAndTheWatchdogIsOff)
+{
+    hears_nothing_for(20'000);
+    station()["watchdog_ms"] = nullptr;
+    set_count(1, "data_exchange", 50'000, 100, 20'000.0);
+
+    EXPECT_THAT(found(), ElementsAre("bus.silent", "station.stands"));
+    EXPECT_EQ(evidence("station.stands"), "its watchdog is off, and the last Data_Exchange was 20.0 s ago");
+    EXPECT_THAT(steps("station.stands"), HasSubstr("keep clear"));
+}
+
+TEST_F(Doctor, NotesSyncAndFreezeThatHoldTheData)
+{
+    station()["sync"] = true;
+    station()["freeze"] = true;
+
+    EXPECT_THAT(found(), IsEmpty());
+    EXPECT_THAT(found(true), ElementsAre("station.sync", "station.freeze"));
+}
+
 TEST_F(Doctor, NamesThreeCausesForAStationAtMost)
 {
     drive_was_never_heard();
@@ -574,8 +594,8 @@ TEST_F(Doctor, NamesTheTagsWithoutAScaleAndTheirAnswers)
 
     EXPECT_THAT(found(), ElementsAre("station.unscaled"));
     EXPECT_EQ(evidence("station.unscaled"), "tag 55 answers '12.5', tag 56 answers '12.34', more decimals "
-                                            "than its row has; the master is held at "
-                                            "the start");
+                                            "than its row has; the table is 590.csv; the "
+                                            "master is held at the start");
 }
 
 TEST_F(Doctor, SaysThatAStationHasNoTagTable)
