@@ -362,6 +362,32 @@ TEST(DoctorOfTheDrive, FindsAUnitThatIsAnotherOne)
     const Outcome probe = gateway.dpctl({"doctor", "--probe", "--yes"});
     EXPECT_EQ(probe.status, 0) << probe.err;
     EXPECT_THAT(probe.out, HasSubstr("ei-ascii unit 03 at 38.4 kbit/s, 7E1"));
+    EXPECT_THAT(probe.err,
+                ContainsRegex("looking for the drive of unwinder on .*: [0-9]+ s at most; Ctrl-C ends it"));
+}
+
+TEST(DoctorOfTheDrive, LooksForItUntilThePersonHasEnoughAndThenTheLineGoesOn)
+{
+    Wiring wiring;
+    wiring.units = {"00", "01"};
+    wiring.present = {"00"};
+    Gateway gateway{wiring};
+    gateway.drive().tell("unit 00");
+    gateway.drive().tell("set 55 12.50");
+    EXPECT_TRUE(eventually([&] { return gateway.station(1).at("drive").at("link") == "silent"; }));
+
+    const Outcome which = gateway.dpctl({"doctor", "--probe"});
+    EXPECT_EQ(which.status, 1);
+    EXPECT_THAT(which.err, HasSubstr("for example: unwinder")) << "here it is no option";
+
+    Process probe{gateway.dpctl_command({"doctor", "--probe", "rewinder"})};
+    EXPECT_TRUE(probe.says("at most; Ctrl-C ends it"));
+    EXPECT_EQ(probe.end(SIGINT), 1);
+    EXPECT_TRUE(gateway.daemon().says("rewinder: the search for the drive was ended"));
+    EXPECT_FALSE(probe.transcript().await("a drive answers", 0, {}))
+        << "the drive of unwinder is not the one";
+    EXPECT_TRUE(eventually([&] { return gateway.station(0).at("drive").at("link") == "answers"; }));
+    EXPECT_THAT(gateway.dpctl({"read", "55", "--station", "unwinder"}).out, HasSubstr("12.50"));
 }
 
 TEST(DoctorOfTheDrive, FindsARateThatIsAnotherOne)

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// The log of the real daemon: who has set what, and that no trouble floods it.
+#include "gateway.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <string>
+
+namespace dpslave::test {
+namespace {
+
+using ::testing::ContainsRegex;
+
+/// The last line of the daemon that holds `text`, after it was said.
+std::string line_with(Gateway& gateway, const std::string& text)
+{
+    EXPECT_TRUE(gateway.daemon().says(text));
+    std::string found;
+    for (const std::string& line : gateway.daemon().transcript().lines())
+        if (line.find(text) != std::string::npos) found = line;
+    return found;
+}
+
+TEST(TheLog, SaysWhoHasSetAnInputOfTheFunctionBlockFromWhatToWhat)
+{
+    Wiring wiring;
+    wiring.profile = "605";
+    wiring.table = "tag,name,type,decimals,min,max,access,values,start\n"
+                   "55,Speed,INT,2,-300.00,300.00,ro,,0.00\n";
+    wiring.keys = "[station.tec]\nride_through = 20\n";
+    Gateway gateway{wiring};
+
+    ASSERT_EQ(gateway.dpctl({"tec", "set", "RIDE_THROUGH", "7"}).status, 0);
+    EXPECT_THAT(line_with(gateway, "RIDE_THROUGH set to 7"),
+                ContainsRegex(fmt::format("info: unwinder: RIDE_THROUGH set to 7 s by uid {}, pid [0-9]+, "
+                                          "before 20 s$",
+                                          ::getuid())));
+
+    ASSERT_NE(gateway.dpctl({"tec", "set", "RIDE_THROUGH", "700000"}).status, 0);
+    EXPECT_FALSE(gateway.daemon().ever_said("700000")) << "what was refused was not set";
+}
+
+TEST(TheLog, HasOneLineForADriveThatComesAndGoes)
+{
+    Gateway gateway;
+    const auto link_becomes = [&](const char* link) {
+        return eventually([&] { return gateway.station().at("drive").at("link") == link; });
+    };
+    for (int i = 0; i < 3; ++i) {
+        ASSERT_TRUE(link_becomes("answers"));
+        gateway.drive().tell("silence");
+        ASSERT_TRUE(link_becomes("silent"));
+        gateway.drive().tell("ok");
+    }
+    EXPECT_TRUE(gateway.daemon().says("unwinder: the drive does not answer"));
+    EXPECT_TRUE(gateway.daemon().says("unwinder: the drive does not answer"));
+    EXPECT_TRUE(gateway.daemon().ever_said("more time")) << "what came within 10 s is counted";
+}
+
+TEST(TheLog, HasOneLineForAModbusPortThatComesAndGoes)
+{
+    Wiring wiring;
+    wiring.profile = "2408f";
+    wiring.protocol = "modbus-rtu";
+    wiring.units = {"1"};
+    wiring.keys = "ident = 0x0A0B\n";
+    Gateway gateway{wiring};
+    const auto port_is = [&](bool open) {
+        return eventually([&] { return gateway.station().at("drive").at("port_open") == open; });
+    };
+    for (int i = 0; i < 4; ++i) {
+        ASSERT_TRUE(port_is(true));
+        gateway.unplug_drive();
+        ASSERT_TRUE(port_is(false));
+        gateway.plug_drive();
+    }
+    ASSERT_TRUE(port_is(true));
+    EXPECT_TRUE(gateway.daemon().says("drive-gateway has gone; it is opened again"));
+    EXPECT_TRUE(gateway.daemon().says("drive-gateway has gone; it is opened again"));
+    EXPECT_TRUE(gateway.daemon().ever_said("more time")) << "what came within 10 s is counted";
+    EXPECT_LT(gateway.daemon().how_often("drive-gateway has gone"), 2U);
+}
+
+} // namespace
+} // namespace dpslave::test
