@@ -333,10 +333,30 @@ void survey_arguments(CLI::App& app, Options& options)
     app.add_flag("--resume", options.resume, "Go on where the survey before this one ended");
 }
 
+/// Behind every subcommand, too; in the help of the program only.
+void add_version(CLI::App& app)
+{
+    for (CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; })) {
+        command->set_version_flag("--version", "dpctl " DPSLAVE_VERSION)->group("");
+        add_version(*command);
+    }
+}
+
+/// The command that `word` is near to, or the first one that begins with it; nothing: none.
+std::string_view meant_by(const std::string& word, const std::vector<std::string>& names)
+{
+    constexpr std::size_t kShort = 4; // every short word is near to another one
+    const std::string_view near =
+        word.size() < kShort ? profile::nearest(word, names, 1) : profile::nearest(word, names);
+    if (!near.empty()) return near;
+    const auto begins = std::find_if(names.begin(), names.end(),
+                                     [&word](const std::string& name) { return name.starts_with(word); });
+    return begins == names.end() ? std::string_view{} : std::string_view{*begins};
+}
+
 /// Says which command was perhaps meant, where the word in its place is none.
 void suggest(const CLI::App& app, const std::vector<std::string>& arguments, Terminal& terminal)
 {
-    constexpr std::size_t kNear = 2;
     const CLI::App* level = &app;
     for (std::size_t i = 0; i < arguments.size(); ++i) {
         const std::string& word = arguments[i];
@@ -349,7 +369,7 @@ void suggest(const CLI::App& app, const std::vector<std::string>& arguments, Ter
             if (names.back() == word) found = command;
         }
         if (found == nullptr) {
-            const std::string_view meant = profile::nearest(word, names, kNear);
+            const std::string_view meant = meant_by(word, names);
             if (!meant.empty())
                 terminal.err << "dpctl: there is no command '" << word << "'; did you mean '" << meant
                              << "'?\n";
@@ -390,6 +410,7 @@ int run(const std::vector<std::string>& arguments, Terminal& terminal)
         });
     }
     add_gsd(app, chosen);
+    add_version(app);
     try {
         std::vector<std::string> reversed(arguments.rbegin(), arguments.rend()); // the order CLI11 wants
         std::transform(reversed.begin(), reversed.end(), reversed.begin(), with_leading_zero);

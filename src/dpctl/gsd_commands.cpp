@@ -189,8 +189,10 @@ int gsd_check(const GsdOptions& options, Terminal& terminal)
     const auto content = read_file(options.file);
     if (!content) return refused(terminal, options.file + " cannot be read: " + content.error().why + '.');
     const auto reading = options.strict ? gsd::Reading::strict : gsd::Reading::tolerant;
-    const gsd::Findings findings =
-        gsd::check(gsd::parse(*content), reading, Path{options.file}.filename().string());
+    const gsd::Document document = gsd::parse(*content);
+    gsd::Findings findings = gsd::check(document, reading, Path{options.file}.filename().string());
+    if (!document.has_section) // no GSD file at all: what is remarkable about its lines is beside the point
+        std::erase_if(findings, [](const gsd::Finding& one) { return one.severity != gsd::Severity::error; });
     for (const gsd::Finding& finding : findings) print(terminal.out, options.file, finding);
     fmt::print(terminal.out, "{}: {}\n", options.file, summary(findings));
     return any_error(findings) ? kNo : kFine;

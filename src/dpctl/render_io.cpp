@@ -79,9 +79,11 @@ std::string render_io(const Json& reply, Look look)
 {
     std::string out;
     for (const Json& s : list(reply, "stations")) {
-        out += fmt::format("{}{}, address {}: {}; {}\n", out.empty() ? "" : "\n",
-                           painted(text(s, "name"), Tone::strong, look), number(s, "address"),
-                           text(s, "state"), outputs_text(s));
+        out += out.empty() ? "" : "\n";
+        out += headline(
+            text(s, "name"),
+            fmt::format(", address {}: {}; {}", number(s, "address"), text(s, "state"), outputs_text(s)),
+            look);
         const Table table = word_table(list(s, "words"));
         out += table.empty() ? "  no parameters: no master has chosen any\n" : table.str(look, 2);
         if (const Json& demand = part(s, "demand"); !demand.empty()) out += demand_lines(demand, look);

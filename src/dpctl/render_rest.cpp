@@ -15,8 +15,8 @@ std::string render_leds(const Json& reply, Look look)
         for (const Json& led : list(s, "leds"))
             table.add({text(led, "name"), flag(led, "lit") ? "lit" : "dark", text(led, "pattern"),
                        text(led, "sink") == "none" ? "no lamp is configured" : text(led, "sink")});
-        out += fmt::format("{}{}: {}\n", out.empty() ? "" : "\n",
-                           painted(text(s, "name"), Tone::strong, look), text(s, "meaning"));
+        out += out.empty() ? "" : "\n";
+        out += headline(text(s, "name"), ": " + text(s, "meaning"), look);
         if (!table.empty()) out += table.str(look, 2);
     }
     return out;

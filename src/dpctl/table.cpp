@@ -91,6 +91,17 @@ std::string paragraph(std::string_view first, std::string_view text, std::size_t
     return out;
 }
 
+std::string headline(const std::string& name, const std::string& rest, Look look)
+{
+    std::string out;
+    for (const std::string& line : wrapped(name + rest, look.width)) {
+        const bool is_first = out.empty() && line.starts_with(name);
+        out += is_first ? painted(name, Tone::strong, look) + line.substr(name.size()) : line;
+        end_line(out);
+    }
+    return out;
+}
+
 Table::Table(std::vector<std::string> header) : header_(std::move(header))
 {
     for (std::string& name : header_) {

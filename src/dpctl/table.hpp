@@ -28,6 +28,9 @@ std::vector<std::string> wrapped(std::string_view text, std::size_t width);
 /// `text` behind `first`, its other lines under its beginning; each line ended.
 std::string paragraph(std::string_view first, std::string_view text, std::size_t width);
 
+/// `name` in bold and `rest` behind it: the head of a block. Each line ended.
+std::string headline(const std::string& name, const std::string& rest, Look look);
+
 struct Cell {
     Cell(std::string t, Tone with = Tone::plain) : text(std::move(t)), tone(with) {}
     Cell(const char* t) : text(t) {}

@@ -174,6 +174,8 @@ int main(int argc, char** argv)
     add_line(app, line);
     add_drive(app, drive);
     add_master(app, master, texts);
+    for (CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; }))
+        command->set_version_flag("--version", "dpsim " DPSLAVE_VERSION)->group(""); // in the help once
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -284,6 +284,8 @@ TEST(DpctlHelp, SuggestsTheCommandThatIsNearest)
     EXPECT_THAT(dpctl({"stauts"}).err, HasSubstr("there is no command 'stauts'; did you mean 'status'?"));
     EXPECT_THAT(dpctl({"gsd", "chek", "x"}).err, HasSubstr("did you mean 'check'?"));
     EXPECT_THAT(dpctl({"--json", "docter"}).err, HasSubstr("did you mean 'doctor'?"));
+    EXPECT_THAT(dpctl({"is-exchange"}).err, HasSubstr("did you mean 'is-exchanging'?"));
+    EXPECT_THAT(dpctl({"foo"}).err, Not(HasSubstr("did you mean"))) << "io is not near to it";
     EXPECT_THAT(dpctl({"entirely-else"}).err, Not(HasSubstr("did you mean")));
     EXPECT_THAT(dpctl({"status", "--nonsense"}).err, Not(HasSubstr("did you mean")));
     EXPECT_EQ(dpctl({"stauts"}).exit, 2);
@@ -292,6 +294,15 @@ TEST(DpctlHelp, SuggestsTheCommandThatIsNearest)
 TEST(DpctlHelp, TellsTheVersion)
 {
     EXPECT_EQ(dpctl({"--version"}).out, "dpctl " DPSLAVE_VERSION "\n");
+    for (const std::vector<std::string>& words :
+         std::vector<std::vector<std::string>>{{"status", "--version"},
+                                               {"read", "--version"},
+                                               {"gsd", "--version"},
+                                               {"gsd", "check", "--version"},
+                                               {"tec", "set", "--version"}}) {
+        EXPECT_EQ(dpctl(words).out, "dpctl " DPSLAVE_VERSION "\n") << words.front();
+        EXPECT_EQ(dpctl(words).exit, 0) << words.front();
+    }
     EXPECT_EQ(dpctl({"--version"}).exit, 0);
 }
 

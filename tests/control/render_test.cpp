@@ -105,7 +105,7 @@ std::size_t widest(const std::string& picture)
 TEST(DpctlPictures, Fit80ColumnsAndUseAWiderTerminal)
 {
     Json io = fixture("GetIo"), diagnosis = fixture("GetDiagnosis"), counters = fixture("GetCounters"),
-         status = fixture("GetStatus");
+         status = fixture("GetStatus"), leds = fixture("GetLeds");
     const std::string many(30, 'W');
     const std::string words = many + ' ' + many + ' ' + many + ' ' + many;
     io["stations"][0]["words"][0]["name"] = words;
@@ -114,6 +114,7 @@ TEST(DpctlPictures, Fit80ColumnsAndUseAWiderTerminal)
     diagnosis["stations"][0]["bits"] = Json::array({words, words});
     counters["groups"][0]["counters"][0]["meaning"] = words;
     status["stations"][0]["silent_because"] = words;
+    io["stations"][0]["name"] = leds["stations"][0]["name"] = many + many;
     status["bus"]["port"] = "/dev/serial/by-id/" + many + many;
 
     const Look wide{false, 160};
@@ -121,6 +122,7 @@ TEST(DpctlPictures, Fit80ColumnsAndUseAWiderTerminal)
     EXPECT_LE(widest(render_io(io, false)), 80U);
     EXPECT_LE(widest(render_diagnosis(diagnosis, false)), 80U);
     EXPECT_LE(widest(render_counters(counters, false)), 80U);
+    EXPECT_LE(widest(render_leds(leds, false)), 80U);
     EXPECT_GT(widest(render_io(io, wide)), 80U);
     EXPECT_GT(widest(render_diagnosis(diagnosis, wide)), 80U);
     EXPECT_GT(widest(render_counters(counters, wide)), 80U);

@@ -90,6 +90,14 @@ TEST(GsdCheckCommand, RefusesWhatCannotBeReadOrIsTooLong)
     EXPECT_THAT(gsd_command({"check", large}).err, HasSubstr("larger than 1 MiB"));
 }
 
+TEST(GsdCheckCommand, SaysOfAnotherKindOfFileOnlyThatItIsNoGsdFile)
+{
+    const Ran ran = gsd_command({"check", (kSource / "README.md").string()});
+    EXPECT_EQ(ran.exit, 1);
+    EXPECT_THAT(ran.out, HasSubstr("this is no GSD file"));
+    EXPECT_THAT(ran.out, testing::Not(HasSubstr("warning:")));
+}
+
 TEST(GsdCheckCommand, PrintsNoControlCharactersOfAFile)
 {
     const test::Folder folder;
