@@ -15,7 +15,7 @@ namespace dpslave::app {
 /// gone.
 void BusThread::follow_rate()
 {
-    if (const auto baud = station_.take_baud_change()) set_baud(*baud);
+    if (const auto baud = layer2_.take_baud_change()) set_baud(*baud);
 }
 
 void BusThread::set_baud(Baud baud)

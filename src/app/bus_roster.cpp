@@ -84,7 +84,7 @@ void BusThread::take_off(std::size_t place)
     one.slave().stop(io::monotonic_now());
     waiting_.set(place, !one.hand_on());
     turns_.changed(place);
-    station_.detach(address);
+    layer2_.detach(address);
     at_[address].reset();
     places_[place].address.reset();
 }
@@ -95,7 +95,7 @@ void BusThread::put_on(std::size_t place)
     const std::uint8_t address = one.orders().address;
     if (at_[address]) return; // still somebody else's: with the next tick
     one.slave().set_address(address);
-    if (!station_.attach(address, one, one.personality().max_tsdr)) return;
+    if (!layer2_.attach(address, one, one.personality().max_tsdr)) return;
     one.slave().start(io::monotonic_now());
     at_[address] = static_cast<std::uint8_t>(place);
     places_[place].address = address;

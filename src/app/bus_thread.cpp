@@ -33,9 +33,9 @@ void for_each(const std::bitset<128>& bits_set, Visit visit)
     }
 }
 
-fdl::StationSettings station_settings(const BusConfig& config, io::Port& port, const io::DriverEnable& driver)
+fdl::Layer2Settings layer2_settings(const BusConfig& config, io::Port& port, const io::DriverEnable& driver)
 {
-    fdl::StationSettings settings;
+    fdl::Layer2Settings settings;
     settings.start_up_latency = driver.edge_time(); // the driver goes on before the first bit
     if (config.baud) {
         settings.baud = *config.baud;
@@ -47,14 +47,6 @@ fdl::StationSettings station_settings(const BusConfig& config, io::Port& port, c
     // A port that vanishes while it is asked can do nothing; all rates are tried when it is back.
     if (const auto can = port.tty().bauds().can; can.any()) settings.search->rates = can;
     return settings;
-}
-
-/// How long the echo of a reply may take to be read after its last bit: the FIFO of the UART and the kernel's
-/// own workers are in it, as in the gap that ends an unfinished telegram (wire reference 1.5).
-std::chrono::nanoseconds echo_latency(Baud baud)
-{
-    using std::chrono::milliseconds;
-    return duration_of(fdl::kTsyn, baud) + (baud >= Baud::k93_75 ? milliseconds{5} : milliseconds{20});
 }
 
 } // namespace
@@ -76,11 +68,11 @@ BusThread::BusThread(const BusConfig& config, io::Port port, io::DriverEnable& d
       driver_(driver),
       sender_(driver),
       echo_(config.echo),
-      station_(station_settings(config, port_, driver)),
+      layer2_(layer2_settings(config, port_, driver)),
       link_(link),
       roster_(std::move(roster))
 {
-    link_.baud.store(station_.baud(), std::memory_order_relaxed);
+    link_.baud.store(layer2_.baud(), std::memory_order_relaxed);
     seat_newcomers();
 }
 
@@ -99,12 +91,12 @@ void BusThread::run(std::stop_token stop, io::EventFd& wake)
     faults_at_start_ = io::page_faults_of_thread();
 
     while (!stop.stop_requested()) {
-        if (orders_due_ && !sender_.is_sending() && !station_.reply_waits()) {
+        if (orders_due_ && !sender_.is_sending() && !layer2_.reply_waits()) {
             follow_roster();
             obey_orders();
         }
         look(octets_before(next_wake()));
-        if (station_.next_deadline() - io::monotonic_now() < kSpin) wait_for_window();
+        if (layer2_.next_deadline() - io::monotonic_now() < kSpin) wait_for_window();
         send();
         finish_sending(); // a short reply is over before anything else could be done
         hand_on();
@@ -137,8 +129,8 @@ void BusThread::leave_bus()
 
 Instant BusThread::next_wake() const
 {
-    Instant next = station_.next_deadline();
-    if (!station_.reply_waits()) next = std::min(next, turns_.next());
+    Instant next = layer2_.next_deadline();
+    if (!layer2_.reply_waits()) next = std::min(next, turns_.next());
     // Somewhat before: the driver is let go on the dot, and to wake up takes its time.
     if (sender_.is_sending()) next = std::min(next, sender_.next_deadline() - 2 * kSpin);
     return next;
@@ -167,14 +159,14 @@ bool BusThread::octets_before(Instant when)
 void BusThread::look(bool octets)
 {
     if (octets && port_.is_open() && !read_line()) lose_port();
-    station_.on_time(io::monotonic_now());
+    layer2_.on_time(io::monotonic_now());
 }
 
 /// The window of a reply opens in a moment. The wait is used to hand on what this telegram brought, for
 /// nothing else is to be done; then a last look whether the master has gone on in the meantime.
 void BusThread::wait_for_window()
 {
-    const Instant opens = station_.next_deadline();
+    const Instant opens = layer2_.next_deadline();
     hand_on();
     while (io::monotonic_now() < opens - kLastLook) {
     }
@@ -195,8 +187,8 @@ bool BusThread::read_line()
         if (!chunk->octets.empty()) hear(chunk->octets, read_at, more);
         if (chunk->bad_character) {
             if (const Bytes withheld = echo_.on_character_error(read_at); !withheld.empty())
-                station_.on_bytes(withheld, read_at, true);
-            station_.on_character_error(read_at);
+                layer2_.on_bytes(withheld, read_at, true);
+            layer2_.on_character_error(read_at);
         }
         if (!chunk->more) return true;
     }
@@ -208,19 +200,19 @@ void BusThread::hear(Bytes octets, Instant read_at, bool more)
     const auto foreign = echo_.remove(octets, read_at);
     if (foreign.octets.empty()) return;
     heard_at_ = read_at;
-    if (!foreign.withheld.empty()) station_.on_bytes(foreign.withheld, read_at, true);
-    station_.on_bytes(foreign.octets, read_at, more);
+    if (!foreign.withheld.empty()) layer2_.on_bytes(foreign.withheld, read_at, true);
+    layer2_.on_bytes(foreign.octets, read_at, more);
 }
 
 void BusThread::send()
 {
-    const auto reply = station_.take_transmit();
+    const auto reply = layer2_.take_transmit();
     if (!reply) return;
     if (!port_.is_open()) {
         ++unsent_;
         return;
     }
-    const Baud baud = station_.baud();
+    const Baud baud = layer2_.baud();
     const auto written = sender_.send(*reply, port_.tty(), baud);
     if (!written) {
         ++unsent_;
@@ -229,7 +221,8 @@ void BusThread::send()
     }
     const Tbit length{static_cast<std::uint32_t>(reply->size()) * kCharacter.count};
     const Instant over = *written + duration_of(length, baud);
-    echo_.sent(*reply, over + duration_of(fdl::kTsyn, baud), over + echo_latency(baud));
+    // The FIFO of the UART and the kernel's own workers delay an echo as they do the rest of a telegram.
+    echo_.sent(*reply, over + duration_of(fdl::kTsyn, baud), over + fdl::silence_limit(baud));
     count_turnaround(*written, baud);
 }
 
@@ -245,7 +238,7 @@ void BusThread::count_turnaround(Instant written, Baud baud)
     };
     turnaround_us_.add(in(1'000'000));
     turnaround_tbit_.add(in(static_cast<std::uint64_t>(baud)));
-    if (written > station_.window_ended()) ++too_late_;
+    if (written > layer2_.window_ended()) ++too_late_;
 }
 
 void BusThread::finish_sending()
@@ -261,7 +254,7 @@ bool BusThread::in_a_hurry(Instant now) const
 /// Outputs, orders and events of the stations that were spoken to.
 void BusThread::hand_on()
 {
-    const auto addresses = station_.take_touched();
+    const auto addresses = layer2_.take_touched();
     if (addresses.none() && waiting_.none()) return;
     for_each(addresses, [this](unsigned address) {
         if (!at_[address])
@@ -275,7 +268,7 @@ void BusThread::hand_on()
 /// Nothing is shown while a reply waits: its window is short.
 bool BusThread::may_show(Instant now) const
 {
-    return !station_.reply_waits() && !in_a_hurry(now);
+    return !layer2_.reply_waits() && !in_a_hurry(now);
 }
 
 /// Snapshots for the main thread.
@@ -288,13 +281,13 @@ void BusThread::show(Instant now)
 void BusThread::show_bus(Instant now)
 {
     next_bus_snapshot_ = now + SnapshotTurns::kInterval;
-    link_.snapshot.publish({.baud = station_.baud(),
-                            .baud_state = station_.baud_state(),
+    link_.snapshot.publish({.baud = layer2_.baud(),
+                            .baud_state = layer2_.baud_state(),
                             .port_open = port_.is_open(),
                             .taken_at = now,
-                            .last_telegram = station_.last_telegram(),
-                            .counters = station_.counters(),
-                            .unanswered = station_.unanswered(),
+                            .last_telegram = layer2_.last_telegram(),
+                            .counters = layer2_.counters(),
+                            .unanswered = layer2_.unanswered(),
                             .write_errors = sender_.write_errors(),
                             .unsent = unsent_,
                             .turnaround_us = turnaround_us_,

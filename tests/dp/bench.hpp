@@ -91,7 +91,7 @@ protected:
     std::vector<dpslave::Generation> left();
 
     dpslave::dp::Personality personality;
-    dpslave::fdl::Station station{{.baud = dpslave::Baud::k187_5, .search = {}, .start_up_latency = {}}};
+    dpslave::fdl::Layer2 station{{.baud = dpslave::Baud::k187_5, .search = {}, .start_up_latency = {}}};
     dpslave::dp::Slave slave{personality, kUs};
     Bus bus{station};
     Master master{bus, 2};

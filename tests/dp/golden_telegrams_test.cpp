@@ -157,7 +157,7 @@ protected:
     }
 
     dpslave::dp::Personality device;
-    dpslave::fdl::Station station{{.baud = dpslave::Baud::k187_5, .search = {}, .start_up_latency = {}}};
+    dpslave::fdl::Layer2 station{{.baud = dpslave::Baud::k187_5, .search = {}, .start_up_latency = {}}};
     dpslave::dp::Slave slave{device, 8};
     Bus bus{station};
     Master master{bus, 1};

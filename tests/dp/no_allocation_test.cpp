@@ -68,7 +68,7 @@ protected:
     std::uint8_t fc = 0;
     dpslave::Instant now{std::chrono::seconds{1000}};
     dpslave::dp::Personality personality = option_board();
-    dpslave::fdl::Station station{{.baud = dpslave::Baud::k187_5, .search = {}, .start_up_latency = {}}};
+    dpslave::fdl::Layer2 station{{.baud = dpslave::Baud::k187_5, .search = {}, .start_up_latency = {}}};
     dpslave::dp::Slave slave{personality, kUs};
 };
 

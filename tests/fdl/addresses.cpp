@@ -30,7 +30,7 @@ protected:
     }
 
     std::vector<std::unique_ptr<RecordingUser>> users;
-    fdl::Station station{fdl::StationSettings{}};
+    fdl::Layer2 station{fdl::Layer2Settings{}};
     Bus bus{station};
 };
 
@@ -39,7 +39,7 @@ void expect_one_slave_at(std::uint8_t address)
 {
     SCOPED_TRACE(static_cast<int>(address));
     const std::uint8_t master = address == 0 ? 1 : 0;
-    fdl::Station station{fdl::StationSettings{}};
+    fdl::Layer2 station{fdl::Layer2Settings{}};
     RecordingUser user;
     user.inputs = {address};
     station.attach(address, user, kClassMaxTsdr);

@@ -18,7 +18,7 @@ protected:
         return all;
     }
 
-    fdl::Station station{fdl::StationSettings{}};
+    fdl::Layer2 station{fdl::Layer2Settings{}};
     RecordingUser user;
     Bus bus{station};
 };

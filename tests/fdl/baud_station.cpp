@@ -32,7 +32,7 @@ protected:
     }
 
     RecordingUser user;
-    fdl::Station station{{.baud = Baud::k1500, .search = fdl::BaudSearchSettings{}, .start_up_latency = {}}};
+    fdl::Layer2 station{{.baud = Baud::k1500, .search = fdl::BaudSearchSettings{}, .start_up_latency = {}}};
     Bus bus{station, {.baud = Baud::k1500, .min_tsdr = 11_tbit, .max_tsdr = {}}};
 };
 
@@ -98,7 +98,7 @@ TEST_F(Searching, SilentLineIsSearchedDownwards)
 
 TEST_F(Searching, FixedRateIsNeverLeft)
 {
-    fdl::Station fixed{{.baud = Baud::k45_45, .search = {}, .start_up_latency = {}}};
+    fdl::Layer2 fixed{{.baud = Baud::k45_45, .search = {}, .start_up_latency = {}}};
     Bus line{fixed, {.baud = Baud::k45_45, .min_tsdr = 11_tbit, .max_tsdr = {}}};
     line.advance(seconds{100});
 
@@ -178,7 +178,7 @@ TEST_F(Searching, RateOf45_45IsNotFound)
 
 TEST_F(Searching, UntilTheEdgeHasSetTheFirstRateNothingIsListenedTo)
 {
-    fdl::Station fresh{{.baud = Baud::k187_5, .search = fdl::BaudSearchSettings{}, .start_up_latency = {}}};
+    fdl::Layer2 fresh{{.baud = Baud::k187_5, .search = fdl::BaudSearchSettings{}, .start_up_latency = {}}};
     const Octets ask = sd1(kUs, kMaster, kFdlStatus);
     fresh.on_bytes(ask, bus.now());
     EXPECT_EQ(fresh.counters().telegrams, 0u);
@@ -194,7 +194,7 @@ TEST_F(Searching, StationBeginsAtTheHighestRateThatTheUartCanDo)
     fdl::BaudSearchSettings some;
     some.rates.reset(index_of(Baud::k1500));
     some.rates.reset(index_of(Baud::k500));
-    fdl::Station other{{.baud = Baud::k1500, .search = some, .start_up_latency = {}}};
+    fdl::Layer2 other{{.baud = Baud::k1500, .search = some, .start_up_latency = {}}};
 
     EXPECT_EQ(other.take_baud_change(), Baud::k187_5);
 }
@@ -288,7 +288,7 @@ TEST_F(Searching, ReplyThatWaitsIsDroppedWhenTheSearchBegins)
 {
     fdl::BaudSearchSettings hasty;
     hasty.baud_control = hasty.dwell_slow = milliseconds{1};
-    fdl::Station slow{{.baud = Baud::k9_6, .search = hasty, .start_up_latency = {}}};
+    fdl::Layer2 slow{{.baud = Baud::k9_6, .search = hasty, .start_up_latency = {}}};
     slow.attach(kUs, user, kClassMaxTsdr);
     user.min_tsdr_bits = 50_tbit; // 5.2 ms
     const Octets ask = sd1(kUs, kMaster, kFdlStatus);

@@ -95,7 +95,7 @@ protected:
     }
 
     RecordingUser user;
-    dpslave::fdl::Station station{{.baud = dpslave::Baud::k187_5, .search = {}, .start_up_latency = {}}};
+    dpslave::fdl::Layer2 station{{.baud = dpslave::Baud::k187_5, .search = {}, .start_up_latency = {}}};
     Bus bus{station};
 };
 

@@ -185,7 +185,7 @@ TEST_F(Detach, EveryAddressCanComeAndGoForEver)
 TEST(DetachWhileSearching, TheWatchdogOfADetachedSlaveKeepsTheRateNoMore)
 {
     RecordingUser user;
-    fdl::Station station{{.baud = Baud::k187_5, .search = fdl::BaudSearchSettings{}, .start_up_latency = {}}};
+    fdl::Layer2 station{{.baud = Baud::k187_5, .search = fdl::BaudSearchSettings{}, .start_up_latency = {}}};
     Bus bus{station};
     station.attach(kUs, user, kClassMaxTsdr);
     bus.advance({});

@@ -21,7 +21,7 @@ TEST_F(Judge, SeesAReplyBeforeMinTsdr)
 
 TEST_F(Judge, SeesAReplyAfterTheDeadline)
 {
-    fdl::Station slow{fdl::StationSettings{}};
+    fdl::Layer2 slow{fdl::Layer2Settings{}};
     slow.attach(kUs, user, {100_tbit, 100_tbit, 100_tbit, 100_tbit, 100_tbit, 100_tbit, 100_tbit});
     Bus line{slow}; // where 60 are allowed
     line.edge_is_late_by(line.bits(60));

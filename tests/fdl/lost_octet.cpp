@@ -45,7 +45,7 @@ struct Line {
     std::uint64_t flaws(Flaw flaw) const { return station.counters().flaws[static_cast<std::size_t>(flaw)]; }
 
     RecordingUser user;
-    fdl::Station station;
+    fdl::Layer2 station;
     Bus bus;
 };
 

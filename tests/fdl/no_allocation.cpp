@@ -69,7 +69,7 @@ private:
 
 TEST(ReplyPath, AllocatesNothingIn10000RequestsOfAllKinds)
 {
-    const auto station = std::make_unique<fdl::Station>(fdl::StationSettings{
+    const auto station = std::make_unique<fdl::Layer2>(fdl::Layer2Settings{
         .baud = Baud::k1500, .search = fdl::BaudSearchSettings{}, .start_up_latency = {}});
     std::array<TurningUser, 3> users;
     for (std::uint8_t a = 0; a < 3; ++a)

@@ -186,7 +186,7 @@ TEST_F(Resynchronisation, BadCharacterInAnSd2HeaderEndsItsTelegramThere)
 {
     for (std::size_t place = 1; place < 4; ++place) {
         SCOPED_TRACE(place);
-        fdl::Station fresh{{.baud = Baud::k187_5, .search = {}, .start_up_latency = {}}};
+        fdl::Layer2 fresh{{.baud = Baud::k187_5, .search = {}, .start_up_latency = {}}};
         RecordingUser own;
         fresh.attach(kUs, own, kClassMaxTsdr);
         fresh.on_bytes(Bytes{kAsk}.first(place), kRead, true);
@@ -225,7 +225,7 @@ TEST_F(Resynchronisation, AnUnfinishedTelegramIsForgottenAfterAnIdleLine)
 
 TEST_F(Resynchronisation, SlowRatesHaveALongerAllowance)
 {
-    fdl::Station slow{{.baud = Baud::k19_2, .search = {}, .start_up_latency = {}}};
+    fdl::Layer2 slow{{.baud = Baud::k19_2, .search = {}, .start_up_latency = {}}};
     slow.attach(kUs, user, kClassMaxTsdr);
     slow.on_time(kRead);
     slow.on_bytes(Bytes{kAsk}.first(6), kRead);
@@ -241,7 +241,7 @@ TEST_P(HeldBack, By48CharactersATelegramIsStillWhole)
 {
     const Octets ask = sd2(kUs, kMaster, kSrdFirst, Octets(54, 7));
     ASSERT_EQ(ask.size(), 63u);
-    fdl::Station any{{.baud = GetParam(), .search = {}, .start_up_latency = {}}};
+    fdl::Layer2 any{{.baud = GetParam(), .search = {}, .start_up_latency = {}}};
     any.attach(kUs, user, kClassMaxTsdr);
     const auto characters = [](std::uint32_t count) { return duration_of(Tbit{count * 11}, GetParam()); };
     any.on_bytes(Bytes{ask}.first(15), kRead);

@@ -50,9 +50,9 @@ TEST_F(FdlStation, NewMinTsdrBeginsWithTheReplyAfterTheAcknowledgeOfItsOwnSetPrm
 /// Without the bus: the exact edges of the window.
 class ReplyWindow : public testing::Test {
 protected:
-    fdl::Station& station_with(Tbit max_tsdr, nanoseconds start_up_latency = {})
+    fdl::Layer2& station_with(Tbit max_tsdr, nanoseconds start_up_latency = {})
     {
-        station.emplace(fdl::StationSettings{Baud::k187_5, {}, start_up_latency});
+        station.emplace(fdl::Layer2Settings{Baud::k187_5, {}, start_up_latency});
         std::array<Tbit, kBauds.size()> all{};
         all[index_of(Baud::k187_5)] = max_tsdr;
         station->attach(kUs, user, all);
@@ -63,12 +63,12 @@ protected:
     static nanoseconds bits(std::uint32_t count) { return duration_of(Tbit{count}, Baud::k187_5); }
 
     RecordingUser user;
-    std::optional<fdl::Station> station;
+    std::optional<fdl::Layer2> station;
 };
 
 TEST_F(ReplyWindow, IsClosedOneNanosecondBeforeMinTsdr)
 {
-    fdl::Station& s = station_with(60_tbit);
+    fdl::Layer2& s = station_with(60_tbit);
     s.on_time(kRead + bits(11) - nanoseconds{1});
 
     EXPECT_FALSE(s.take_transmit());
@@ -76,7 +76,7 @@ TEST_F(ReplyWindow, IsClosedOneNanosecondBeforeMinTsdr)
 
 TEST_F(ReplyWindow, OpensAtMinTsdrAndSaysSoAsDeadline)
 {
-    fdl::Station& s = station_with(60_tbit);
+    fdl::Layer2& s = station_with(60_tbit);
     EXPECT_EQ(s.next_deadline(), kRead + bits(11));
     s.on_time(kRead + bits(11));
 
@@ -86,7 +86,7 @@ TEST_F(ReplyWindow, OpensAtMinTsdrAndSaysSoAsDeadline)
 
 TEST_F(ReplyWindow, IsOpenUntilMaxTsdr)
 {
-    fdl::Station& s = station_with(100_tbit);
+    fdl::Layer2& s = station_with(100_tbit);
     s.on_time(kRead + bits(100));
 
     EXPECT_TRUE(s.take_transmit());
@@ -95,7 +95,7 @@ TEST_F(ReplyWindow, IsOpenUntilMaxTsdr)
 
 TEST_F(ReplyWindow, OfTheReplyHandedOutIsToldAfterwards)
 {
-    fdl::Station& s = station_with(100_tbit);
+    fdl::Layer2& s = station_with(100_tbit);
     s.on_time(kRead + bits(20));
     ASSERT_TRUE(s.take_transmit());
 
@@ -104,7 +104,7 @@ TEST_F(ReplyWindow, OfTheReplyHandedOutIsToldAfterwards)
 
 TEST_F(ReplyWindow, IsClosedAfterMaxTsdrAndTheReplyIsCounted)
 {
-    fdl::Station& s = station_with(100_tbit);
+    fdl::Layer2& s = station_with(100_tbit);
     s.on_time(kRead + bits(100) + nanoseconds{1});
 
     EXPECT_FALSE(s.take_transmit());
@@ -116,7 +116,7 @@ TEST_F(ReplyWindow, IsClosedAfterMaxTsdrAndTheReplyIsCounted)
 TEST_F(ReplyWindow, IsAtLeast50BitsWideBehindALongMinTsdr)
 {
     user.min_tsdr_bits = 200_tbit;
-    fdl::Station& s = station_with(60_tbit);
+    fdl::Layer2& s = station_with(60_tbit);
     s.on_time(kRead + bits(250));
 
     EXPECT_TRUE(s.take_transmit());
@@ -125,7 +125,7 @@ TEST_F(ReplyWindow, IsAtLeast50BitsWideBehindALongMinTsdr)
 TEST_F(ReplyWindow, EndsAtMinTsdrPlus50WhenThatIsLater)
 {
     user.min_tsdr_bits = 200_tbit;
-    fdl::Station& s = station_with(60_tbit);
+    fdl::Layer2& s = station_with(60_tbit);
     s.on_time(kRead + bits(250) + nanoseconds{1});
 
     EXPECT_FALSE(s.take_transmit());
@@ -133,18 +133,18 @@ TEST_F(ReplyWindow, EndsAtMinTsdrPlus50WhenThatIsLater)
 
 TEST_F(ReplyWindow, EndsEarlierByTheStartUpLatencyOfTheTransmitter)
 {
-    fdl::Station& in_time = station_with(100_tbit, nanoseconds{20'000});
+    fdl::Layer2& in_time = station_with(100_tbit, nanoseconds{20'000});
     in_time.on_time(kRead + bits(100) - nanoseconds{20'000});
     EXPECT_TRUE(in_time.take_transmit());
 
-    fdl::Station& late = station_with(100_tbit, nanoseconds{20'000});
+    fdl::Layer2& late = station_with(100_tbit, nanoseconds{20'000});
     late.on_time(kRead + bits(100) - nanoseconds{19'999});
     EXPECT_FALSE(late.take_transmit());
 }
 
 TEST_F(ReplyWindow, ReplyThatWasNotTakenInTimeIsLate)
 {
-    fdl::Station& s = station_with(100_tbit);
+    fdl::Layer2& s = station_with(100_tbit);
     s.on_time(kRead + bits(20));
     s.on_time(kRead + bits(101));
 
@@ -172,7 +172,7 @@ class EveryRate : public testing::TestWithParam<Baud> {};
 TEST_P(EveryRate, IsAnsweredInItsWindow)
 {
     RecordingUser user;
-    fdl::Station station{{.baud = GetParam(), .search = {}, .start_up_latency = {}}};
+    fdl::Layer2 station{{.baud = GetParam(), .search = {}, .start_up_latency = {}}};
     station.attach(kUs, user, kClassMaxTsdr);
     Bus bus{station, {.baud = GetParam(), .min_tsdr = 11_tbit, .max_tsdr = {}}};
     bus.master_sends(sd1(kUs, kMaster, kFdlStatus));
@@ -184,7 +184,7 @@ TEST_P(EveryRate, IsAnsweredInItsWindow)
 TEST_P(EveryRate, HasItsOwnMaxTsdr)
 {
     RecordingUser user;
-    fdl::Station station{{.baud = GetParam(), .search = {}, .start_up_latency = {}}};
+    fdl::Layer2 station{{.baud = GetParam(), .search = {}, .start_up_latency = {}}};
     std::array<Tbit, kBauds.size()> max_tsdr{};
     for (std::size_t i = 0; i < kBauds.size(); ++i)
         max_tsdr[i] = Tbit{static_cast<std::uint32_t>(100 + 10 * i)};
@@ -203,7 +203,7 @@ INSTANTIATE_TEST_SUITE_P(Rates, EveryRate, testing::ValuesIn(kBauds));
 
 TEST_F(ReplyWindow, IsWaitedForUntilTheReplyIsTaken)
 {
-    fdl::Station& asked = station_with(60_tbit);
+    fdl::Layer2& asked = station_with(60_tbit);
     EXPECT_TRUE(asked.reply_waits());
     asked.on_time(kRead + bits(11));
     EXPECT_TRUE(asked.reply_waits());

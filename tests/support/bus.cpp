@@ -10,7 +10,7 @@ namespace test {
 using dpslave::Instant;
 using dpslave::Tbit;
 
-Bus::Bus(dpslave::fdl::Station& station, const BusSettings& settings) : station_(station), settings_(settings)
+Bus::Bus(dpslave::fdl::Layer2& station, const BusSettings& settings) : station_(station), settings_(settings)
 {
     pump();
 }

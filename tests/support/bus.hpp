@@ -15,7 +15,7 @@
 #include "wire.hpp"
 
 #include "dpslave/base/units.hpp"
-#include "dpslave/fdl/station.hpp"
+#include "dpslave/fdl/layer2.hpp"
 
 #include <optional>
 #include <vector>
@@ -30,7 +30,7 @@ struct BusSettings {
 };
 
 /// The class default of max T_SDR for each rate in the order of kBauds (wire reference 1.3): for
-/// Station::attach().
+/// Layer2::attach().
 inline constexpr std::array<dpslave::Tbit, dpslave::kBauds.size()> kClassMaxTsdr{
     dpslave::Tbit{60}, dpslave::Tbit{60},  dpslave::Tbit{60}, dpslave::Tbit{60},
     dpslave::Tbit{60}, dpslave::Tbit{100}, dpslave::Tbit{150}};
@@ -39,7 +39,7 @@ class Bus {
 public:
     using duration = std::chrono::nanoseconds;
 
-    explicit Bus(dpslave::fdl::Station& station, const BusSettings& settings = {});
+    explicit Bus(dpslave::fdl::Layer2& station, const BusSettings& settings = {});
 
     // --- What masters (and other slaves) do. Each waits first until the previous cycle is over: the reply,
     // or the
@@ -104,7 +104,7 @@ private:
     void judge(const Octets& octets);
     void advance_to(dpslave::Instant target);
 
-    dpslave::fdl::Station& station_;
+    dpslave::fdl::Layer2& station_;
     BusSettings settings_;
     dpslave::Instant now_{std::chrono::seconds{1000}};
     dpslave::Instant busy_until_ = now_;  ///< end of the last octet of anybody

@@ -10,7 +10,7 @@
 #include "dpslave/app/links.hpp"
 #include "dpslave/app/snapshot_turns.hpp"
 #include "dpslave/fdl/echo.hpp"
-#include "dpslave/fdl/station.hpp"
+#include "dpslave/fdl/layer2.hpp"
 #include "dpslave/io/driver_enable.hpp"
 #include "dpslave/io/epoll.hpp"
 #include "dpslave/io/event_fd.hpp"
@@ -99,7 +99,7 @@ private:
     io::DriverEnable& driver_;
     BusSender sender_;
     fdl::Echo echo_;
-    fdl::Station station_;
+    fdl::Layer2 layer2_;
     BusLink& link_;
 
     std::unique_ptr<Roster> roster_;

@@ -13,7 +13,7 @@
 #include "dpslave/dp/event_log.hpp"
 #include "dpslave/dp/snapshot.hpp"
 #include "dpslave/drive/poller.hpp"
-#include "dpslave/fdl/station.hpp"
+#include "dpslave/fdl/layer2.hpp"
 
 #include <array>
 #include <atomic>

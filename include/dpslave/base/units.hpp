@@ -47,6 +47,12 @@ constexpr std::size_t index_of(Baud baud)
     return 0;
 }
 
+/// Below 93.75 kbit/s: dwells and allowances are longer there.
+constexpr bool is_slow(Baud baud)
+{
+    return index_of(baud) < index_of(Baud::k93_75);
+}
+
 /// The rate with this number of bit/s; nothing if PROFIBUS has none.
 constexpr std::optional<Baud> baud_of(std::uint32_t bits_per_second)
 {

@@ -31,7 +31,7 @@ struct BaudSearchSettings {
 /// How long nobody's telegram may be missed at this rate before it counts as the wrong one.
 constexpr std::chrono::nanoseconds dwell_at(Baud baud, const BaudSearchSettings& settings = {})
 {
-    return baud >= Baud::k93_75 ? settings.dwell_fast : settings.dwell_slow;
+    return is_slow(baud) ? settings.dwell_slow : settings.dwell_fast;
 }
 
 /// Baud_Search, Baud_Control and DP_Control (wire reference 7.1). Begins in Baud_Search.

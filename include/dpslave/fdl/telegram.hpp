@@ -4,6 +4,7 @@
 
 #include "dpslave/base/bytes.hpp"
 #include "dpslave/base/result.hpp"
+#include "dpslave/base/units.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -21,6 +22,10 @@ inline constexpr std::uint8_t kED = 0x16;
 
 inline constexpr std::uint8_t kBroadcast = 127;  ///< only as DA, only with SDN
 inline constexpr std::size_t kMaxTelegram = 255; ///< octets: LE 249 + 6
+
+/// Idle time after which a new request may begin, the same at all rates. Unit: T_bit. Source: EN 50170-2,
+/// T_SYN.
+inline constexpr Tbit kTsyn{33};
 
 /// Function codes of a request, FC bits 3..0 (wire reference 2.3).
 enum class Function : std::uint8_t {

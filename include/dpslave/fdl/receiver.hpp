@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Octets of the line to telegrams. Octets and times go in, telegrams and flaws come out one by one; makes no
+/// system call, starts no thread, allocates nothing. Source: wire reference 1.5, 2, 6.7.
+#pragma once
+
+#include "dpslave/base/bytes.hpp"
+#include "dpslave/base/result.hpp"
+#include "dpslave/base/units.hpp"
+#include "dpslave/fdl/telegram.hpp"
+
+#include <array>
+#include <bitset>
+#include <optional>
+
+namespace dpslave::fdl {
+
+/// How long the line may be silent within a telegram before it counts as unfinished: T_SYN and an allowance
+/// for the scheduler, because reads say little about the times on the wire (wire reference 1.5).
+std::chrono::nanoseconds silence_limit(Baud baud);
+
+/// A read is begin_read(), then on_bytes() or on_character_error(); then next() until there is nothing.
+class Receiver {
+public:
+    explicit Receiver(Baud baud) : baud_(baud) {}
+
+    struct Heard {
+        Result<Telegram, Flaw> telegram{Telegram{}};
+        Instant at{};        ///< when its last octet was read
+        bool newest = false; ///< nothing was heard behind this telegram
+    };
+
+    /// So many octets were read at `read_at`: judges the pause before them.
+    void begin_read(std::size_t octets, Instant read_at);
+    /// The octets, valid until next() has given everything. `more_follows`: what was read goes on in the next
+    /// call, so a telegram at the end of these octets is not the newest thing heard.
+    void on_bytes(Bytes bytes, bool more_follows);
+    /// In the place of an octet that the UART reported as bad.
+    void on_character_error();
+    /// Time passes: an unfinished telegram is searched for whole ones, or given up. True: next() has
+    /// something, and after it this is to be called again.
+    bool on_time(Instant now);
+    /// kNever = none.
+    Instant next_deadline() const { return std::min(gap_ends_, hunt_at_); }
+
+    /// The next telegram or flaw, in the order of the line. A bad character is not among them: its telegram
+    /// is left out. nullptr: there is none. Valid until the next call of the receiver.
+    const Heard* next();
+
+    /// What was heard until now is no telegram any more; the line goes on at `baud`.
+    void restart(Baud baud);
+
+private:
+    void await_rest();
+    void give_up();
+    bool hunt_behind_stump();
+    Result<Telegram, Flaw> telegram_at(std::size_t at, std::size_t length, bool is_cut) const;
+    std::size_t boundary_within(std::size_t begin, std::size_t end) const;
+    bool next_in_buffer();
+    void refill();
+    void forget(std::size_t count);
+    void forget_all();
+
+    Baud baud_;
+    std::array<std::uint8_t, 2 * kMaxTelegram> rx_{}; // an unfinished telegram, and room for what comes next
+    std::size_t used_ = 0;
+    std::size_t spoilt_ = 0; // octets of rx_ up to its last bad character
+    /// Where in rx_ a read began at least T_SYN after the one before: a new telegram may have begun there.
+    std::bitset<2 * kMaxTelegram> boundaries_;
+    Instant heard_at_{};        // when octets were read last
+    Instant gap_ends_ = kNever; // the unfinished telegram is given up
+    Instant hunt_at_ = kNever;  // whole telegrams are looked for in it
+
+    // What next() goes on with.
+    Heard heard_;
+    bool reading_ = false;
+    bool gave_up_ = false; // an unfinished telegram; not told yet
+    bool more_follows_ = false;
+    Bytes input_;            // not in rx_ yet
+    std::size_t at_ = 0;     // rx_ is read up to here
+    std::size_t failed_ = 0; // up to here a telegram was counted that has failed: not each octet again
+};
+
+} // namespace dpslave::fdl

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The station addresses of one bus that are served here: from a request to its reply. Makes no system call,
+/// starts no thread, allocates nothing. Source: wire reference 1.5, 2.6, 3.
+#pragma once
+
+#include "dpslave/base/units.hpp"
+#include "dpslave/fdl/sap_user.hpp"
+#include "dpslave/fdl/telegram.hpp"
+
+#include <array>
+#include <bitset>
+#include <cstdint>
+#include <optional>
+
+namespace dpslave::fdl {
+
+/// One value of max T_SDR per rate, in the order of kBauds.
+using MaxTsdr = std::array<Tbit, kBauds.size()>;
+
+class Stations {
+public:
+    /// When the first bit of a reply may go out, counted from the end of the request, and when it must have.
+    struct Reply {
+        Bytes octets; ///< valid until the next request to the same address
+        Tbit not_before;
+        Tbit not_after;        ///< later, silence is the better answer
+        bool repeated = false; ///< the request was a retry, and this is the stored reply
+    };
+
+    /// As Layer2::attach() and detach(). Call on_time() after both.
+    bool attach(std::uint8_t address, SapUser& user, const MaxTsdr& max_tsdr);
+    void detach(std::uint8_t address);
+    bool has(std::uint8_t address) const
+    {
+        return address < kAddresses && stations_[address].user != nullptr;
+    }
+
+    /// The reply to a valid request with an answer, read at `at`. Precondition: has(request.da).
+    Reply on_request(const Telegram& request, Instant at, Baud baud);
+    /// SDN, to one address or to all. Precondition: has(telegram.da), or it is kBroadcast.
+    void on_sdn(const Telegram& telegram, Instant at);
+    /// The rate is another: no request repeats one from before.
+    void forget_requests();
+
+    /// Time passes. True: users were called.
+    bool on_time(Instant now);
+    /// A lower bound of what the users ask for, so that no telegram has to ask all of them.
+    Instant next_deadline() const { return users_due_; }
+
+    bool any_owned() const { return owned_ != 0; }           ///< by a master that has parameterised it
+    bool any_supervised() const { return supervised_ != 0; } ///< and has its watchdog on
+    /// Which users were called since the last take. Bit n = address n.
+    std::bitset<128> take_touched();
+
+private:
+    static constexpr std::size_t kAddresses = 127; // 0..126
+
+    /// One station address: its user, and its frame count memory (wire reference 2.6).
+    struct Station {
+        SapUser* user = nullptr;
+        MaxTsdr max_tsdr{};
+        Supervision supervision = Supervision::unowned;
+        bool stored = false; // whether what follows is valid
+        bool fcb = false;    // FCBM
+        std::uint8_t sa = 0; // SAM
+        Function function{}; // of the stored request
+        std::optional<std::uint8_t> dsap;
+        Frame reply;
+    };
+
+    Frame answer(Station& station, const Telegram& request, Instant at);
+    static bool is_retry(const Station& station, const Telegram& request);
+    void called(std::uint8_t address);
+    void sample(Station& station);
+    void count_supervision(Station& station, Supervision now);
+
+    std::array<Station, kAddresses> stations_{};
+    std::array<std::uint8_t, kAddresses> attached_{}; // the addresses in use, for what concerns all of them
+    std::size_t attached_count_ = 0;
+    std::size_t owned_ = 0;      // how many users a master has parameterised
+    std::size_t supervised_ = 0; // how many of them with the watchdog on
+    Instant users_due_ = kNever; // no user wants on_time() before this
+    std::bitset<128> touched_;
+    Frame unstored_; // a reply that belongs to no frame count sequence
+    ReplyData scratch_;
+};
+
+} // namespace dpslave::fdl

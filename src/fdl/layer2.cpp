@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dpslave/fdl/layer2.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace dpslave::fdl {
+namespace {
+
+bool is_sdn(const Telegram& telegram)
+{
+    return telegram.function() == Function::sdn_low || telegram.function() == Function::sdn_high;
+}
+
+/// Whether a slave answers this function at all. Time_Event and the reserved codes are met with silence.
+bool is_answered(Function function)
+{
+    switch (function) {
+        case Function::sda_low:
+        case Function::sda_high:
+        case Function::msrd:
+        case Function::fdl_status:
+        case Function::srd_low:
+        case Function::srd_high:
+        case Function::ident:
+        case Function::lsap_status: return true;
+        case Function::time_event:
+        case Function::sdn_low:
+        case Function::sdn_high: break;
+    }
+    return false;
+}
+
+} // namespace
+
+Layer2::Layer2(const Layer2Settings& settings)
+    : settings_(settings), baud_(settings.baud), receiver_(settings.baud)
+{
+    if (!settings.search) return;
+    search_.emplace(*settings.search, settings.baud);
+    baud_ = search_->baud();
+    baud_state_ = search_->state();
+    baud_change_ = baud_; // the edge knows only now where the search begins
+    receiver_.restart(baud_);
+}
+
+bool Layer2::attach(std::uint8_t address, SapUser& user, const MaxTsdr& max_tsdr)
+{
+    return stations_.attach(address, user, max_tsdr);
+}
+
+void Layer2::detach(std::uint8_t address)
+{
+    stations_.detach(address);
+    if (pending_ && pending_->address == address) pending_.reset();
+}
+
+void Layer2::on_bytes(Bytes bytes, Instant read_at, bool more_follows)
+{
+    if (bytes.empty()) return;
+    cancel_reply();
+    counters_.octets += bytes.size();
+    receiver_.begin_read(bytes.size(), read_at);
+    take_heard();
+    if (!rate_is_kept(bytes.size(), 0, read_at)) return;
+    receiver_.on_bytes(bytes, more_follows);
+    take_heard();
+}
+
+void Layer2::on_character_error(Instant read_at)
+{
+    cancel_reply();
+    ++counters_.octets;
+    count(Flaw::character);
+    receiver_.begin_read(1, read_at);
+    take_heard();
+    if (!rate_is_kept(0, 1, read_at)) return;
+    receiver_.on_character_error();
+    take_heard();
+}
+
+void Layer2::on_time(Instant now)
+{
+    while (receiver_.on_time(now)) take_heard();
+    if (pending_ && now > pending_->not_after) { // the master has given up: a late reply would meet its retry
+        pending_.reset();
+        ++counters_.late;
+    }
+    if (pending_ && now >= pending_->not_before) pending_->open = true;
+    if (stations_.on_time(now)) report_supervision(now);
+    if (search_) {
+        search_->on_time(now);
+        follow_search();
+    }
+}
+
+std::optional<Bytes> Layer2::take_transmit()
+{
+    if (!pending_ || !pending_->open) return std::nullopt;
+    const Bytes octets = pending_->octets;
+    window_ended_ = pending_->not_after;
+    pending_.reset();
+    ++counters_.replies;
+    return octets;
+}
+
+Instant Layer2::next_deadline() const
+{
+    Instant next = std::min(stations_.next_deadline(), receiver_.next_deadline());
+    if (pending_) next = std::min(next, pending_->not_before);
+    if (search_) next = std::min(next, search_->next_deadline());
+    return next;
+}
+
+std::optional<Baud> Layer2::take_baud_change()
+{
+    return std::exchange(baud_change_, std::nullopt);
+}
+
+void Layer2::take_heard()
+{
+    while (const auto* heard = receiver_.next()) {
+        if (heard->telegram)
+            on_telegram(*heard->telegram, heard->at, heard->newest);
+        else
+            count(heard->telegram.error());
+    }
+}
+
+/// `newest`: nothing was heard behind this telegram.
+void Layer2::on_telegram(const Telegram& telegram, Instant read_at, bool newest)
+{
+    ++counters_.telegrams;
+    const bool ours = telegram.has_fc() && stations_.has(telegram.da);
+    if (!ours) asked_.on_telegram(telegram, read_at);
+    if (!telegram.has_fc()) return; // SC and token: no checksum, no evidence, no request
+    ++counters_.checked;
+    last_telegram_ = read_at;
+
+    if (search_) {
+        const bool silent = search_->state() == BaudState::baud_search;
+        search_->on_telegram(ours, read_at);
+        follow_search();
+        if (silent) return; // the telegram that ends the search is still heard in it
+    }
+    if (stations_.has(telegram.sa)) {
+        ++counters_.own_address;
+        return;
+    }
+    const bool known_code = (telegram.fc & 0x80) == 0; // bit 7 is a second code table with nothing for us
+    if (!telegram.is_request() || !known_code) return;
+
+    if (is_sdn(telegram)) {
+        if (!ours && telegram.da != kBroadcast) return;
+        ++counters_.requests;
+        stations_.on_sdn(telegram, read_at);
+        report_supervision(read_at);
+    } else if (ours && is_answered(telegram.function())) {
+        ++counters_.requests;
+        if (newest)
+            on_request(telegram, read_at);
+        else
+            ++counters_.overtaken; // dropped whole, FCB included: the master's retry still looks new
+    }
+}
+
+void Layer2::on_request(const Telegram& request, Instant at)
+{
+    const Stations::Reply reply = stations_.on_request(request, at, baud_);
+    if (reply.repeated) ++counters_.retries;
+    report_supervision(at);
+    pending_ = {.address = request.da,
+                .octets = reply.octets,
+                .not_before = at + duration_of(reply.not_before, baud_),
+                .not_after = at + duration_of(reply.not_after, baud_) - settings_.start_up_latency};
+}
+
+/// The line is in use: the moment for the reply is over. What the request did and its stored reply stay.
+void Layer2::cancel_reply()
+{
+    if (!pending_) return;
+    pending_.reset();
+    ++counters_.overtaken;
+}
+
+void Layer2::count(Flaw flaw)
+{
+    if (baud_state_ == BaudState::baud_search || (search_ && search_->in_doubt()))
+        ++counters_.search_flaws;
+    else
+        ++counters_.flaws[static_cast<std::size_t>(flaw)];
+}
+
+/// Gives the search what was heard. False: the rate has been given up, and what was heard at it means
+/// nothing.
+bool Layer2::rate_is_kept(std::size_t good, std::size_t bad, Instant at)
+{
+    if (!search_) return true;
+    if (!baud_change_) {
+        search_->on_characters(good, bad, at);
+        follow_search();
+    }
+    return !baud_change_;
+}
+
+void Layer2::report_supervision(Instant at)
+{
+    if (!search_) return;
+    search_->on_supervision(stations_.any_owned(), stations_.any_supervised(), at);
+    follow_search();
+}
+
+/// Takes over what the search decided.
+void Layer2::follow_search()
+{
+    if (search_->baud() != baud_) {
+        baud_ = search_->baud();
+        baud_change_ = baud_;
+    } else if (search_->state() == baud_state_) {
+        return;
+    }
+    // Silent from now on, and what was heard is no telegram any more.
+    if (search_->state() == BaudState::baud_search) {
+        pending_.reset();
+        receiver_.restart(baud_);
+        stations_.forget_requests();
+    }
+    baud_state_ = search_->state();
+}
+
+} // namespace dpslave::fdl

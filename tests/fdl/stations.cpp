@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The stations by themselves: a request in, its reply out, no line and no clock.
+#include "dpslave/fdl/stations.hpp"
+
+#include "bench.hpp"
+
+using namespace dpslave;
+using namespace test;
+
+namespace {
+
+class Stations : public testing::Test {
+protected:
+    Stations()
+    {
+        stations.attach(kUs, user, kClassMaxTsdr);
+        stations.on_time(kStart);
+    }
+    /// FC and data of a request to us.
+    fdl::Stations::Reply asks(std::uint8_t fc)
+    {
+        fdl::Telegram request;
+        request.delimiter = fdl::kSD2;
+        request.da = kUs;
+        request.sa = kMaster;
+        request.fc = fc;
+        request.data = kData;
+        return stations.on_request(request, kStart, Baud::k187_5);
+    }
+    static std::string octets_of(const fdl::Stations::Reply& reply)
+    {
+        return show({reply.octets.begin(), reply.octets.end()});
+    }
+
+    static constexpr Instant kStart{std::chrono::seconds{4}};
+    static constexpr std::array<std::uint8_t, 2> kData{0xAA, 0xBB};
+    RecordingUser user;
+    fdl::Stations stations;
+};
+
+TEST_F(Stations, PutTheAnswerOfTheUserOnTheWireForm)
+{
+    EXPECT_EQ(octets_of(asks(kSrdFirst)), show(sd2(kMaster, kUs, 0x08, {0x12, 0x34})));
+    ASSERT_EQ(user.srds.size(), 1u);
+    EXPECT_EQ(user.srds[0].at, kStart);
+}
+
+TEST_F(Stations, GiveTheStoredReplyToARetryAndDoNotAskAgain)
+{
+    asks(kSrdFcb1);
+    user.inputs = {0x56};
+
+    const auto reply = asks(kSrdFcb1);
+
+    EXPECT_TRUE(reply.repeated);
+    EXPECT_EQ(octets_of(reply), show(sd2(kMaster, kUs, 0x08, {0x12, 0x34})));
+    EXPECT_EQ(user.srds.size(), 1u);
+    EXPECT_EQ(user.heards.size(), 1u);
+}
+
+TEST_F(Stations, KnowNoRetryAfterTheRateHasChanged)
+{
+    asks(kSrdFcb1);
+
+    stations.forget_requests();
+
+    EXPECT_FALSE(asks(kSrdFcb1).repeated);
+    EXPECT_EQ(user.srds.size(), 2u);
+}
+
+TEST_F(Stations, SayTheWindowAsItWasBeforeTheRequest)
+{
+    user.min_tsdr_after_srd = 90_tbit;
+
+    const auto before = asks(kSrdFcb0);
+    EXPECT_EQ(before.not_before, 11_tbit);
+    EXPECT_EQ(before.not_after, 61_tbit); // 11 + 50 is more than max T_SDR
+
+    const auto after = asks(kSrdFcb1);
+    EXPECT_EQ(after.not_before, 90_tbit);
+    EXPECT_EQ(after.not_after, 140_tbit);
+}
+
+TEST_F(Stations, CountWhoIsOwnedAndWhoIsSupervised)
+{
+    EXPECT_FALSE(stations.any_owned());
+    user.level = fdl::Supervision::supervised;
+    asks(kSrdFirst);
+    EXPECT_TRUE(stations.any_owned());
+    EXPECT_TRUE(stations.any_supervised());
+
+    stations.detach(kUs);
+
+    EXPECT_FALSE(stations.any_owned());
+    EXPECT_FALSE(stations.has(kUs));
+    EXPECT_TRUE(stations.on_time(kStart)); // the search of the rate has to know
+}
+
+TEST_F(Stations, CallAUserWhenItIsDueAndNoSooner)
+{
+    user.deadline = kStart + std::chrono::milliseconds{5};
+    asks(kSrdFirst);
+    stations.take_touched();
+
+    EXPECT_FALSE(stations.on_time(kStart + std::chrono::milliseconds{4}));
+    EXPECT_TRUE(user.times.empty());
+    EXPECT_TRUE(stations.on_time(user.deadline));
+    EXPECT_EQ(user.times.size(), 1u);
+    EXPECT_TRUE(stations.take_touched()[kUs]);
+    EXPECT_EQ(stations.next_deadline(), kNever);
+}
+
+} // namespace
