@@ -190,6 +190,8 @@ std::string_view text(AccessError error) noexcept
             return "the drive answers with a number, and no tag table says how many decimals it has";
         case AccessError::contradicted:
             return "the drive has answered with more decimals than the tag table gives";
+        case AccessError::not_kept:
+            return "the drive takes the value and then holds another one: read the tag";
     }
     return "?";
 }

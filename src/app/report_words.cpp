@@ -164,6 +164,7 @@ std::string_view code(AccessError error) noexcept
         case deferred: return "deferred";
         case no_scale: return "no_scale";
         case contradicted: return "contradicted";
+        case not_kept: return "not_kept";
         case invalid_tag: return "invalid_tag";
         case read_only: return "read_only";
         case out_of_range: return "out_of_range";

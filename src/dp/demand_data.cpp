@@ -38,6 +38,7 @@ std::optional<std::uint16_t> demand_code(AccessError error) noexcept
 {
     switch (error) {
         case AccessError::none:
+        case AccessError::not_kept: // taken: what the drive makes of it is its own business
         case AccessError::no_answer:
         case AccessError::deferred:
         case AccessError::not_understood: return std::nullopt;
@@ -135,7 +136,7 @@ void DemandData::withdraw()
 void DemandData::answer(const DemandAnswer& answer)
 {
     if (standing_.kind == DemandOrder::Kind::cancel || answer.number != standing_.number) return;
-    if (answer.error == AccessError::none)
+    if (answer.error == AccessError::none || answer.error == AccessError::not_kept)
         accept(answer.value);
     else if (const auto code = demand_code(answer.error))
         reject(*code);

@@ -68,7 +68,7 @@ void DemandQueue::not_held(std::uint32_t number, int retries)
     if (entries_.empty() || entries_.front().order.number != number) return;
     Entry& entry = entries_.front();
     entry.written = false;
-    if (++entry.not_understood > retries) done(number, AccessError::out_of_range, 0);
+    if (++entry.not_understood > retries) done(number, AccessError::not_kept, entry.order.value);
 }
 
 void DemandQueue::done(std::uint32_t number, AccessError error, std::uint16_t value)
@@ -78,7 +78,8 @@ void DemandQueue::done(std::uint32_t number, AccessError error, std::uint16_t va
     if (at == entries_.end()) return;
     // What comes late for an order that no longer stands is dropped: behind the answer to the one
     // that stands it would take its place.
-    if (stands(*at)) answer({number, error, error == AccessError::none ? value : std::uint16_t{0}});
+    const bool has_value = error == AccessError::none || error == AccessError::not_kept;
+    if (stands(*at)) answer({number, error, has_value ? value : std::uint16_t{0}});
     at->answered = true;
     if (at->order.kind == DemandOrder::Kind::write) entries_.erase(at);
 }

@@ -40,7 +40,7 @@ public:
     /// The drive has acknowledged the write: it is proven by what it holds then.
     void written(std::uint32_t number);
     /// It does not hold what was written: written again, `retries` times at most. Then the order is answered
-    /// with out_of_range.
+    /// with not_kept.
     void not_held(std::uint32_t number, int retries);
     /// The drive is lost: what no longer stands is not to be done when it returns, maybe minutes later.
     void drop_superseded();

@@ -253,7 +253,7 @@ void Poller::Unit::done_operate(const Transaction& transaction, const Outcome& o
         const auto proof = proof_of(waiting.order.word, outcome);
         waiting.written = false;
         if (!proof && ++waiting.attempts <= settings_.retries) return; // it does not hold it: written again
-        answer = {waiting.order.number, proof.value_or(AccessError::out_of_range), waiting.order.word};
+        answer = {waiting.order.number, proof.value_or(AccessError::not_kept), waiting.order.word};
     }
     operate_answers_.push_back(answer);
     operates_.pop_front();

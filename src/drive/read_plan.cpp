@@ -18,6 +18,7 @@ WordState state_of(AccessError error)
         case AccessError::not_understood:
         case AccessError::not_stopped:
         case AccessError::not_config_mode:
+        case AccessError::not_kept:
         case AccessError::unsupported_type: return WordState::refused;
         case AccessError::no_scale:
         case AccessError::contradicted: return WordState::unscaled;

@@ -57,7 +57,8 @@ constexpr std::uint16_t code_of(AccessError error)
         case AccessError::none:
         case AccessError::no_answer:
         case AccessError::deferred:
-        case AccessError::not_understood: return 0;
+        case AccessError::not_understood:
+        case AccessError::not_kept: return 0;
         case AccessError::out_of_range: return 1;
         case AccessError::read_only: return 2;
         case AccessError::not_stopped: return 3;

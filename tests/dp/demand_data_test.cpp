@@ -222,6 +222,15 @@ INSTANTIATE_TEST_SUITE_P(A066, DemandCodes,
                                          Code{"ValueNotEncoded", AccessError::value_not_encoded, 2}),
                          [](const auto& one) { return std::string{one.param.name}; });
 
+/// The drive has refused nothing: it holds another word, which a read shows.
+TEST_F(DemandData, AWriteThatTheDriveTakesAndDoesNotKeepIsATransfer)
+{
+    demand(0x210E, 5);
+    slave.set_demand_answer({order().number, AccessError::not_kept, 5});
+
+    EXPECT_EQ(demand(0x210E, 5), "11 0E 00 00 00 00 00 05");
+}
+
 class DemandErrorBase : public DemandData {
 protected:
     DemandErrorBase() : DemandData(device()) {}

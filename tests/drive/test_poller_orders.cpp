@@ -186,6 +186,24 @@ TEST_F(PollerOrders, ErrorsOfTheDriveComeBackByName)
     EXPECT_EQ(all.back().number, 2u);
 }
 
+/// A tag that resets itself, or that rounds: nothing is wrong with its range.
+TEST_F(PollerOrders, AWriteThatTheDriveTakesAndDoesNotKeepIsAnsweredSo)
+{
+    bench.drives[0].not_kept = {61};
+    order(Kind::write, 61, 5);
+    bench.run(2s);
+    const auto all = answers();
+    ASSERT_EQ(all.size(), 1u);
+    EXPECT_EQ(all[0].error, AccessError::not_kept);
+    EXPECT_EQ(all[0].value, 5) << "the word that was taken";
+
+    ASSERT_TRUE(bench.poller.operate({.number = 9, .unit = 0, .is_write = true, .tag = 61, .word = 6}));
+    bench.run(2s);
+    const auto answer = bench.poller.take_operate_answer();
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(answer->error, AccessError::not_kept);
+}
+
 TEST_F(PollerOrders, WhatTheTableForbidsIsAnsweredWithoutTheDrive)
 {
     order(Kind::write, 90, 1);

@@ -233,6 +233,10 @@ void Judge::judge_answer(const Order& order, AccessError error, std::uint16_t wo
     const Instant oldest = order.at - line_.rules().timeout * 12; // a late answer to a question of before
     switch (error) {
         case AccessError::none: break;
+        case AccessError::not_kept:
+            if (taken(tag, order) == tag.history.end() && tag.disturbed_at < order.at)
+                convict(what + " is answered as taken and not kept, and the drive has not taken it");
+            return;
         case AccessError::invalid_tag:
             if (!was_denied(tag, known)) convict(what + " is answered as an invalid tag, which it is not");
             return;

@@ -88,6 +88,7 @@ enum class AccessError : std::uint8_t {
     value_not_encoded, ///< the drive could not read the value (EE 07C8)
     no_scale,          ///< the drive answers with a number, and nothing says how many decimals it has (X-49)
     contradicted,      ///< the drive has answered with more decimals than the tag table gives
+    not_kept,          ///< of a write: the drive has taken it each time and then held another word
 };
 
 /// One order of Demand Data for the drive side.
@@ -108,7 +109,7 @@ struct DemandOrder {
 struct DemandAnswer {
     std::uint32_t number = 0;
     AccessError error = AccessError::none;
-    std::uint16_t value = 0; ///< of a read without error; of a write the value written
+    std::uint16_t value = 0; ///< of a read without error; of a write that was taken the value written
 };
 
 /// From DP to the drive side, each once and in order: data exchange was left, the outputs of that layout go
