@@ -128,6 +128,7 @@ MainThread::Judged MainThread::judge_file()
     result.warnings = sentences(wanted->warnings);
     refresh();
     Plan plan = plan_reload(config_, in_force(), std::move(*wanted));
+    if (auto trouble = plant_.trouble_of(plan)) plan.refusals.push_back(std::move(*trouble));
     if (!plan.refusals.empty()) {
         result.faults = std::move(plan.refusals);
         return judged;

@@ -5,6 +5,7 @@
 
 #include "dpslave/app/line_backend.hpp"
 #include "dpslave/io/realtime.hpp"
+#include "dpslave/io/tty.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -138,6 +139,22 @@ bool Plant::has_port(const std::string& port) const
                        [&wanted](const auto& line) { return canonical(line->config.port) == wanted; });
 }
 
+bool Plant::opens_for_a_trial(const Plan& plan, std::size_t line) const
+{
+    const Plan::Line& planned = plan.lines[line];
+    return (!planned.before || planned.is_opened_anew) && !has_port(plan.config.lines[line].port);
+}
+
+std::optional<std::string> Plant::trouble_of(const Plan& plan) const
+{
+    for (std::size_t i = 0; i < plan.lines.size(); ++i) {
+        const LineConfig& line = plan.config.lines[i];
+        if (!opens_for_a_trial(plan, i)) continue;
+        if (const auto trouble = io::port_trouble(line.port)) return not_opened(plan.config, line, *trouble);
+    }
+    return std::nullopt;
+}
+
 std::optional<std::string> Plant::make_lines(const Plan& plan, Next& next) const
 {
     for (std::size_t i = 0; i < plan.lines.size(); ++i) {
@@ -145,7 +162,7 @@ std::optional<std::string> Plant::make_lines(const Plan& plan, Next& next) const
         const Plan::Line& planned = plan.lines[i];
         next.lines.push_back(planned.before ? lines_[*planned.before] : std::make_shared<DriveLine>(config));
         next.backends.emplace_back();
-        if ((planned.before && !planned.is_opened_anew) || has_port(config.port)) continue;
+        if (!opens_for_a_trial(plan, i)) continue;
         auto backend = LineBackend::open(config, next.lines[i]->link.port_open);
         if (!backend) return not_opened(plan.config, config, backend.error());
         next.backends[i] = std::move(*backend);

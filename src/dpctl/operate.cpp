@@ -39,6 +39,7 @@ int do_tec(const Options& options, Terminal& terminal)
 int do_reload(const Options& options, Terminal& terminal)
 {
     std::string said;
+    Json warned; ///< nothing with --json, which prints one reply
     if (options.dry_run || !options.json) {
         const auto plan = ask(options, terminal, "Reload", Json::object({{"dry_run", true}}));
         if (!plan) return plan.error();
@@ -46,12 +47,15 @@ int do_reload(const Options& options, Terminal& terminal)
         said = options.json ? json_text(*plan) + '\n' : render_reload(*plan, options.dry_run);
         (faulty && !options.json ? terminal.err : terminal.out) << said << std::flush;
         if (options.dry_run) return faulty ? kNo : kFine;
+        warned = plan->value("warnings", Json::array());
     }
-    const auto reply = ask(options, terminal, "Reload", Json::object());
+    auto reply = ask(options, terminal, "Reload", Json::object());
     if (!reply) return reply.error();
     const bool applied = reply->value("applied", false);
-    const std::string now = options.json ? json_text(*reply) + '\n' : render_reload(*reply, false);
-    if (now != said) (applied || options.json ? terminal.out : terminal.err) << now << std::flush;
+    if (!options.json && render_reload(*reply, false) == said) return applied ? kFine : kNo;
+    if (!applied && reply->value("warnings", Json::array()) == warned) reply->erase("warnings"); // just said
+    (applied || options.json ? terminal.out : terminal.err)
+        << (options.json ? json_text(*reply) + '\n' : render_reload(*reply, false)) << std::flush;
     return applied ? kFine : kNo;
 }
 

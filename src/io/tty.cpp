@@ -11,6 +11,7 @@
 #include <poll.h>
 #include <sys/file.h>
 #include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -59,6 +60,24 @@ std::string why_not_opened(const std::string& path, int error)
     }
 }
 
+std::string no_serial_port(const std::string& path)
+{
+    return path + " is no serial port (no tty): check `port` in the configuration";
+}
+
+} // namespace
+
+std::optional<std::string> port_trouble(const std::string& path)
+{
+    struct stat what {};
+    if (::stat(path.c_str(), &what) < 0) return why_not_opened(path, errno);
+    if (S_ISREG(what.st_mode)) return no_serial_port(path);
+    if (::access(path.c_str(), R_OK | W_OK) < 0) return why_not_opened(path, errno);
+    return std::nullopt;
+}
+
+namespace {
+
 /// Nobody else reads our octets or writes between them. The lock ends with its owner, however that ends. The
 /// exclusive mode of the tty keeps out those who do not ask for locks, but root ignores it, and on a pty it
 /// outlives its owner as long as the other end stays open: there the lock alone has to do.
@@ -97,8 +116,7 @@ Result<Tty, std::string> Tty::open(const std::string& path, const TtySettings& s
 {
     Fd fd{::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)};
     if (!fd) return Failure{why_not_opened(path, errno)};
-    if (::isatty(fd.get()) == 0)
-        return Failure{path + " is no serial port (no tty): check `port` in the configuration"};
+    if (::isatty(fd.get()) == 0) return Failure{no_serial_port(path)};
     auto uart = std::make_unique<Uart>(look_at(fd.get(), sysfs));
     if (const int error = claim(fd.get(), uart->pty); error != 0) return Failure{why_not_opened(path, error)};
     if (const std::string trouble = apply(fd.get(), settings, *uart); !trouble.empty())

@@ -120,6 +120,14 @@ TEST(TtyOpen, RefusesWhatIsNoSerialPort)
     EXPECT_THAT(folder.error(), AllOf(StartsWith("/dev "), HasSubstr("check `port`")));
 }
 
+TEST(TtyOpen, SaysTheSameOfAPortThatIsOnlyLookedAt)
+{
+    const Pty cable;
+    EXPECT_EQ(port_trouble(cable.path()), std::nullopt);
+    for (const std::string path : {"/dev/no-such-port", "/proc/version"})
+        EXPECT_EQ(port_trouble(path), Tty::open(path, kBus).error()) << path;
+}
+
 TEST(TtyOpen, RefusesAPortThatIsInUseAndTakesItWhenItIsFreeAgain)
 {
     Pty cable;

@@ -437,6 +437,19 @@ TEST_F(ReloadOfPorts, WritesStandingOutputsAtTheNewOneAndLeavesTheOldDriveSafe)
     no_fault_was_logged();
 }
 
+TEST_F(ReloadOfPorts, ToOneThatIsNotThereIsRefusedByADryRunInTheWordsOfTheReload)
+{
+    write_file(gateway.config(), changed(text, "[[line]]", port("drive-gateway"), port("no-such-port")));
+    const Outcome dry = gateway.dpctl({"reload", "--dry-run"});
+    EXPECT_EQ(dry.status, 1);
+    const Outcome real = gateway.dpctl({"reload"});
+    EXPECT_EQ(real.status, 1);
+    EXPECT_THAT(real.err, HasSubstr("no-such-port is not there"));
+    EXPECT_EQ(dry.out + dry.err, real.out + real.err);
+    gateway.drive().tell("set 55 21.00");
+    EXPECT_TRUE(master.does("wait 30s for in 1 = 2100"));
+}
+
 TEST_F(ReloadOfPorts, OfTwoLinesThatSwapThemIsWithoutAFault)
 {
     std::string both = text;

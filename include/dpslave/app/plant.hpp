@@ -66,6 +66,8 @@ public:
     /// has let go of those that left. Else why not, a sentence with its place in the file, and all is as
     /// before. Precondition: is_settled().
     std::optional<std::string> exchange(const Plan& plan);
+    /// Why exchange() would refuse `plan`, as far as the file system tells; its sentence. Opens nothing.
+    std::optional<std::string> trouble_of(const Plan& plan) const;
     /// The bus has let go of the stations that left: their drives and lines say farewell, and only then the
     /// new drives are asked. Nobody waits for that.
     void finish();
@@ -81,6 +83,7 @@ private:
 
     Station new_station(const StationConfig& config, const std::shared_ptr<DriveLine>& line);
     bool has_port(const std::string& port) const;
+    bool opens_for_a_trial(const Plan& plan, std::size_t line) const;
     std::optional<std::string> make_lines(const Plan& plan, Next& next) const;
     void make_stations(const Plan& plan, Next& next);
     void plan_port(const Plan& plan, std::size_t index, LineWork& work) const;

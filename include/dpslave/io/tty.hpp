@@ -48,6 +48,10 @@ struct TtyBauds {
     std::string why_not;
 };
 
+/// Why `path` cannot be opened as a port, as far as the file system tells: it is not there, is a plain file,
+/// or this user may not. A sentence with what to do; nothing is opened and nothing is changed on the line.
+std::optional<std::string> port_trouble(const std::string& path);
+
 struct Uart; // what is behind it; only the room looks into it
 
 class Tty {
