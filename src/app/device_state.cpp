@@ -365,7 +365,10 @@ void DeviceState::say_trip()
 void DeviceState::say_scales(const StationView& station)
 {
     std::string now = scale_words(station).value_or("");
-    if (now == scales_said_) return;
+    if (station.bus.state != dp::State::data_exch) scales_said_.clear(); // nothing is chosen any more
+    const bool is_known = station.bus.state == dp::State::data_exch && !station.bus.stat_diag &&
+                          station.drive.generation == station.bus.layout.generation;
+    if (now == scales_said_ || (now.empty() && !is_known)) return;
     if (now.empty())
         say(false, "every tag that the master has chosen has a scale");
     else

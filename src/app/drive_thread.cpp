@@ -429,6 +429,7 @@ void DriveThread::take_over()
         const auto known = std::find_if(units_.begin(), units_.end(),
                                         [&](const Unit& unit) { return unit.number == one.number; });
         const bool is_known = known != units_.end();
+        if (is_known) forget_troubles_of_other_rows(*known, *one.config);
         stays.push_back(is_known ? std::optional{static_cast<std::size_t>(known - units_.begin())}
                                  : std::nullopt);
         units.push_back(is_known ? *known : Unit{one});
@@ -448,11 +449,31 @@ void DriveThread::take_over()
 
 void DriveThread::forget_troubles_of_the_gone()
 {
-    const auto end = troubles_.troubles.begin() + troubles_.count;
-    const auto kept = std::remove_if(troubles_.troubles.begin(), end, [&](const Trouble& trouble) {
+    forget_troubles_where([&](const Trouble& trouble) {
         return std::none_of(units_.begin(), units_.end(),
                             [&](const Unit& unit) { return unit.number == trouble.station; });
     });
+}
+
+/// What was said of a row is not true of another one, also where no master asks for it now.
+void DriveThread::forget_troubles_of_other_rows(const Unit& unit, const StationConfig& now)
+{
+    const StationConfig& before = *unit.config;
+    forget_troubles_where([&](const Trouble& trouble) {
+        if (trouble.station != unit.number) return false;
+        const drive::Tag* const old = before.tags->find(trouble.tag);
+        const drive::Tag* const row = now.tags->find(trouble.tag);
+        if (old == nullptr || row == nullptr)
+            return old != row || before.unlisted_decimals != now.unlisted_decimals;
+        return !drive::is_same_value(*old, *row) || drive::has_scale(*old) != drive::has_scale(*row);
+    });
+}
+
+template <class IsOver>
+void DriveThread::forget_troubles_where(IsOver is_over)
+{
+    const auto end = troubles_.troubles.begin() + troubles_.count;
+    const auto kept = std::remove_if(troubles_.troubles.begin(), end, is_over);
     if (kept == end) return;
     troubles_.count = static_cast<std::uint8_t>(kept - troubles_.troubles.begin());
     link_.troubles.publish(troubles_);

@@ -27,10 +27,7 @@ Result<std::uint16_t, Error> word_to_write(const StationConfig& station, std::ui
         return Failure{Error{"BadValue", {{"tag", tag}, {"value", value}, {"reason", std::move(reason)}}}};
     };
     const drive::Tag* row = station.tags->find(tag);
-    if (row == nullptr)
-        return refused(fmt::format("tag {} is not in {}: without its type and decimals no value can be "
-                                   "written; add a line for it",
-                                   tag, station.tag_file));
+    if (row == nullptr) return refused("its type and decimals are not known; " + row_advice(station, tag));
     const drive::ParsedValue parsed = drive::parse_value(*row, value);
     if (parsed.error != AccessError::none) return refused(bad_value_words(*row, parsed.error));
     return parsed.word;
@@ -328,10 +325,9 @@ Reply MainThread::answer_of(const Asked& asked, const drive::OperateAnswer& answ
     if (answer.error != AccessError::none) {
         const auto code = dp::demand_code(answer.error);
         std::string reason{text(answer.error)};
-        if (row == nullptr && answer.error != AccessError::no_answer)
-            reason += fmt::format("; the tag table {} has no line for tag {}: add one with name, type and "
-                                  "decimals, or check the number",
-                                  station.tag_file, asked.tag);
+        const bool may_be_row =
+            row == nullptr ? answer.error != AccessError::no_answer : answer.error == AccessError::no_scale;
+        if (may_be_row) reason += "; " + row_advice(station, asked.tag);
         return Error{"DriveRefused",
                      {{"tag", asked.tag},
                       {"reason", std::move(reason)},

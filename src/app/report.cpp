@@ -186,8 +186,7 @@ std::string_view text(AccessError error) noexcept
         case AccessError::not_config_mode: return "only in configuration mode";
         case AccessError::unsupported_type: return "this type of parameter is not transported";
         case AccessError::value_not_encoded: return "the drive cannot read this value";
-        case AccessError::no_scale:
-            return "the drive answers with a number, and no tag table says how many decimals it has";
+        case AccessError::no_scale: return "the drive answers with a number, and its decimals are not known";
         case AccessError::contradicted:
             return "the drive has answered with more decimals than the tag table gives";
         case AccessError::not_kept:

@@ -47,20 +47,36 @@ std::optional<std::string> scale_words(const StationView& station)
 {
     const std::vector<Unscaled> all = unscaled_of(station);
     if (all.empty()) return std::nullopt;
+    // What the drive side has found the bus side knows a moment later.
+    const bool is_held = station.bus.holds || (station.bus.stat_diag && station.config->unscaled_holds);
     std::string words;
     if (const std::string tags = listed(all, false); !tags.empty())
-        words = fmt::format("{}: the scale of {} is not known. Give each a confirmed row with decimals in "
-                            "the tag table (dpctl "
-                            "survey finds a lower bound), or set unlisted_decimals, then run dpctl reload",
-                            station.bus.holds ? "The exchange does not begin"
-                                              : "Inputs read 0 and outputs are not written",
-                            tags);
+        words = fmt::format(
+            "{}: the scale of {} is not known. Give each a confirmed row with decimals in "
+            "the tag table (dpctl "
+            "survey finds a lower bound), or set unlisted_decimals, then run dpctl reload",
+            is_held ? "The exchange does not begin" : "Inputs read 0 and outputs are not written", tags);
     if (const std::string tags = listed(all, true); !tags.empty())
         words +=
             fmt::format("{}The tag table gives too few decimals to {}. The tag is refused: correct its row, "
                         "then run dpctl reload",
                         words.empty() ? "" : ". ", tags);
     return words;
+}
+
+std::string row_advice(const StationConfig& station, std::uint16_t tag)
+{
+    const drive::Tag* const row = station.tags->find(tag);
+    const bool is_of_profile = station.profile->tag_file == station.tag_file;
+    if (row == nullptr)
+        return fmt::format("the tag table {} has no line for tag {}: check the number, or {}",
+                           station.tag_file, tag,
+                           is_of_profile ? "write a table of your own and name it with 'tags' in [[station]]"
+                                         : "add a line with name, type and decimals");
+    if (!row->confirmed)
+        return "its row is not confirmed: compare it with the drive's manual and set confirmed to yes";
+    if (!row->decimals_known) return "its row has no decimals: fill in column decimals";
+    return {};
 }
 
 json unscaled_json(const StationView& station)

@@ -72,6 +72,9 @@ private:
     bool leaving_is_over() const;
     void take_over();
     void forget_troubles_of_the_gone();
+    void forget_troubles_of_other_rows(const Unit& unit, const StationConfig& now);
+    template <class IsOver>
+    void forget_troubles_where(IsOver is_over);
     void take_port();
     bool is_open();
     bool waits_for_port(Instant now) const { return !backend_ && now < port_comes_until_; }

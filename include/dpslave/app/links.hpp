@@ -139,7 +139,7 @@ struct Trouble {
     std::uint16_t tag = 0;
     bool is_write = false; ///< a tag may be read and refuse to be written
     AccessError error = AccessError::none;
-    std::array<char, 160> text{}; ///< ends with NUL
+    std::array<char, 240> text{}; ///< ends with NUL
 };
 struct TroubleList {
     std::array<Trouble, 16> troubles{};

@@ -72,6 +72,8 @@ nlohmann::json words_json(const StationView& station, Instant now);
 std::optional<std::string> scale_words(const StationView& station);
 /// The same as values: [{tag, direction, answer, contradicted}].
 nlohmann::json unscaled_json(const StationView& station);
+/// What the tag table lacks for this tag, and what to do; empty: nothing.
+std::string row_advice(const StationConfig& station, std::uint16_t tag);
 nlohmann::json diagnosis_json(const StationView& station);
 /// The whole reply of GetCounters.
 nlohmann::json counters_json(const View& view, Instant now);

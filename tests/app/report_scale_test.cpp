@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// X-49 in words: what holds a station, what reads 0, and what to do.
+#include "device_bench.hpp"
+
+#include <gmock/gmock.h>
+
+namespace dpslave {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+class UnknownScale : public testing::Test {
+protected:
+    /// The master has chosen tag 55, an input that has answered 12.5.
+    UnknownScale()
+    {
+        bench.view.bus.state = dp::State::data_exch;
+        bench.view.bus.stat_diag = true;
+        bench.view.bus.layout.generation = bench.view.drive.generation = 3;
+        bench.view.bus.layout.count = 1;
+        bench.view.bus.layout.parameters[0] = {.tag = 55, .reads = true, .writes = false};
+        bench.view.drive.known = bench.view.drive.answers = true;
+        found(AccessError::no_scale, "12.5");
+    }
+    void found(AccessError error, std::string_view answer)
+    {
+        bench.view.drive.states[0] = error == AccessError::none ? WordState::good : WordState::unscaled;
+        bench.view.drive.errors[0] = error;
+        bench.view.drive.answer_texts[0] = {};
+        answer.copy(bench.view.drive.answer_texts[0].data(), answer.size());
+    }
+    void exchange_runs() { bench.view.bus.stat_diag = bench.view.bus.holds = false; }
+    std::vector<std::string> news()
+    {
+        device.look(bench.view, bench.bus);
+        std::vector<std::string> texts;
+        for (const app::Sentence& one : device.take_news()) texts.push_back(one.text);
+        return texts;
+    }
+    void has_row(bool confirmed, bool decimals_known)
+    {
+        drive::Tag row;
+        row.number = 55;
+        row.confirmed = confirmed;
+        row.decimals_known = decimals_known;
+        bench.station.tags = std::make_shared<const drive::TagTable>(std::vector{row});
+    }
+
+    test::DeviceBench bench;
+    app::DeviceState device{bench.station};
+};
+
+TEST_F(UnknownScale, ThatHoldsTheStartIsToldWithTagAnswerAndWhatToDo)
+{
+    bench.view.bus.holds = true;
+    EXPECT_THAT(
+        app::scale_words(bench.view).value_or(""),
+        AllOf(HasSubstr("The exchange does not begin: the scale of tag 55 (answers '12.5') is not known"),
+              HasSubstr("tag table"), HasSubstr("dpctl survey"), HasSubstr("unlisted_decimals"),
+              HasSubstr("dpctl reload")));
+}
+
+TEST_F(UnknownScale, IsToldOnceAndAsAHoldAlsoInTheMomentBeforeTheBusSideKnows)
+{
+    EXPECT_THAT(news(), ElementsAre(HasSubstr("The exchange does not begin")));
+    bench.view.bus.holds = true;
+    EXPECT_THAT(news(), IsEmpty());
+}
+
+TEST_F(UnknownScale, OfAStationThatGoesOnWithoutReadsZero)
+{
+    bench.station.unscaled_holds = false;
+    EXPECT_THAT(app::scale_words(bench.view).value_or(""),
+                HasSubstr("Inputs read 0 and outputs are not written"));
+}
+
+TEST_F(UnknownScale, FoundOutLaterReadsZero)
+{
+    exchange_runs();
+    EXPECT_THAT(app::scale_words(bench.view).value_or(""),
+                HasSubstr("Inputs read 0 and outputs are not written"));
+}
+
+TEST_F(UnknownScale, OfARowThatAnAnswerContradictsStaysRefusedUntilTheRowIsCorrected)
+{
+    found(AccessError::contradicted, "12.34");
+    EXPECT_THAT(
+        app::scale_words(bench.view).value_or(""),
+        AllOf(HasSubstr("too few decimals to tag 55 (answers '12.34')"), HasSubstr("correct its row")));
+    EXPECT_EQ(app::unscaled_json(bench.view),
+              json::parse(R"([{"tag":55,"direction":"in","answer":"12.34","contradicted":true}])"));
+}
+
+TEST_F(UnknownScale, IsOverWhenTheTagHasOne)
+{
+    EXPECT_THAT(news(), Not(IsEmpty()));
+    found(AccessError::none, "");
+    EXPECT_THAT(news(), IsEmpty()) << "not before the exchange has begun";
+    exchange_runs();
+    EXPECT_THAT(news(), ElementsAre(HasSubstr("every tag that the master has chosen has a scale")));
+}
+
+TEST_F(UnknownScale, IsNotOverBecauseTheMasterHasLeft)
+{
+    EXPECT_THAT(news(), Not(IsEmpty()));
+    bench.view.bus.state = dp::State::wait_prm;
+    bench.view.bus.layout = {};
+    EXPECT_THAT(news(), IsEmpty());
+
+    bench.view.bus.state = dp::State::data_exch;
+    bench.view.bus.layout.generation = bench.view.drive.generation = 4;
+    bench.view.bus.layout.count = 1;
+    bench.view.bus.layout.parameters[0] = {.tag = 55, .reads = true, .writes = false};
+    EXPECT_THAT(news(), ElementsAre(HasSubstr("The exchange does not begin"))) << "each start says it";
+}
+
+TEST_F(UnknownScale, TheAdviceNamesWhatTheTableLacksAndNeverATableOfThePackage)
+{
+    bench.station.tag_file = "/usr/share/dpslaved/tags/empty.csv";
+    bench.profile().tag_file = "/usr/share/dpslaved/tags/empty.csv";
+    EXPECT_THAT(app::row_advice(bench.station, 55),
+                AllOf(HasSubstr("a table of your own"), Not(HasSubstr("add a line"))));
+    bench.station.tag_file = "/etc/dpslaved/my-590.csv";
+    EXPECT_THAT(app::row_advice(bench.station, 55), AllOf(HasSubstr("my-590.csv"), HasSubstr("add a line")));
+    has_row(false, true);
+    EXPECT_THAT(app::row_advice(bench.station, 55), HasSubstr("set confirmed to yes"));
+    has_row(true, false);
+    EXPECT_THAT(app::row_advice(bench.station, 55), HasSubstr("fill in column decimals"));
+    has_row(true, true);
+    EXPECT_EQ(app::row_advice(bench.station, 55), "");
+}
+
+TEST_F(UnknownScale, OfTripsIsToldInTheDiagnosisOfABox)
+{
+    bench.is_a_box();
+    exchange_runs();
+    found(AccessError::none, "");
+    const auto says_so =
+        testing::Contains(AllOf(HasSubstr("trips are not known"), HasSubstr("set trip_tag")));
+    const auto trouble = [this] {
+        return app::diagnosis_json(bench.view).at("trouble").get<std::vector<std::string>>();
+    };
+
+    EXPECT_THAT(trouble(), Not(says_so));
+    bench.station.tec->trip.bit.tag = 0;
+    EXPECT_THAT(trouble(), says_so);
+}
+
+} // namespace
+} // namespace dpslave
