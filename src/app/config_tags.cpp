@@ -81,7 +81,6 @@ void refuse_shared_mnemonics(Document& document, Table& table, const StationConf
 void warn_of_unknown_scales(const StationConfig& station, Faults& warnings)
 {
     const auto bare = tags_where(*station.tags, [](const drive::Tag& tag) { return !tag.decimals_known; });
-    const auto waiting = tags_where(*station.tags, [](const drive::Tag& tag) { return !tag.confirmed; });
     if (!bare.empty())
         warn_of_table(
             station,
@@ -89,12 +88,19 @@ void warn_of_unknown_scales(const StationConfig& station, Faults& warnings)
                 " without decimals: over EI-ASCII the scale is not known, and the exchange does not "
                 "begin while a master chooses such a tag; fill in column decimals.",
             warnings);
-    if (!waiting.empty())
-        warn_of_table(station,
-                      listed_tags(waiting) + (waiting.size() == 1 ? " waits" : " wait") +
-                          " for confirmation: until then the scale is not known; compare the rows with the "
-                          "drive's manual and set column confirmed to yes.",
-                      warnings);
+}
+
+/// Rows that a survey wrote.
+void warn_of_unconfirmed_rows(const StationConfig& station, bool is_text, Faults& warnings)
+{
+    const auto waiting = tags_where(*station.tags, [](const drive::Tag& tag) { return !tag.confirmed; });
+    if (waiting.empty()) return;
+    warn_of_table(station,
+                  listed_tags(waiting) + (waiting.size() == 1 ? " waits" : " wait") +
+                      " for confirmation: until then " +
+                      (is_text ? "the scale is not known" : "values are shown in hexadecimal") +
+                      "; compare the rows with the manual of the device and set column confirmed to yes.",
+                  warnings);
 }
 
 void warn_of_no_table(Document& document, const Table& table, const StationConfig& station, bool is_text,
@@ -147,6 +153,7 @@ void judge_tags(Document& document, Table& table, const StationConfig& station, 
     if (!station.profile || !station.tags || protocol.empty()) return;
     const bool is_text = protocol == kEiAscii;
     if (station.tags->all().empty()) warn_of_no_table(document, table, station, is_text, warnings);
+    warn_of_unconfirmed_rows(station, is_text, warnings);
     if (!is_text) return;
     warn_of_tags_without_mnemonic(station, warnings);
     warn_of_unknown_scales(station, warnings);

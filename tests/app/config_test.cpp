@@ -717,7 +717,15 @@ TEST_F(ConfigWarning, rows_that_wait_for_confirmation_are_named)
     folder_.write("tags/empty.csv",
                   "tag,type,decimals,confirmed\n1,INT,1,no\n2,INT,1,yes\n3,INT,1,\n4,WORD,,no\n");
 
-    EXPECT_THAT(short_forms(good(kGood).warnings), ElementsAre(HasSubstr("tags 1, 4 wait for confirmation")));
+    EXPECT_THAT(short_forms(good(kGood).warnings),
+                ElementsAre(AllOf(HasSubstr("tags 1, 4 wait for confirmation"),
+                                  HasSubstr("the scale is not known"))));
+    change_profile("modern", "[\"ei-ascii\"]", "[\"modbus-rtu\"]");
+    const std::string modbus =
+        with(with(kGood, "\"590\"", "\"modern\""), "protocol = \"ei-ascii\"", "protocol = \"modbus-rtu\"");
+    EXPECT_THAT(
+        short_forms(good(with(modbus, "unit = \"00\"", "unit = \"1\"")).warnings),
+        ElementsAre(AllOf(HasSubstr("tags 1, 4 wait for confirmation"), HasSubstr("in hexadecimal"))));
 }
 
 TEST_F(ConfigWarning, a_station_without_a_tag_table_is_named)
