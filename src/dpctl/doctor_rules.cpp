@@ -126,7 +126,15 @@ std::string no_exchange(const Facts& f)
         return "the master has parameterised address " + address + " and sends no Chk_Cfg";
     if (is_asked(f.station_counters))
         return "a master asks address " + address + ", but does not parameterise it";
-    return "telegrams are heard, but no master asks address " + address;
+    return not_asked(f);
+}
+
+std::string not_asked(const Facts& f)
+{
+    if (!counted(f.counters, "checked").last_ms)
+        return "no telegram has been heard yet; the daemon has run for " +
+               age(static_cast<double>(f.uptime_ms));
+    return "telegrams are heard, but no master asks address " + number(f.station, "address");
 }
 
 std::span<const Rule> rules()

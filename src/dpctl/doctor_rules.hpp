@@ -45,6 +45,7 @@ bool telegrams_are_heard(const Facts& f);
 std::string silence(const Facts& f);
 /// Silence of the bus, or what the master does not do.
 std::string no_exchange(const Facts& f);
+std::string not_asked(const Facts& f); ///< what is heard in place of a request for the station
 /// The last refused telegram.
 std::string refusal(const Facts& f);
 /// What the drive or the tag table said no to, for the master.

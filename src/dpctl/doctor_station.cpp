@@ -95,8 +95,8 @@ constexpr std::array kScaleSteps = std::to_array<std::string_view>({
     "dpctl reload",
 });
 constexpr std::array kNoTableSteps = std::to_array<std::string_view>({
-    "Write a tag table from the drive's product manual and name it with 'tags' in [[station]]; then dpctl "
-    "reload.",
+    "Make a tag table with dpctl survey and the drive's product manual, and name it with 'tags' in "
+    "[[station]]; then dpctl reload.",
 });
 constexpr std::array kNoTripSteps = std::to_array<std::string_view>({
     "Set trip_tag in [station.tec] to the tag of the trip code, or to a bit that is set while the drive has "
@@ -135,7 +135,7 @@ std::string seen_not_asked(const Facts& f)
 {
     const bool waits = is_in(f, "Wait_Prm") || is_in(f, "Wait_Cfg");
     if (!waits || !silence(f).empty() || is_asked(f.station_counters)) return {};
-    return "telegrams are heard, but no master asks address " + number(f.station, "address");
+    return not_asked(f);
 }
 std::string seen_asked_only(const Facts& f)
 {

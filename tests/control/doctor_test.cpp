@@ -84,6 +84,10 @@ TEST_F(Doctor, NamesAStationThatNoMasterAsks)
     EXPECT_THAT(found(), ElementsAre("station.not_asked", "board.external"));
     EXPECT_EQ(evidence("board.external"), "telegrams are heard, but no master asks address 5");
 
+    set_count(0, "checked", 0, 0, std::nullopt);
+    replies.status["uptime_ms"] = 1'500;
+    EXPECT_EQ(evidence("board.external"), "no telegram has been heard yet; the daemon has run for 1.5 s");
+
     station()["state"] = "Wait_Cfg";
     EXPECT_EQ(evidence("board.external"), "the master has parameterised address 5 and sends no Chk_Cfg");
 }
