@@ -307,8 +307,9 @@ std::string Judge::not_settled(std::size_t drive, const drive::UnitSnapshot& sna
         }
     }
     for (const auto& [number, known] : record.tags) {
+        if (!known.is_output) continue; // a block also reads numbers that are no tags
         const SimulatedTag& tag = tag_of(drive, number);
-        if (!known.is_output || tag.now().denied || tag.read_only) continue;
+        if (tag.now().denied || tag.read_only) continue;
         // What is no output any more is only sent to its safe state, and is not looked at again.
         const bool is_over = known.wanted.back().word != 0 || tag.disturbed_at >= known.wanted.back().at;
         if (!outputs_now(drive, number) && is_over) continue;
