@@ -99,6 +99,8 @@ Group station_counters(const StationView& station)
         "those of them that were whole but for their check sum (EI-ASCII)");
     add(c, "drive_late", drive.heard.late, "answers that came after their time-out");
     add(c, "drive_foreign", drive.heard.foreign, "frames that answered nothing that was asked");
+    add(c, "drive_came_back", drive.heard.came_back,
+        "requests that were heard again: the line has an echo and [[line]] echo is off");
     add(c, "drive_delay_ms", static_cast<std::uint64_t>(drive.heard.delay / std::chrono::milliseconds{1}),
         "of the late answers: the longest since one came in time");
     add(c, "drive_needs_timeout_ms", static_cast<std::uint64_t>(drive::needed_timeout(drive.heard).count()),

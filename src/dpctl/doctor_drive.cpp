@@ -43,6 +43,10 @@ constexpr std::array kNoiseSteps = std::to_array<std::string_view>({
     "A lower rate of drive and [[line]] is less sensitive.",
     "dpctl counters: do drive_silences and drive_damaged still grow?",
 });
+constexpr std::array kEchoSteps = std::to_array<std::string_view>({
+    "Set echo = \"on\" in the [[line]] of this drive, then dpctl reload.",
+    "Or switch the echo off at the adapter: many two-wire RS-485 adapters have a switch for it.",
+});
 constexpr std::array kUnreadableSteps = std::to_array<std::string_view>({
     "Compare rate and format of [[line]] with those that the drive is set to.",
     "Let the gateway look for it: dpctl doctor --probe tries other rates and formats and names what answers.",
@@ -92,6 +96,19 @@ std::string seen_gone(const Facts& f)
     const Json& d = part(f.station, "drive");
     return is_gone(d) ? fmt::format("{} of line {} is not there", text(d, "port"), text(d, "line")) : "";
 }
+/// Do we hear ourselves? Then what else is heard says nothing of the drive.
+bool is_echo(const Facts& f)
+{
+    const Count back = counted(f.station_counters, "drive_came_back");
+    return back.minute >= kSome && back.within(kOfNow);
+}
+std::string seen_echo(const Facts& f)
+{
+    const Count back = counted(f.station_counters, "drive_came_back");
+    if (!is_echo(f)) return {};
+    return fmt::format("{} came back {}: the adapter of {} hears what it sends, and [[line]] echo is off",
+                       plural(back.minute, "request"), lately(back), text(part(f.station, "drive"), "port"));
+}
 /// Is it the time-out, and not the drive, that is wrong? Then it is not silent.
 bool is_late(const Facts& f)
 {
@@ -112,7 +129,7 @@ std::string damaged_words(const Facts& f)
 bool is_unreadable(const Facts& f)
 {
     const Count damaged = counted(f.station_counters, "drive_damaged");
-    return is_silent(f) && damaged.minute >= kSome && damaged.within(kOfNow);
+    return is_silent(f) && !is_echo(f) && damaged.minute >= kSome && damaged.within(kOfNow);
 }
 std::string seen_unreadable(const Facts& f)
 {
@@ -124,14 +141,14 @@ std::string seen_unreadable(const Facts& f)
 std::string seen_never(const Facts& f)
 {
     const Json& d = part(f.station, "drive");
-    if (!is_silent(f) || flag(d, "ever_answered") || is_late(f) || is_unreadable(f)) return {};
+    if (!is_silent(f) || flag(d, "ever_answered") || is_late(f) || is_unreadable(f) || is_echo(f)) return {};
     return fmt::format("{}; {} and never an answer", settings_of(d),
                        plural(integer(d, "silences").value_or(0), "request"));
 }
 std::string seen_silent(const Facts& f)
 {
     const Json& d = part(f.station, "drive");
-    if (!is_silent(f) || !flag(d, "ever_answered") || is_late(f) || is_unreadable(f)) return {};
+    if (!is_silent(f) || !flag(d, "ever_answered") || is_late(f) || is_unreadable(f) || is_echo(f)) return {};
     const Count lost = counted(f.station_counters, "drive_losses");
     return fmt::format("{}; it does not answer{}", settings_of(d),
                        lost.last_ms ? " since " + age(lost.last_ms) : std::string{});
@@ -151,7 +168,8 @@ std::string seen_late(const Facts& f)
 }
 std::string seen_damaged(const Facts& f)
 {
-    if (counted(f.station_counters, "drive_damaged").minute < kSome || is_unreadable(f)) return {};
+    if (counted(f.station_counters, "drive_damaged").minute < kSome || is_unreadable(f) || is_echo(f))
+        return {};
     if (!flag(part(f.station, "drive"), "ever_answered")) return {};
     const std::int64_t good = counted(f.station_counters, "drive_reads").minute +
                               counted(f.station_counters, "drive_writes").minute;
@@ -160,7 +178,7 @@ std::string seen_damaged(const Facts& f)
 std::string seen_foreign(const Facts& f)
 {
     const Count foreign = counted(f.station_counters, "drive_foreign");
-    if (foreign.minute < kSome) return {};
+    if (foreign.minute < kSome || is_echo(f)) return {};
     return fmt::format("{} not to what was asked, {}",
                        foreign.minute == 1 ? "1 answer was" : fmt::format("{} answers were", foreign.minute),
                        lately(foreign));
@@ -187,7 +205,7 @@ std::string seen_noise(const Facts& f)
     const std::int64_t all = silences.minute + counted(f.station_counters, "drive_reads").minute +
                              counted(f.station_counters, "drive_writes").minute;
     const bool is_told = counted(f.station_counters, "drive_late").minute >= kSome ||
-                         counted(f.station_counters, "drive_damaged").minute >= kSome;
+                         counted(f.station_counters, "drive_damaged").minute >= kSome || is_echo(f);
     if (is_told || silences.minute < kSome || silences.minute * kShare < all) return {};
     return fmt::format("{} of {} were not answered {}", silences.minute, plural(all, "request"),
                        lately(silences));
@@ -204,6 +222,8 @@ constexpr std::array kRules = std::to_array<Rule>({
     {"drive.gone", Scope::station, Rank::gone, "the port of the drive line has vanished",
      "The port of the drive line is gone: adapter pulled, or its driver failed", kGoneSteps, kGateway,
      seen_gone},
+    {"drive.echo", Scope::station, Rank::stands, "requests to the drive come back from the line",
+     "The line of the drive hears itself: it has an echo", kEchoSteps, kGateway, seen_echo},
     {"drive.unreadable", Scope::station, Rank::stands, "answers of the drive come, and none can be read",
      "The drive answers, but damaged: rate or format of the line, or a disturbed cable", kUnreadableSteps,
      kGateway, seen_unreadable},

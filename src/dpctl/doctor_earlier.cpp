@@ -25,6 +25,7 @@ constexpr std::array kOfStation = std::to_array<Named>({
     {"drive_losses", "times that the drive was lost"},
     {"drive_silences", "requests that the drive did not answer"},
     {"drive_late", "answers of the drive that came too late"},
+    {"drive_came_back", "requests to the drive that came back from the line"},
     {"drive_damaged", "answers of the drive that were damaged"},
     {"drive_not_accepted", "writes that the drive refused for a wrong checksum"},
     {"drive_not_understood", "requests that the drive could not take"},

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace dpslave::drive::ei {
 namespace {
@@ -79,6 +80,22 @@ void EchoFilter::silence(std::string& out)
     matched_ = 0;
 }
 
+void EchoWatch::sent(Bytes request)
+{
+    before_ = std::exchange(last_, std::string{request.begin(), request.end()});
+}
+
+bool EchoWatch::feed(std::uint8_t octet)
+{
+    heard_ += static_cast<char>(octet);
+    const bool is_back =
+        (!last_.empty() && heard_.ends_with(last_)) || (!before_.empty() && heard_.ends_with(before_));
+    if (is_back) heard_.clear();
+    const std::size_t longest = std::max(last_.size(), before_.size());
+    if (heard_.size() > longest) heard_.erase(0, heard_.size() - longest);
+    return is_back;
+}
+
 Exchange::Exchange(SerialLine& line, EiTiming timing)
     : line_(line),
       timing_(timing),
@@ -146,11 +163,11 @@ Exchange::End Exchange::select(UnitAddress unit, Mnemonic mnemonic, std::string_
 Exchange::End Exchange::ask(const Question& question, Bytes request, WaitsFor what)
 {
     trouble_.clear();
-    asked_ = question.drive;
     if (!fall_silent()) {
         trouble_ = "noise and no answer: the line is never silent";
         return End::damaged;
     }
+    asked_ = question.drive; // what came until now was of the one before
     if (!line_.write(request)) {
         trouble_ = "the line does not take the request";
         return End::silence;
@@ -158,6 +175,7 @@ Exchange::End Exchange::ask(const Question& question, Bytes request, WaitsFor wh
     const Instant sent_at = line_.now() + duration_of(request.size()); // write() need not wait for the wire
     owed_.asked(question, sent_at);
     echo_.sent(request);
+    echo_watch_.sent(request);
     const End end = wait(sent_at + timing_.timeout, what);
     owed_.wait_is_over();
     return end;
@@ -175,7 +193,7 @@ Exchange::End Exchange::wait(Instant begins_by, WaitsFor what)
         const Instant until = in_frame() ? std::min(now + gap(), ends_by) : begins_by;
         const std::size_t got = now < until ? line_.read(buffer, until - now) : 0;
         octets.clear();
-        for (std::size_t i = 0; i < got; ++i) echo_.feed(buffer[i], octets);
+        hear(Bytes{buffer}.first(got), octets);
         if (got == 0 && echo_.withholds()) echo_.silence(octets);
         if (got != 0) heard_at_ = line_.now();
         if (const auto end = take(octets, what)) return *end;
@@ -207,10 +225,19 @@ bool Exchange::fall_silent()
         }
         heard_at_ = line_.now();
         octets.clear();
-        for (std::size_t i = 0; i < got; ++i) echo_.feed(buffer[i], octets);
+        hear(Bytes{buffer}.first(got), octets);
         take(octets, WaitsFor::nothing);
     }
     return false;
+}
+
+/// Appends what is no echo.
+void Exchange::hear(Bytes octets, std::string& out)
+{
+    for (const std::uint8_t octet : octets) {
+        echo_.feed(octet, out);
+        if (timing_.rules.echo == EchoMode::off && echo_watch_.feed(octet)) owed_.came_back(asked_);
+    }
 }
 
 std::optional<Exchange::End> Exchange::take(std::string_view octets, WaitsFor what)

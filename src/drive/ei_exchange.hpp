@@ -31,6 +31,18 @@ private:
 
 DriveNumber number_of(UnitAddress unit);
 
+/// Notices requests that come back although the line has no echo by its settings. The octets of one may come
+/// while the next one is already waited for.
+class EchoWatch {
+public:
+    void sent(Bytes request);
+    bool feed(std::uint8_t octet); ///< true: a request has come back whole
+
+private:
+    std::string last_, before_; ///< requests
+    std::string heard_;
+};
+
 class Exchange {
 public:
     Exchange(SerialLine& line, EiTiming timing);
@@ -68,6 +80,7 @@ private:
     End ask(const Question& question, Bytes request, WaitsFor what);
     End wait(Instant begins_by, WaitsFor what);
     bool fall_silent();
+    void hear(Bytes octets, std::string& out);
     std::optional<End> take(std::string_view octets, WaitsFor what);
     std::optional<End> take_frame(const Answer& frame, bool is_alone, WaitsFor what);
     std::optional<End> take_value(const Answer& frame, WaitsFor what);
@@ -80,6 +93,7 @@ private:
     EiTiming timing_;
     OwedAnswers owed_;
     EchoFilter echo_;
+    EchoWatch echo_watch_;
     std::optional<AnswerParser> parser_; ///< of a frame that has begun
     bool skips_ = false;                 ///< what comes until the next gap is the rest of something broken
     DriveNumber asked_ = 0;

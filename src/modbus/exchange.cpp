@@ -163,8 +163,10 @@ bool ModbusClient::Exchange::take_echo(Bytes request, Bytes frame)
 {
     const bool is_copy = frame[0] == unit_ && std::ranges::equal(frame.subspan(1), request);
     if (is_copy && echo_ == Echo::unknown) echo_ = Echo::heard;
-    if (is_copy && echo_ == Echo::none && longest_answer(request) != request.size())
+    if (is_copy && echo_ == Echo::none && longest_answer(request) != request.size()) {
         trouble_ = "the line hears its own request: set echo = \"on\" for it";
+        owed_.came_back(unit_);
+    }
     if (!is_copy || !echo_due_) return false;
     echo_due_ = false;
     return true;

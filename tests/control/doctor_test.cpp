@@ -527,6 +527,19 @@ TEST_F(Doctor, ADriveWhoseAnswersCannotBeReadIsNotCalledSilent)
     EXPECT_THAT(steps("drive.unreadable"), HasSubstr("dpctl doctor --probe"));
 }
 
+TEST_F(Doctor, ALineThatHearsItselfIsNeitherSilentNorUnreadable)
+{
+    drive_was_never_heard();
+    count_of_station("drive_came_back", 23);
+    count_of_station("drive_damaged", 40);
+    count_of_station("drive_foreign", 12);
+
+    EXPECT_EQ(found().front(), "drive.echo");
+    EXPECT_THAT(found(), Not(Contains(testing::AnyOf("drive.never", "drive.unreadable", "drive.foreign"))));
+    EXPECT_THAT(evidence("drive.echo"), HasSubstr("23 requests came back in the last minute"));
+    EXPECT_THAT(steps("drive.echo"), HasSubstr("echo = \"on\""));
+}
+
 TEST_F(Doctor, ADriveThatWasLateAWhileAgoMayBeSilentNow)
 {
     station()["drive"]["link"] = "silent";

@@ -236,7 +236,7 @@ public:
     {
         if (unplugged) return false;
         asked_at = time;
-        Instant at = time;
+        Instant at = std::max(time, sent_until_); // one behind the other, as a port sends
         for (const std::uint8_t octet : octets) {
             at += character_;
             sent += static_cast<char>(octet);
@@ -246,6 +246,7 @@ public:
                 if (!answer.empty()) arrives(answer, at + drive->turnaround);
             }
         }
+        sent_until_ = at;
         return true;
     }
 
@@ -296,6 +297,7 @@ private:
     }
 
     std::chrono::nanoseconds character_;
+    Instant sent_until_{};
     std::deque<std::pair<char, Instant>> pending_;
     std::optional<char> babble_;
     std::chrono::nanoseconds babble_every_{};

@@ -283,6 +283,22 @@ TEST_F(EiAnswers, AnEchoBringsNoDriveBackHoweverTheLineIsSet)
     EXPECT_NE(write(kMissing, output, 1), AccessError::none);
 }
 
+TEST_F(EiAnswers, ARequestThatComesBackThoughThereIsNoEchoIsCounted)
+{
+    EXPECT_EQ(read(kFirst, output), AccessError::none);
+    EXPECT_EQ(client.counts(kFirst).came_back, 0U);
+    line.echoes = true;
+    for (int i = 0; i < 4; ++i) read(kMissing, output);
+    read(kFirst, input);
+    EXPECT_GE(client.counts(kMissing).came_back, 3U);
+}
+
+TEST_F(EiEchoOn, AnEchoThatIsExpectedIsNotCounted)
+{
+    EXPECT_EQ(read(kFirst, output), AccessError::none);
+    EXPECT_EQ(client.counts(kFirst).came_back, 0U);
+}
+
 TEST_F(EiEchoOn, IsTakenAwayAndTheAnswerBehindItIsTaken)
 {
     EXPECT_EQ(read(kFirst, output), AccessError::none);

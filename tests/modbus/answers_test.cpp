@@ -291,6 +291,16 @@ TEST_F(ModbusEcho, IsNotTakenForTheAnswerToAWrite)
     EXPECT_FALSE(client->probe({.unit = 1})) << "an echo is no sign of life";
 }
 
+TEST_F(ModbusAnswers, ARequestThatComesBackThoughThereIsNoEchoIsCounted)
+{
+    line.echoes = true;
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_EQ(read(1), AccessError::no_answer);
+        line.time += 10s; // nothing is owed any more
+    }
+    EXPECT_EQ(client->counts({.unit = 1}).came_back, 3U);
+}
+
 TEST_F(ModbusEchoAuto, IsFoundOutByReadsBeforeAnythingIsAskedThatLooksLikeItsAnswer)
 {
     EXPECT_EQ(write(1, 5), AccessError::deferred);

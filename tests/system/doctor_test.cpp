@@ -281,6 +281,16 @@ TEST_F(SickDrive, ThatWasNeverReadableIsNotSaidToHaveNeverAnswered)
     EXPECT_THAT(evidence(), HasSubstr("none was ever good"));
 }
 
+TEST_F(SickDrive, WhoseLineHearsItselfIsNotBlamed)
+{
+    begins();
+    gateway->drive().tell("echo on");
+
+    EXPECT_TRUE(is("drive.echo"));
+    EXPECT_THAT(evidence(), HasSubstr("hears what it sends, and [[line]] echo is off"));
+    EXPECT_THAT(steps(), HasSubstr("in the [[line]] of this drive"));
+}
+
 /// Of the timeout_ms that the doctor asks for, in milliseconds; 0: of none.
 int timeout_asked_for(const std::string& said)
 {

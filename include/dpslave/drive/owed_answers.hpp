@@ -38,6 +38,7 @@ struct AnswerCounts {
     std::uint64_t not_accepted = 0;  ///< requests that the drive refused for their check sum; EI-ASCII: EE 02
     std::uint64_t late = 0;          ///< answers after their time-out
     std::uint64_t foreign = 0;       ///< frames that answer nothing that was asked
+    std::uint64_t came_back = 0;     ///< requests heard again though the line has no echo by its settings
     std::uint32_t late_in_a_row = 0; ///< late ones since the last answer in time
     std::chrono::nanoseconds delay{}; ///< the longest of them, from the last octet of its question
     friend bool operator==(const AnswerCounts&, const AnswerCounts&) = default;
@@ -98,6 +99,7 @@ public:
     void bad_checksum(DriveNumber drive) { ++counts_[drive].bad_checksum; } ///< beside damaged()
     void not_accepted(DriveNumber drive) { ++counts_[drive].not_accepted; }
     void foreign(DriveNumber drive) { ++counts_[drive].foreign; }
+    void came_back(DriveNumber drive) { ++counts_[drive].came_back; }
     AnswerCounts counts(DriveNumber drive) const;
 
 private:
