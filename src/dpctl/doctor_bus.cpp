@@ -157,8 +157,8 @@ std::string seen_flaws(const Facts& f)
 {
     const Count bad = flaws(f), good = counted(f.counters, "telegrams");
     if (bad.minute < kSomeFlaws || !telegrams_are_heard(f)) return {};
-    return fmt::format("{} beside {} valid ones {}", plural(bad.minute, "damaged telegram"), good.minute,
-                       lately(bad));
+    return fmt::format("{} (damaged telegrams, or octets that belong to none) beside {} {}",
+                       plural(bad.minute, "flaw"), plural(good.minute, "valid telegram"), lately(bad));
 }
 std::string seen_retries(const Facts& f)
 {
@@ -203,7 +203,8 @@ constexpr std::array kRules = std::to_array<Rule>({
      "The transceiver is not switched as it should be", kDriverSteps, kGateway, seen_driver},
     {"bus.port", Scope::bus, Rank::recent, "the port does not take replies", "The port of the bus fails",
      kPortSteps, kGateway, seen_port},
-    {"bus.flaws", Scope::bus, Rank::recent, "five telegrams in a minute are damaged",
+    {"bus.flaws", Scope::bus, Rank::recent,
+     "five flaws in a minute: damaged telegrams, or octets that belong to none",
      "The line of the bus is disturbed", kLineSteps, kBox, seen_flaws},
     {"bus.late", Scope::bus, Rank::recent,
      "more than one reply in a thousand came too late, or its request was overtaken",

@@ -49,7 +49,7 @@ std::vector<Earlier> earlier_troubles(const Replies& replies, const std::string&
             for (const Named& one : kOfBus) add(all, "", counted(group, one.counter), std::string{one.what});
             for (const Json& counter : list(group, "counters"))
                 if (const std::string name = text(counter, "name"); name.starts_with(kFlaw))
-                    add(all, "", counted(group, name), "damaged telegrams: " + name.substr(kFlaw.size()));
+                    add(all, "", counted(group, name), "flaws of the line: " + name.substr(kFlaw.size()));
             continue;
         }
         const std::string name = text(group, "name");

@@ -360,7 +360,8 @@ INSTANTIATE_TEST_SUITE_P(
         Counted{"DriverStays", "driver_guarded", 1, 0, "bus.driver",
                 "0 edges failed, and the guard let the driver go 1 time in the last minute"},
         Counted{"Flaws", "flaw: checksum", 5, 4, "bus.flaws",
-                "5 damaged telegrams beside 100000 valid ones in the last minute"},
+                "5 flaws (damaged telegrams, or octets that belong to none) beside 100000 valid telegrams in "
+                "the last minute"},
         Counted{"Retries", "retries", 100, 99, "bus.retries",
                 "the master asked again 100 times in 100000 requests in the last minute"},
         Counted{"Port", "write_errors", 3, 0, "bus.port",
@@ -374,8 +375,8 @@ TEST_F(Doctor, NoiseThatGoesOnIsNotLostAmongGoodTelegramsAndSaysSinceWhen)
     replies.counters["groups"][0]["counters"].back()["since_age_ms"] = 720'000.0;
 
     EXPECT_THAT(found(), ElementsAre("bus.flaws"));
-    EXPECT_EQ(evidence("bus.flaws"),
-              "12 damaged telegrams beside 30000 valid ones in the last minute, since 12 min");
+    EXPECT_EQ(evidence("bus.flaws"), "12 flaws (damaged telegrams, or octets that belong to none) beside "
+                                     "30000 valid telegrams in the last minute, since 12 min");
 }
 
 TEST_F(Doctor, WhatIsOverIsOneLineWithCountAndAge)

@@ -128,7 +128,7 @@ TEST(DoctorOfTheBus, NamesNoiseAndForgetsItWhenItIsOver)
     gateway.bus().tell("errors 0.0005");
 
     EXPECT_TRUE(first_cause_is(gateway, "bus.flaws"));
-    EXPECT_THAT(evidence(gateway), HasSubstr("damaged telegram"));
+    EXPECT_THAT(evidence(gateway), HasSubstr("damaged telegrams"));
 }
 
 // ---------------------------------------------------------------- the master's project
