@@ -51,6 +51,18 @@ Ratios ratios(const Sample& sample, const Sample& base)
             .cpu = ratio(cpu_per_telegram(sample), cpu_per_telegram(base))};
 }
 
+Ratios median(const std::vector<Ratios>& runs)
+{
+    const auto of = [&](double Ratios::*which) {
+        std::vector<double> values;
+        for (const Ratios& run : runs) values.push_back(run.*which);
+        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+        std::nth_element(values.begin(), middle, values.end());
+        return *middle;
+    };
+    return {.p50 = of(&Ratios::p50), .p99 = of(&Ratios::p99), .cpu = of(&Ratios::cpu)};
+}
+
 void print_header()
 {
     std::printf("%-34s %9s %9s %9s %9s %8s\n", "us per telegram", "p50", "p99", "max", "CPU", "retries");

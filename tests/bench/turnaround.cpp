@@ -34,6 +34,7 @@ struct Options {
     std::filesystem::path profiles;
     std::size_t telegrams = 20'000;
     std::uint32_t seed = 1;
+    std::size_t runs = kRuns;
     std::string direction = "none"; ///< or "gpio": a line of a stand-in whose edges cost a system call each
     bool quick = false;
 };
@@ -202,12 +203,11 @@ void check_driver_enable(const stand_in::ChipFile& chip, std::size_t replies)
         throw std::runtime_error{"the driver enable was not switched for each reply"};
 }
 
-int measure(const Options& options, const std::filesystem::path& folder)
+/// One run. The processor `cpu` is for the responders.
+Ratios measure(const Options& options, const std::filesystem::path& folder, int cpu)
 {
     const bool gpio = options.direction == "gpio";
     const stand_in::ChipFile chip{folder / "gpiochip0"};
-    const int cpu = reserve_cpu();
-    ::prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL); // the pauses are short
     Port bus, null_bus, second_bus, hasty_bus, drive;
     Child daemon = start_daemon({.program = options.daemon,
                                  .profiles = options.profiles,
@@ -265,11 +265,7 @@ int measure(const Options& options, const std::filesystem::path& folder)
     print("null / null (A/A)", ratios(again.sample, base.sample));
     print("bus thread / hasty", ratios(bus_only, hasty.sample));
     if (gpio) check_driver_enable(chip, options.telegrams);
-    if (options.quick) {
-        std::printf("not judged: too few telegrams\n");
-        return 0;
-    }
-    return judge(found, gpio ? kGpioLimits : kLimits) ? 0 : 1;
+    return found;
 }
 
 void show_log(const std::filesystem::path& folder)
@@ -295,25 +291,44 @@ int main(int argc, char** argv)
     auto* number = app.add_option("--telegrams", options.telegrams, "To each responder")
                        ->capture_default_str()
                        ->check(CLI::Range(100, 10'000'000));
+    auto* runs = app.add_option("--runs", options.runs, "The median of so many runs is judged")
+                     ->capture_default_str()
+                     ->check(CLI::Range(1, 1000));
     app.add_option("--seed", options.seed, "Of the order of the telegrams")->capture_default_str();
     app.add_option("--direction", options.direction,
                    "Driver enable of the daemon: none, or gpio (a stand-in)")
         ->capture_default_str()
         ->check(CLI::IsMember({"none", "gpio"}));
-    app.add_flag("--quick", options.quick, "200 telegrams, nothing judged")->excludes(number);
+    app.add_flag("--quick", options.quick, "One run of 200 telegrams, nothing judged")
+        ->excludes(number)
+        ->excludes(runs);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
     }
-    if (options.quick) options.telegrams = 200;
-
-    const Folder folder;
-    try {
-        return measure(options, folder.path());
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "bench_turnaround: %s\n", error.what());
-        show_log(folder.path());
-        return 3;
+    if (options.quick) {
+        options.telegrams = 200;
+        options.runs = 1;
     }
+    const int cpu = reserve_cpu();
+    ::prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL); // the pauses are short
+    std::vector<Ratios> found;
+    while (found.size() < options.runs) {
+        const Folder folder;
+        try {
+            found.push_back(measure(options, folder.path(), cpu));
+        } catch (const std::exception& error) {
+            std::fprintf(stderr, "bench_turnaround: %s\n", error.what());
+            show_log(folder.path());
+            return 3;
+        }
+    }
+    if (options.quick) {
+        std::printf("not judged: too few telegrams\n");
+        return 0;
+    }
+    const Ratios middle = median(found);
+    print(options.runs == 1 ? "bus thread / null" : "bus thread / null, median", middle);
+    return judge(middle, options.direction == "gpio" ? kGpioLimits : kLimits) ? 0 : 1;
 }
