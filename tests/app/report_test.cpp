@@ -230,6 +230,25 @@ TEST_F(Report, OfTheFunctionBlockIsAsTheInterfaceDescribesIt)
     EXPECT_EQ(app::tec_json("unwinder", device).at("view"), "generic");
 }
 
+TEST_F(Report, OfTheFunctionBlockHasTheNonSpecificNameOfEachRowWhateverTypeIs)
+{
+    bench.is_a_box();
+    app::DeviceState device{bench.station};
+    device.look(bench.view, bench.bus);
+    const auto generic_names = [&] {
+        std::vector<std::string> names;
+        const json tec = app::tec_json("unwinder", device);
+        for (const json& row : tec.at("rows")) names.push_back(row.at("generic_name"));
+        return names;
+    };
+    const auto names = ElementsAre("TYPE", "INPUT 1", "INPUT 2", "INPUT 3", "INPUT 4", "INPUT 5", "FAULT",
+                                   "VERSION", "OUTPUT 1", "OUTPUT 2");
+
+    EXPECT_THAT(generic_names(), names) << "TYPE is PROFIBUS DP";
+    ASSERT_FALSE(device.set("TYPE", "1"));
+    EXPECT_THAT(generic_names(), names);
+}
+
 TEST_F(Report, OfAValueThatCannotBeWrittenNamesThoseThatCan)
 {
     EXPECT_THAT(app::bad_value_words(*bench.station.tags->find(15), AccessError::value_not_encoded),
