@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpslave/app/limited_log.hpp"
+#include "limited_log.hpp"
 
 #include <spdlog/spdlog.h>
 

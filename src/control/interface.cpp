@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpslave/control/interface.hpp"
+#include "interface.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads the interface definition language of varlink.org by recursive descent, one function per rule.
-#include "dpslave/control/interface.hpp"
+#include "interface.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpslave/control/protocol.hpp"
 
-#include "dpslave/control/interface.hpp"
+#include "interface.hpp"
 
 namespace dpslave::control {
 namespace {

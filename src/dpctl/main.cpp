@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli.hpp"
+#include "dpctl/cli/cli.hpp"
 
 #include <sys/ioctl.h>
 #include <unistd.h>

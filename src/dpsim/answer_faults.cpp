@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpsim/answer_faults.hpp"
+#include "answer_faults.hpp"
 
-#include "dpsim/values.hpp"
+#include "values.hpp"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 /// same for both protocols.
 #pragma once
 
-#include "dpsim/telegram.hpp"
+#include "telegram.hpp"
 
 #include "dpslave/base/result.hpp"
 #include "dpslave/base/units.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpsim/condition.hpp"
+#include "condition.hpp"
 
-#include "dpsim/values.hpp"
+#include "values.hpp"
 
 #include <fmt/format.h>
 

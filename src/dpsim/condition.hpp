@@ -2,7 +2,7 @@
 /// What `wait ... for` and `expect` can ask of the master.
 #pragma once
 
-#include "dpsim/demand.hpp"
+#include "demand.hpp"
 
 namespace dpslave::sim {
 

@@ -3,7 +3,7 @@
 /// is told the time, and gives out lines. The cyclic exchange goes on while a command waits.
 #pragma once
 
-#include "dpsim/condition.hpp"
+#include "condition.hpp"
 
 namespace dpslave::sim {
 

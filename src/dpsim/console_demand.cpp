@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpsim/console.hpp"
-#include "dpsim/values.hpp"
+#include "console.hpp"
+#include "values.hpp"
 
 #include <fmt/format.h>
 

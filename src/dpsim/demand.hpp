@@ -3,7 +3,7 @@
 /// 73h (HA389815 chapter 7; extended commands: 2408f/2404f handbook chapter 7).
 #pragma once
 
-#include "dpsim/master.hpp"
+#include "master.hpp"
 
 #include <array>
 

@@ -2,9 +2,9 @@
 /// What all simulated devices behind the gateway have in common: parameters, and a serial line they are on.
 #pragma once
 
-#include "dpsim/answer_faults.hpp"
-#include "dpsim/tag_file.hpp"
-#include "dpsim/telegram.hpp"
+#include "answer_faults.hpp"
+#include "tag_file.hpp"
+#include "telegram.hpp"
 
 #include "dpslave/base/units.hpp"
 

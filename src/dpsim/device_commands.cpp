@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpsim/device_commands.hpp"
+#include "device_commands.hpp"
 
-#include "dpsim/values.hpp"
+#include "values.hpp"
 
 #include <fmt/format.h>
 

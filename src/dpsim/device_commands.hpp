@@ -2,7 +2,7 @@
 /// What can be typed at any simulated device: values, a list, a log. Faults depend on how it speaks.
 #pragma once
 
-#include "dpsim/device.hpp"
+#include "device.hpp"
 
 namespace dpslave::sim {
 

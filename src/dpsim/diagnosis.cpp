@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpsim/diagnosis.hpp"
+#include "diagnosis.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpsim/drive.hpp"
+#include "drive.hpp"
 
 #include <fmt/format.h>
 

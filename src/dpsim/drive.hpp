@@ -2,8 +2,8 @@
 /// One or more EI-ASCII drives in memory on one serial line (EI-ASCII reference, section 1).
 #pragma once
 
-#include "dpsim/device.hpp"
-#include "dpsim/ei_ascii.hpp"
+#include "device.hpp"
+#include "ei_ascii.hpp"
 
 #include <map>
 #include <random>

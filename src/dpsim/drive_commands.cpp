@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpsim/drive_commands.hpp"
+#include "drive_commands.hpp"
 
-#include "dpsim/values.hpp"
+#include "values.hpp"
 
 #include <fmt/format.h>
 

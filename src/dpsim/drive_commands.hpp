@@ -2,8 +2,8 @@
 /// What can be typed at a simulated EI-ASCII drive: its faults, beside what every device has.
 #pragma once
 
-#include "dpsim/device_commands.hpp"
-#include "dpsim/drive.hpp"
+#include "device_commands.hpp"
+#include "drive.hpp"
 
 namespace dpslave::sim {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpsim/drive_commands.hpp"
-#include "dpsim/edge.hpp"
-#include "dpsim/instrument_commands.hpp"
-#include "dpsim/programs.hpp"
-#include "dpsim/values.hpp"
+#include "drive_commands.hpp"
+#include "edge.hpp"
+#include "instrument_commands.hpp"
+#include "programs.hpp"
+#include "values.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpsim/edge.hpp"
+#include "edge.hpp"
 
 #include <asm/termbits.h>
 #include <fcntl.h>

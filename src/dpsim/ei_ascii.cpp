@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpsim/ei_ascii.hpp"
+#include "ei_ascii.hpp"
 
 #include <fmt/format.h>
 

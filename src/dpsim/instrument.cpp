@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpsim/instrument.hpp"
+#include "instrument.hpp"
 
-#include "dpsim/instrument_registers.hpp"
+#include "instrument_registers.hpp"
 
 #include <fmt/format.h>
 

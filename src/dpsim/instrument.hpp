@@ -3,8 +3,8 @@
 /// (handbook chapters 7 and 8; EI-ASCII and Modbus reference, section 5). Pure; knows no telegram.
 #pragma once
 
-#include "dpsim/device.hpp"
-#include "dpsim/modbus_frame.hpp"
+#include "device.hpp"
+#include "modbus_frame.hpp"
 
 #include <span>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpsim/instrument_commands.hpp"
+#include "instrument_commands.hpp"
 
-#include "dpsim/values.hpp"
+#include "values.hpp"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 /// What can be typed at a simulated instrument: its faults, its front panel, its status bits.
 #pragma once
 
-#include "dpsim/device_commands.hpp"
-#include "dpsim/modbus_line.hpp"
+#include "device_commands.hpp"
+#include "modbus_line.hpp"
 
 namespace dpslave::sim {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a 2408f/2404f does by itself: where it begins, and what follows from a value.
-#include "dpsim/instrument.hpp"
-#include "dpsim/instrument_registers.hpp"
+#include "instrument.hpp"
+#include "instrument_registers.hpp"
 
 #include <algorithm>
 #include <array>

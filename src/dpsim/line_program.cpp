@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpsim/edge.hpp"
-#include "dpsim/listener.hpp"
-#include "dpsim/pacer.hpp"
-#include "dpsim/programs.hpp"
-#include "dpsim/values.hpp"
+#include "edge.hpp"
+#include "listener.hpp"
+#include "pacer.hpp"
+#include "programs.hpp"
+#include "values.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

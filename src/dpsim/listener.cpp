@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpsim/listener.hpp"
+#include "listener.hpp"
 
 #include <algorithm>
 #include <bit>

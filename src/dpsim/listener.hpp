@@ -3,7 +3,7 @@
 /// Pure.
 #pragma once
 
-#include "dpsim/telegram.hpp"
+#include "telegram.hpp"
 
 #include <vector>
 

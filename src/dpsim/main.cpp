@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// dpsim: a paced serial line, an EI-ASCII drive or a Modbus instrument, and a DP master, for users without
 /// hardware and for the tests.
-#include "dpsim/console.hpp"
-#include "dpsim/drive_commands.hpp"
-#include "dpsim/instrument_commands.hpp"
-#include "dpsim/master_options.hpp"
-#include "dpsim/programs.hpp"
+#include "console.hpp"
+#include "drive_commands.hpp"
+#include "instrument_commands.hpp"
+#include "master_options.hpp"
+#include "programs.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

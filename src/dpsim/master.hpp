@@ -3,8 +3,8 @@
 /// telegrams, deadlines and events come out (wire reference, sections 2.6, 4 and 5).
 #pragma once
 
-#include "dpsim/diagnosis.hpp"
-#include "dpsim/telegram.hpp"
+#include "diagnosis.hpp"
+#include "telegram.hpp"
 
 #include "dpslave/base/units.hpp"
 

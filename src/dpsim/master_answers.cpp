@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpsim/master.hpp"
+#include "master.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpsim/master_options.hpp"
+#include "master_options.hpp"
 
-#include "dpsim/values.hpp"
+#include "values.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 /// Options of `dpsim master` that need a second look after they have been read.
 #pragma once
 
-#include "dpsim/master.hpp"
+#include "master.hpp"
 
 namespace dpslave::sim {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpsim/console.hpp"
-#include "dpsim/edge.hpp"
-#include "dpsim/programs.hpp"
+#include "console.hpp"
+#include "edge.hpp"
+#include "programs.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

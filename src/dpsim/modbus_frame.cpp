@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpsim/modbus_frame.hpp"
+#include "modbus_frame.hpp"
 
 namespace dpslave::sim {
 

@@ -3,7 +3,7 @@
 /// library that the daemon speaks through.
 #pragma once
 
-#include "dpsim/telegram.hpp"
+#include "telegram.hpp"
 
 namespace dpslave::sim {
 

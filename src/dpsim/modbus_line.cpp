@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpsim/modbus_line.hpp"
+#include "modbus_line.hpp"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 /// 5).
 #pragma once
 
-#include "dpsim/instrument.hpp"
+#include "instrument.hpp"
 
 #include <random>
 

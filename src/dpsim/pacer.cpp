@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpsim/pacer.hpp"
+#include "pacer.hpp"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 /// way. Pure.
 #pragma once
 
-#include "dpsim/telegram.hpp"
+#include "telegram.hpp"
 
 #include "dpslave/base/units.hpp"
 

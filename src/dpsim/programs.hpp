@@ -2,7 +2,7 @@
 /// The three programs of dpsim, after their options were read. Each returns its exit status.
 #pragma once
 
-#include "dpsim/master.hpp"
+#include "master.hpp"
 
 namespace dpslave::sim {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpsim/tag_file.hpp"
+#include "tag_file.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpsim/telegram.hpp"
+#include "telegram.hpp"
 
 #include <fmt/format.h>
 

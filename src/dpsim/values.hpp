@@ -2,7 +2,7 @@
 /// Words, numbers, times and octets as people type them into a simulator.
 #pragma once
 
-#include "dpsim/telegram.hpp"
+#include "telegram.hpp"
 
 #include <chrono>
 #include <string_view>

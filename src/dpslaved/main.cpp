@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpslave/app/config.hpp"
 #include "dpslave/app/daemon.hpp"
 #include "dpslave/app/service.hpp"
 #include "dpslave/app/version.hpp"
 #include "dpslave/base/printable.hpp"
+#include "dpslave/config/config.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -108,7 +108,7 @@ int release_driver(const std::string& file, const std::string& profiles)
     set_up_log();
     auto driver = app::kept_driver(app::runtime_folder());
     if (!driver) {
-        const auto config = app::load_config(file, profiles);
+        const auto config = dpslave::config::load_config(file, profiles);
         if (!config) return 0;
         driver = app::DriverInUse{config->bus.driver_enable, config->bus.port};
     }
@@ -145,14 +145,14 @@ int main(int argc, char** argv)
 
     if (is_configured) return say_whether_configured(file);
     if (release) return release_driver(file, profiles);
-    const auto config = dpslave::app::load_config(file, profiles);
+    const auto config = dpslave::config::load_config(file, profiles);
     if (!config) {
-        for (const dpslave::profile::Fault& fault : config.error())
+        for (const dpslave::toml::Fault& fault : config.error())
             std::fprintf(stderr, "%s\n", to_string(fault).c_str());
         return status(ExitStatus::configuration_refused);
     }
     if (check) {
-        for (const dpslave::profile::Fault& warning : config->warnings)
+        for (const dpslave::toml::Fault& warning : config->warnings)
             std::fprintf(stderr, "%s (warning)\n", to_string(warning).c_str());
         return 0;
     }

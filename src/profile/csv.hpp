@@ -2,7 +2,7 @@
 /// Comma separated values as RFC 4180 has them, each cell with its place.
 #pragma once
 
-#include "dpslave/profile/fault.hpp"
+#include "dpslave/toml/fault.hpp"
 
 #include <string>
 #include <string_view>
@@ -26,7 +26,7 @@ struct Row {
 /// The rows of `content`, which is UTF-8, empty lines left out. LF and CR LF end a line; a quoted cell may
 /// hold either. A row with a fault (quotes, control characters) is left out, and the fault is added to
 /// `faults`. Behind more than kMaxFaults nothing is read.
-std::vector<Row> read_csv(std::string_view content, const std::string& file, Faults& faults);
+std::vector<Row> read_csv(std::string_view content, const std::string& file, toml::Faults& faults);
 
 /// `text` as a cell: in quotes where it needs them.
 std::string csv_cell(std::string_view text);

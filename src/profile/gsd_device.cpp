@@ -323,7 +323,7 @@ private:
         const auto option = [&](const char* name, const std::string& value) {
             if (!value.empty()) command += std::string{" --"} + name + ' ' + value;
         };
-        const auto in_quotes = [](const std::optional<std::string>& text) {
+        const auto quoted = [](const std::optional<std::string>& text) {
             return text ? '"' + gsd::latin1(*text) + '"' : std::string{};
         };
         option("in", list_of(wanted_.in));
@@ -332,8 +332,8 @@ private:
         if (wanted_.demand) command += " --demand";
         option("ident", wanted_.ident ? hex_of(*wanted_.ident) : "");
         option("max-tsdr", wanted_.max_tsdr ? std::to_string(*wanted_.max_tsdr) : "");
-        option("model", in_quotes(wanted_.model));
-        option("description", in_quotes(wanted_.description));
+        option("model", quoted(wanted_.model));
+        option("description", quoted(wanted_.description));
         device_.comments.push_back("Made for the profile " + profile_.name + " of dpslaved by the command");
         device_.comments.push_back(std::move(command));
     }

@@ -13,7 +13,7 @@ namespace {
 
 class FactsReader {
 public:
-    FactsReader(Table& table, const Profile& profile) : table_(table), profile_(profile) {}
+    FactsReader(toml::Table& table, const Profile& profile) : table_(table), profile_(profile) {}
 
     GsdFacts read()
     {
@@ -109,14 +109,14 @@ private:
                               std::to_string(personality.max_parameters) + ".");
     }
 
-    Table& table_;
+    toml::Table& table_;
     const Profile& profile_;
     GsdFacts facts_;
 };
 
 } // namespace
 
-GsdFacts read_gsd_facts(Table& table, const Profile& profile)
+GsdFacts read_gsd_facts(toml::Table& table, const Profile& profile)
 {
     return FactsReader{table, profile}.read();
 }

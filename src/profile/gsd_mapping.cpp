@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpslave/profile/document.hpp"
 #include "dpslave/profile/gsd_device.hpp"
+#include "dpslave/toml/document.hpp"
 
 namespace dpslave::profile {
 namespace {
 
-std::vector<std::uint16_t> tags_of(Table& table, std::string_view key)
+std::vector<std::uint16_t> tags_of(toml::Table& table, std::string_view key)
 {
     std::vector<std::uint16_t> tags;
     for (const std::int64_t tag : table.integers(key, 1, 0xFFFF).value_or(std::vector<std::int64_t>{}))
@@ -15,12 +15,12 @@ std::vector<std::uint16_t> tags_of(Table& table, std::string_view key)
 
 } // namespace
 
-Result<Mapping, Faults> load_mapping(const std::filesystem::path& file)
+Result<Mapping, toml::Faults> load_mapping(const std::filesystem::path& file)
 {
-    Document document{file};
+    toml::Document document{file};
     Mapping mapping;
     if (document.readable()) {
-        Table root = document.root();
+        toml::Table root = document.root();
         root.require("profile", R"(profile = "2408f")");
         mapping.profile = root.text("profile").value_or("");
         Selection& selection = mapping.selection;
@@ -35,7 +35,7 @@ Result<Mapping, Faults> load_mapping(const std::filesystem::path& file)
         selection.description = root.text("description");
         selection.model = root.text("model");
     }
-    Faults faults = document.faults();
+    toml::Faults faults = document.faults();
     if (!faults.empty()) return Failure{std::move(faults)};
     return mapping;
 }

@@ -2,7 +2,7 @@
 /// Keys of a profile that must be there: asked for, and missed with the line to add.
 #pragma once
 
-#include "dpslave/profile/document.hpp"
+#include "dpslave/toml/document.hpp"
 
 #include <cstdint>
 #include <string>
@@ -11,7 +11,7 @@
 namespace dpslave::profile {
 
 /// Empty where the key is missing or wrong.
-inline std::string needed_text(Table& table, std::string_view key, std::string_view example)
+inline std::string needed_text(toml::Table& table, std::string_view key, std::string_view example)
 {
     table.require(key, example);
     return table.text(key).value_or("");
@@ -19,7 +19,7 @@ inline std::string needed_text(Table& table, std::string_view key, std::string_v
 
 /// False if `into` kept what it was.
 template <class T>
-bool needed_integer(Table& table, std::string_view key, std::int64_t min, std::int64_t max, T& into)
+bool needed_integer(toml::Table& table, std::string_view key, std::int64_t min, std::int64_t max, T& into)
 {
     table.require(key, std::string{key} + " = " + std::to_string(into));
     const auto value = table.integer(key, min, max);
@@ -27,13 +27,13 @@ bool needed_integer(Table& table, std::string_view key, std::int64_t min, std::i
     return value.has_value();
 }
 
-inline void needed_boolean(Table& table, std::string_view key, bool& into)
+inline void needed_boolean(toml::Table& table, std::string_view key, bool& into)
 {
     table.require(key, std::string{key} + (into ? " = true" : " = false"));
     into = table.boolean(key).value_or(into);
 }
 
-inline Table needed_table(Table& root, std::string_view name)
+inline toml::Table needed_table(toml::Table& root, std::string_view name)
 {
     root.require(name, "the table [" + std::string{name} + "]; another profile shows its keys");
     return root.table(name);

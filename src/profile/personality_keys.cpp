@@ -33,7 +33,9 @@ struct GeneralFormat {
 
 class PersonalityReader {
 public:
-    PersonalityReader(Document& document, dp::Personality& into) : document_(document), personality_(into) {}
+    PersonalityReader(toml::Document& document, dp::Personality& into)
+        : document_(document), personality_(into)
+    {}
 
     void read()
     {
@@ -47,7 +49,7 @@ public:
 private:
     void max_tsdr()
     {
-        Table table = needed_table(root_, "max_tsdr");
+        toml::Table table = needed_table(root_, "max_tsdr");
         bool any = false;
         for (const Baud baud : kBauds) {
             const std::string key = std::to_string(static_cast<std::uint32_t>(baud));
@@ -63,7 +65,7 @@ private:
 
     void cfg_data()
     {
-        Table table = needed_table(root_, "cfg_data");
+        toml::Table table = needed_table(root_, "cfg_data");
         table.require("identifiers", "identifiers = [0x50, 0x60]");
         for (const std::int64_t value :
              table.integers("identifiers", 0, 0xFF).value_or(std::vector<std::int64_t>{})) {
@@ -99,7 +101,7 @@ private:
 
     void demand_data()
     {
-        Table table = needed_table(root_, "demand_data");
+        toml::Table table = needed_table(root_, "demand_data");
         table.require("form", R"(form = "none")");
         using dp::DemandForm;
         const auto form = table.choice<DemandForm>(
@@ -137,7 +139,7 @@ private:
 
     void user_prm_data()
     {
-        Table table = needed_table(root_, "user_prm_data");
+        toml::Table table = needed_table(root_, "user_prm_data");
         dp::PrmLayout& prm = personality_.prm;
         const bool placed = needed_integer(table, "tags_at", 0, kMaxUserPrmData, prm.tags_at);
         const bool bounded = needed_integer(table, "min_length", 0, kMaxUserPrmData, prm.min_length);
@@ -168,20 +170,20 @@ private:
 
     void global_control()
     {
-        Table table = needed_table(root_, "global_control");
+        toml::Table table = needed_table(root_, "global_control");
         needed_boolean(table, "sync", personality_.sync);
         needed_boolean(table, "freeze", personality_.freeze);
         needed_boolean(table, "fail_safe", personality_.fail_safe);
     }
 
-    Document& document_;
-    Table root_ = document_.root();
+    toml::Document& document_;
+    toml::Table root_ = document_.root();
     dp::Personality& personality_;
 };
 
 } // namespace
 
-void read_personality(Document& document, dp::Personality& into)
+void read_personality(toml::Document& document, dp::Personality& into)
 {
     PersonalityReader{document, into}.read();
 }

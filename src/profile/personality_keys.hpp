@@ -3,12 +3,12 @@
 #pragma once
 
 #include "dpslave/dp/personality.hpp"
-#include "dpslave/profile/document.hpp"
+#include "dpslave/toml/document.hpp"
 
 namespace dpslave::profile {
 
 /// [max_tsdr], [cfg_data], [demand_data], [user_prm_data] and [global_control]. What is wrong becomes a fault
 /// of the document; `into` then keeps what it was.
-void read_personality(Document& document, dp::Personality& into);
+void read_personality(toml::Document& document, dp::Personality& into);
 
 } // namespace dpslave::profile

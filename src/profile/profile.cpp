@@ -6,7 +6,7 @@
 #include "needed.hpp"
 #include "personality_keys.hpp"
 
-#include "dpslave/profile/document.hpp"
+#include "dpslave/toml/document.hpp"
 
 #include <algorithm>
 #include <system_error>
@@ -25,7 +25,7 @@ public:
         profile_.name = name;
     }
 
-    Result<Profile, Faults> read()
+    Result<Profile, toml::Faults> read()
     {
         if (document_.readable()) {
             general();
@@ -34,10 +34,10 @@ public:
             tec();
             slave_diag();
             drive_side();
-            Table gsd = needed_table(root_, "gsd");
+            toml::Table gsd = needed_table(root_, "gsd");
             profile_.gsd = read_gsd_facts(gsd, profile_);
         }
-        Faults faults = document_.faults();
+        toml::Faults faults = document_.faults();
         if (!profile_.tag_file.empty()) {
             auto tags = load_tags(profile_.tag_file);
             if (tags)
@@ -97,7 +97,7 @@ private:
 
     void addresses()
     {
-        Table table = needed_table(root_, "address");
+        toml::Table table = needed_table(root_, "address");
         needed_integer(table, "min", 0, 125, profile_.min_address);
         needed_integer(table, "max", 0, 125, profile_.max_address);
         if (profile_.min_address > profile_.max_address)
@@ -106,7 +106,7 @@ private:
 
     void tec()
     {
-        Table table = root_.table("tec");
+        toml::Table table = root_.table("tec");
         profile_.has_tec = table.exists();
         if (!profile_.has_tec) return;
         lamp(table, "health", profile_.health);
@@ -115,7 +115,7 @@ private:
         profile_.trip.is_code = profile_.trip.bit.tag == 0;
     }
 
-    static void lamp(Table& table, std::string_view key, MirroredLamp& into)
+    static void lamp(toml::Table& table, std::string_view key, MirroredLamp& into)
     {
         const auto text = table.text(key);
         if (!text) return;
@@ -130,7 +130,7 @@ private:
 
     void slave_diag()
     {
-        Table table = needed_table(root_, "slave_diag");
+        toml::Table table = needed_table(root_, "slave_diag");
         const bool bounded = needed_integer(table, "max_length", 6, 244, personality_.max_diag_length);
         const auto form = table.choice<DiagForm>("form", {{"none", DiagForm::none},
                                                           {"trip_code", DiagForm::trip_code},
@@ -158,7 +158,7 @@ private:
                                            std::to_string(needed) + " octets.");
     }
 
-    void status_word_key(Table& table, std::string_view key)
+    void status_word_key(toml::Table& table, std::string_view key)
     {
         if (profile_.diagnosis == DiagForm::status_word)
             table.require(key, std::string{key} +
@@ -214,15 +214,15 @@ private:
     }
 
     std::filesystem::path folder_;
-    Document document_;
-    Table root_ = document_.root();
+    toml::Document document_;
+    toml::Table root_ = document_.root();
     Profile profile_;
     dp::Personality& personality_ = profile_.personality;
 };
 
 } // namespace
 
-Result<Profile, Faults> load_profile(const std::filesystem::path& folder, const std::string& name)
+Result<Profile, toml::Faults> load_profile(const std::filesystem::path& folder, const std::string& name)
 {
     return ProfileReader{folder, name}.read();
 }

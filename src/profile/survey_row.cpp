@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "survey_row.hpp"
 
-#include "dpslave/profile/wording.hpp"
+#include "dpslave/toml/wording.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -103,11 +103,11 @@ unsigned decimals_of(std::string_view cell)
 std::optional<std::string> no_row_for(const Sighting& one)
 {
     if (one.form == SurveyForm::mixed)
-        return "it answers in more than one form, the last time " + in_quotes(one.last) +
+        return "it answers in more than one form, the last time " + toml::in_quotes(one.last) +
                ": no row can be made";
     if (one.form != SurveyForm::number) return std::nullopt;
     if (one.decimals > kMaxDecimals)
-        return "it answers " + in_quotes(one.last) + ": a table has 4 decimals at most";
+        return "it answers " + toml::in_quotes(one.last) + ": a table has 4 decimals at most";
     const bool fits =
         counts_with(one.lowest, one.decimals) >= kSignedMin &&
         counts_with(one.highest, one.decimals) <= (one.lowest.counts < 0 ? kSignedMax : kUnsignedMax);
@@ -156,7 +156,7 @@ std::vector<std::string> against(const Tag& row, bool has_decimals, const Sighti
     }
     const std::string type{drive::type_name(row)};
     if (one.form == SurveyForm::mixed || !may_be(type, one))
-        return {"its row says " + type + ", the drive answered " + in_quotes(one.last)};
+        return {"its row says " + type + ", the drive answered " + toml::in_quotes(one.last)};
     if (row.type != TagType::number || one.form != SurveyForm::number) return {};
     if (!has_decimals)
         return {"its row says no decimals, the drive answers with " + std::to_string(one.decimals) +

@@ -5,7 +5,7 @@
 
 #include "dpslave/profile/profile.hpp"
 #include "dpslave/profile/survey.hpp"
-#include "dpslave/profile/text_file.hpp"
+#include "dpslave/toml/text_file.hpp"
 
 #include <algorithm>
 
@@ -18,7 +18,7 @@ constexpr std::string_view kNewTable =
 /// A table as text that can be told row by row: what is not touched stays as it was written.
 class TableText {
 public:
-    TableText(std::string_view table, const std::string& file, Faults& faults)
+    TableText(std::string_view table, const std::string& file, toml::Faults& faults)
         : rows_(read_csv(table, file, faults)),
           end_of_line_(table.find("\r\n") < table.find('\n') ? "\r\n" : "\n")
     {
@@ -198,19 +198,19 @@ private:
 
 } // namespace
 
-Result<SurveyedTable, Faults> merge_survey(std::string_view table, const std::string& file,
-                                           const Survey& seen)
+Result<SurveyedTable, toml::Faults> merge_survey(std::string_view table, const std::string& file,
+                                                 const Survey& seen)
 {
-    const bool is_marked = table.starts_with(kByteOrderMark);
-    if (is_marked) table.remove_prefix(kByteOrderMark.size());
+    const bool is_marked = table.starts_with(toml::kByteOrderMark);
+    if (is_marked) table.remove_prefix(toml::kByteOrderMark.size());
     if (table.empty()) table = kNewTable;
     const auto tags = read_tags(table, file);
     if (!tags) return Failure{tags.error()};
-    Faults faults;
+    toml::Faults faults;
     TableText text{table, file, faults};
     if (!faults.empty()) return Failure{faults};
     SurveyedTable merged = Merger{std::move(text), *tags}.merge(seen);
-    if (is_marked) merged.text.insert(0, kByteOrderMark); // the program of this person goes by it
+    if (is_marked) merged.text.insert(0, toml::kByteOrderMark); // the program of this person goes by it
     return merged;
 }
 

@@ -3,7 +3,7 @@
 #include "csv.hpp"
 
 #include "dpslave/profile/survey.hpp"
-#include "dpslave/profile/wording.hpp"
+#include "dpslave/toml/wording.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -108,10 +108,10 @@ Result<std::vector<TagSpan>, std::string> parse_tag_spans(std::string_view text)
         const auto last =
             dash == std::string_view::npos ? first : whole<std::uint16_t>(item.substr(dash + 1));
         if (!first || !last || (rest.empty() && comma != std::string_view::npos))
-            return Failure{in_quotes(text) +
+            return Failure{toml::in_quotes(text) +
                            ": write tags from 0 to 65535 without blanks, as in 1-600,1000-1127"};
         if (*first > *last)
-            return Failure{in_quotes(item) + ": the first tag is above the last one: exchange them"};
+            return Failure{toml::in_quotes(item) + ": the first tag is above the last one: exchange them"};
         spans.push_back({*first, *last});
     } while (!rest.empty());
 
@@ -170,9 +170,9 @@ std::string record_text(const Survey& survey)
     return out;
 }
 
-Result<Survey, Faults> read_record(std::string_view content, const std::string& file)
+Result<Survey, toml::Faults> read_record(std::string_view content, const std::string& file)
 {
-    Faults faults;
+    toml::Faults faults;
     const std::vector<Row> rows = read_csv(content, file, faults);
     Survey survey;
     if (!content.starts_with(kRecordHeader))

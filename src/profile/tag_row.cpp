@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tag_row.hpp"
 
-#include "dpslave/profile/wording.hpp"
+#include "dpslave/toml/wording.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -58,7 +58,7 @@ std::optional<std::int32_t> counts_of(std::string_view text, std::size_t decimal
 
 class RowReader {
 public:
-    RowReader(const Row& row, const Columns& columns, const std::string& file, Faults& faults)
+    RowReader(const Row& row, const Columns& columns, const std::string& file, toml::Faults& faults)
         : row_(row), columns_(columns), file_(file), faults_(faults)
     {}
 
@@ -68,7 +68,7 @@ public:
         tag.number = static_cast<std::uint16_t>(number(kTag, 0xFFFF).value_or(0));
         if (!given(kTag)) fault(kTag, "the tag number is missing: every row needs one.");
         tag.name = text(kName);
-        if (has_control_characters(tag.name))
+        if (toml::has_control_characters(tag.name))
             fault(kName, "the name holds a control character or a line break: write plain text on one line.");
         tag.section = text(kSection);
         tag.notes = text(kNotes);
@@ -97,7 +97,7 @@ private:
 
     void fault(Column column, std::string what)
     {
-        const Place at = columns_.place(row_, column);
+        const toml::Place at = columns_.place(row_, column);
         faults_.push_back({file_, at.line, at.column, std::move(what)});
         good_ = false;
     }
@@ -107,7 +107,7 @@ private:
         if (!given(column)) return std::nullopt;
         const auto value = number_of(text(column), 10, max);
         if (!value)
-            fault(column, std::string{kColumnNames[column]} + " " + in_quotes(text(column)) +
+            fault(column, std::string{kColumnNames[column]} + " " + toml::in_quotes(text(column)) +
                               ": write a decimal number from 0 to " + std::to_string(max) +
                               (column == kDecimals ? ", or display." : "."));
         return value;
@@ -121,7 +121,7 @@ private:
         if (word == "BOOL") return TagType::boolean;
         if (word == "ENUM") return TagType::enumeration;
         if (word == "STRING") return TagType::string;
-        fault(kType, "type " + in_quotes(word) + ": write INT, WORD, BOOL, ENUM, REAL or STRING.");
+        fault(kType, "type " + toml::in_quotes(word) + ": write INT, WORD, BOOL, ENUM, REAL or STRING.");
         return TagType::number;
     }
 
@@ -132,8 +132,8 @@ private:
         if (word == "rw") return Access::read_write;
         if (word == "wo") return Access::write_only;
         if (!word.empty())
-            fault(kAccess,
-                  "access " + in_quotes(word) + ": write ro, rw or wo, or leave it empty if not known.");
+            fault(kAccess, "access " + toml::in_quotes(word) +
+                               ": write ro, rw or wo, or leave it empty if not known.");
         return Access::unknown;
     }
 
@@ -141,7 +141,7 @@ private:
     {
         const std::string_view word = text(kConfirmed);
         if (!word.empty() && word != "yes" && word != "no")
-            fault(kConfirmed, "confirmed " + in_quotes(word) +
+            fault(kConfirmed, "confirmed " + toml::in_quotes(word) +
                                   ": write yes, or no for a row that a survey has made and no person has "
                                   "compared with the drive's manual.");
         return word != "no";
@@ -153,7 +153,7 @@ private:
         for (const WritableWhen one : {WritableWhen::stopped, WritableWhen::configuration})
             if (word == drive::text(one)) return one;
         if (!word.empty())
-            fault(kWhen, "when " + in_quotes(word) +
+            fault(kWhen, "when " + toml::in_quotes(word) +
                              ": write stopped or configuration, or leave it empty if not known.");
         return WritableWhen::not_said;
     }
@@ -167,14 +167,14 @@ private:
         if (!reg) return;
         tag.modbus_register = static_cast<std::uint16_t>(*reg);
         if (*reg >= ieee_area && *reg % 2 != 0)
-            fault(kRegister, "register " + in_quotes(text(kRegister)) +
+            fault(kRegister, "register " + toml::in_quotes(text(kRegister)) +
                                  " is odd: in the IEEE area (32768 and above) a tag has two registers and "
                                  "begins at an even one, 32768 + 2 x tag.");
         const bool has_ieee_form =
             tag.type != TagType::string && (tag.type != TagType::number || tag.is_real);
         if (*reg >= ieee_area && !has_ieee_form)
             fault(kRegister,
-                  "register " + in_quotes(text(kRegister)) +
+                  "register " + toml::in_quotes(text(kRegister)) +
                       " is in the IEEE area (32768 and above), which has singles: write type REAL if "
                       "this is one, otherwise the register of the normal area.");
     }
@@ -186,7 +186,7 @@ private:
             std::all_of(word.begin(), word.end(), [](char c) { return c > ' ' && c < '\x7F'; });
         if (!word.empty() && (word.size() != 2 || !printable))
             fault(kMnemonic,
-                  "mnemonic " + in_quotes(word) +
+                  "mnemonic " + toml::in_quotes(word) +
                       ": write two printable characters, or leave it empty for the profile's rule.");
         if (word == kErrorMnemonic)
             fault(kMnemonic, "mnemonic \"EE\" is the drive's last error on an EI-ASCII line, no parameter: "
@@ -228,7 +228,7 @@ private:
         if (!given(column)) return std::nullopt;
         const auto value = value_of(tag, text(column));
         if (!value)
-            fault(column, std::string{kColumnNames[column]} + " " + in_quotes(text(column)) + ": " +
+            fault(column, std::string{kColumnNames[column]} + " " + toml::in_quotes(text(column)) + ": " +
                               wanted(tag) + ".");
         return value;
     }
@@ -238,15 +238,15 @@ private:
         for (const Column column : {kMin, kMax})
             if (tag.follows_display && given(column))
                 fault(column,
-                      std::string{kColumnNames[column]} + " " + in_quotes(text(column)) +
+                      std::string{kColumnNames[column]} + " " + toml::in_quotes(text(column)) +
                           ": a value whose decimals follow the display has no fixed limits here, leave "
                           "the cell empty.");
         if (tag.follows_display) return;
         tag.min = limit(tag, kMin);
         tag.max = limit(tag, kMax);
         if (tag.min && tag.max && *tag.min > *tag.max)
-            fault(kMin, "min " + in_quotes(text(kMin)) + " is above max " + in_quotes(text(kMax)) +
-                            ": exchange them.");
+            fault(kMin, "min " + toml::in_quotes(text(kMin)) + " is above max " +
+                            toml::in_quotes(text(kMax)) + ": exchange them.");
         if (tag.type != TagType::number) return;
         tag.is_unsigned = tag.min && *tag.min >= 0 && tag.max && *tag.max > 32767;
         const std::int32_t lowest = tag.is_unsigned ? 0 : -32768;
@@ -255,9 +255,9 @@ private:
                                   " to " + std::to_string(highest) + " counts do" +
                                   (tag.is_unsigned ? "." : ", and up to 65535 only with a min of 0 or more.");
         if (tag.min && (*tag.min < lowest || *tag.min > highest))
-            fault(kMin, "min " + in_quotes(text(kMin)) + range);
+            fault(kMin, "min " + toml::in_quotes(text(kMin)) + range);
         if (tag.max && (*tag.max < lowest || *tag.max > highest))
-            fault(kMax, "max " + in_quotes(text(kMax)) + range);
+            fault(kMax, "max " + toml::in_quotes(text(kMax)) + range);
     }
 
     void labels(Tag& tag)
@@ -274,8 +274,8 @@ private:
                 return other.is_bit == label->is_bit && other.number == label->number;
             };
             if (std::any_of(tag.labels.begin(), tag.labels.end(), same)) {
-                fault(kValues,
-                      "values: " + in_quotes(item) + " names the same value again: keep one of the two.");
+                fault(kValues, "values: " + toml::in_quotes(item) +
+                                   " names the same value again: keep one of the two.");
                 return;
             }
             tag.labels.push_back(*label);
@@ -294,8 +294,8 @@ private:
         const std::string_view right =
             equals == std::string_view::npos ? std::string_view{} : strip(item.substr(equals + 1));
         if (left.empty() || right.empty()) {
-            fault(kValues,
-                  "values: " + in_quotes(item) + ": write value=label or bitN=label, with ; between two.");
+            fault(kValues, "values: " + toml::in_quotes(item) +
+                               ": write value=label or bitN=label, with ; between two.");
             return std::nullopt;
         }
         Label label{left.starts_with("bit"), 0, std::string{right}};
@@ -304,7 +304,7 @@ private:
             const bool has_bits = tag.type == TagType::word || tag.type == TagType::number;
             if (!bit || !has_bits) {
                 fault(kValues,
-                      "values: " + in_quotes(item) +
+                      "values: " + toml::in_quotes(item) +
                           (has_bits ? ": bits go from bit0 to bit15." : ": only WORD and INT have bits."));
                 return std::nullopt;
             }
@@ -313,7 +313,7 @@ private:
         }
         const auto value = value_of(tag, left);
         if (!value || *value < -32768 || *value > 65535) {
-            fault(kValues, "values: " + in_quotes(item) + ": before the = " + wanted(tag) + ".");
+            fault(kValues, "values: " + toml::in_quotes(item) + ": before the = " + wanted(tag) + ".");
             return std::nullopt;
         }
         label.number = static_cast<std::uint16_t>(*value);
@@ -323,7 +323,7 @@ private:
     const Row& row_;
     const Columns& columns_;
     const std::string& file_;
-    Faults& faults_;
+    toml::Faults& faults_;
     bool good_ = true;
 };
 
@@ -350,7 +350,7 @@ std::string_view nearly_a_column(std::string_view name)
         const std::string_view stem{legal.data(), legal.size() - (legal.back() == 's' ? 1 : 0)};
         if (stem.size() >= 6 && letters.starts_with(stem)) return legal;
     }
-    return nearest(letters, names, letters.size() > 5 ? 2 : letters.size() > 2 ? 1 : 0);
+    return toml::nearest(letters, names, letters.size() > 5 ? 2 : letters.size() > 2 ? 1 : 0);
 }
 
 std::string_view Columns::text(const Row& row, Column column) const
@@ -359,13 +359,15 @@ std::string_view Columns::text(const Row& row, Column column) const
     return cell < row.cells.size() ? std::string_view{row.cells[cell].text} : std::string_view{};
 }
 
-Place Columns::place(const Row& row, Column column) const
+toml::Place Columns::place(const Row& row, Column column) const
 {
     const std::size_t cell = index[column];
-    return cell < row.cells.size() ? Place{row.cells[cell].line, row.cells[cell].column} : Place{row.line, 0};
+    return cell < row.cells.size() ? toml::Place{row.cells[cell].line, row.cells[cell].column}
+                                   : toml::Place{row.line, 0};
 }
 
-std::optional<Tag> read_tag(const Row& row, const Columns& columns, const std::string& file, Faults& faults)
+std::optional<Tag> read_tag(const Row& row, const Columns& columns, const std::string& file,
+                            toml::Faults& faults)
 {
     return RowReader{row, columns, file, faults}.read();
 }

@@ -5,7 +5,7 @@
 #include "csv.hpp"
 
 #include "dpslave/drive/tag.hpp"
-#include "dpslave/profile/document.hpp"
+#include "dpslave/toml/document.hpp"
 
 #include <array>
 #include <optional>
@@ -47,7 +47,7 @@ struct Columns {
 
     /// Empty where the table has no such column.
     std::string_view text(const Row& row, Column column) const;
-    Place place(const Row& row, Column column) const;
+    toml::Place place(const Row& row, Column column) const;
 
 private:
     static constexpr std::array<std::size_t, kColumns> absent()
@@ -60,7 +60,7 @@ private:
 
 /// The row as a tag; nothing, and the reasons in `faults`, if a cell is wrong.
 std::optional<drive::Tag> read_tag(const Row& row, const Columns& columns, const std::string& file,
-                                   Faults& faults);
+                                   toml::Faults& faults);
 
 /// The row says nothing but a name of its tag.
 bool is_name_only(const Row& row, const Columns& columns);

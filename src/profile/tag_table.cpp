@@ -5,8 +5,8 @@
 
 #include "dpslave/base/printable.hpp"
 #include "dpslave/profile/profile.hpp"
-#include "dpslave/profile/text_file.hpp"
-#include "dpslave/profile/wording.hpp"
+#include "dpslave/toml/text_file.hpp"
+#include "dpslave/toml/wording.hpp"
 
 #include <algorithm>
 #include <map>
@@ -24,7 +24,7 @@ class TableReader {
 public:
     explicit TableReader(std::string file) : file_(std::move(file)) {}
 
-    Result<drive::TagTable, Faults> read(std::string_view content)
+    Result<drive::TagTable, toml::Faults> read(std::string_view content)
     {
         const std::vector<Row> rows = read_csv(content, file_, faults_);
         if (rows.empty()) {
@@ -32,14 +32,15 @@ public:
             return Failure{faults_};
         }
         if (rows.front().good && header(rows.front())) {
-            for (std::size_t i = 1; i < rows.size() && faults_.size() <= kMaxFaults; ++i)
+            for (std::size_t i = 1; i < rows.size() && faults_.size() <= toml::kMaxFaults; ++i)
                 if (rows[i].good) add(rows[i]);
             refuse_shared_mnemonics();
         }
         if (!faults_.empty()) {
-            std::stable_sort(faults_.begin(), faults_.end(), [](const Fault& left, const Fault& right) {
-                return std::pair{left.line, left.column} < std::pair{right.line, right.column};
-            });
+            std::stable_sort(
+                faults_.begin(), faults_.end(), [](const toml::Fault& left, const toml::Fault& right) {
+                    return std::pair{left.line, left.column} < std::pair{right.line, right.column};
+                });
             cap(faults_);
             return Failure{faults_};
         }
@@ -71,8 +72,8 @@ private:
             if (column == kColumnNames.end()) {
                 if (const auto meant = nearly_a_column(cell.text); !meant.empty())
                     fault(cell.line, cell.column,
-                          "column " + in_quotes(cell.text) + " is nearly " + in_quotes(meant) +
-                              " and would not be read: write " + in_quotes(meant) +
+                          "column " + toml::in_quotes(cell.text) + " is nearly " + toml::in_quotes(meant) +
+                              " and would not be read: write " + toml::in_quotes(meant) +
                               ", or give the column a name that is not so near.");
                 continue;
             }
@@ -81,14 +82,14 @@ private:
                 index = i;
             else
                 fault(cell.line, cell.column,
-                      "a second column " + in_quotes(cell.text) + ": remove or rename one of them.");
+                      "a second column " + toml::in_quotes(cell.text) + ": remove or rename one of them.");
         }
         if (columns_.index[kTag] != Columns::kAbsent) return true;
         std::string what = "no column tag: the first line must name the columns, tag at least";
         if (row.cells.size() == 1 && row.cells[0].text.find(';') != std::string::npos)
             what += "; separate them by commas, not by semicolons";
-        else if (const auto meant = nearest("tag", names); !meant.empty())
-            what += "; is " + in_quotes(meant) + " meant?";
+        else if (const auto meant = toml::nearest("tag", names); !meant.empty())
+            what += "; is " + toml::in_quotes(meant) + " meant?";
         fault(row.line, 1, what + (what.back() == '?' ? "" : "."));
         return false;
     }
@@ -135,7 +136,7 @@ private:
     {
         Tag& first = tags_[known.index];
         if (const auto column = contradiction(first, tag, row, columns_)) {
-            const Place at = columns_.place(row, *column);
+            const toml::Place at = columns_.place(row, *column);
             fault(at.line, at.column,
                   "tag " + std::to_string(tag.number) + " has another " + std::string{kColumnNames[*column]} +
                       " on line " + std::to_string(known.line) +
@@ -156,7 +157,7 @@ private:
             if (is_new) continue;
             fault(
                 firsts_.at(tag.number).line, 0,
-                "mnemonic " + in_quotes(tag.mnemonic) + " of tag " + std::to_string(tag.number) +
+                "mnemonic " + toml::in_quotes(tag.mnemonic) + " of tag " + std::to_string(tag.number) +
                     " is that of tag " + std::to_string(first->second->number) + " on line " +
                     std::to_string(firsts_.at(first->second->number).line) +
                     ": one of the two is wrong, correct it or leave its cell empty for the profile's rule.");
@@ -169,7 +170,7 @@ private:
     }
 
     std::string file_;
-    Faults faults_;
+    toml::Faults faults_;
     Columns columns_;
     std::vector<Tag> tags_;
     std::map<std::uint16_t, First> firsts_; ///< by tag
@@ -179,14 +180,14 @@ private:
 
 } // namespace
 
-Result<drive::TagTable, Faults> load_tags(const std::filesystem::path& file)
+Result<drive::TagTable, toml::Faults> load_tags(const std::filesystem::path& file)
 {
-    auto content = read_text_file(file);
-    if (!content) return Failure{Faults{content.error()}};
+    auto content = toml::read_text_file(file);
+    if (!content) return Failure{toml::Faults{content.error()}};
     return read_tags(*content, file.string());
 }
 
-Result<drive::TagTable, Faults> read_tags(std::string_view content, const std::string& file)
+Result<drive::TagTable, toml::Faults> read_tags(std::string_view content, const std::string& file)
 {
     return TableReader{file}.read(utf8(content));
 }

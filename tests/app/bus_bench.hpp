@@ -4,12 +4,12 @@
 #pragma once
 
 #include "allocations.hpp"
-#include "config_bench.hpp"
+#include "app/bus/bus_thread.hpp"
+#include "config/config_bench.hpp"
 #include "io/pty.hpp"
 #include "stand_in_uart.hpp"
 #include "support/wire.hpp"
 
-#include "dpslave/app/bus_thread.hpp"
 #include "dpslave/io/clock.hpp"
 #include "dpslave/io/realtime.hpp"
 
@@ -122,7 +122,7 @@ protected:
     std::shared_ptr<app::BusStation> station(std::uint8_t address)
     {
         if (!config_) config_ = good(kGood);
-        app::StationConfig one = config_->stations.front();
+        config::StationConfig one = config_->stations.front();
         one.address = address;
         auto patient = std::make_shared<dp::Personality>(*one.personality);
         patient->max_tsdr.fill(Tbit{1023});
@@ -133,7 +133,7 @@ protected:
 
     void start(const Options& options, app::Roster stations)
     {
-        app::Config config;
+        config::Config config;
         config.bus.baud = options.baud;
         config.bus.echo = options.echo;
         config.bus.driver_enable.direction = options.direction;
@@ -212,7 +212,7 @@ protected:
     std::atomic<int> tid{0}; ///< of the bus thread
 
 private:
-    std::optional<app::Config> config_;
+    std::optional<config::Config> config_;
     std::optional<io::DriverEnable> driver_;
     std::unique_ptr<app::BusThread> bus_;
     io::EventFd wake_;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The driver enable around each reply (rows ): RTS of a UART that stands in for one.
+#include "app/bus/driver_guard.hpp"
 #include "bus_bench.hpp"
-
-#include "dpslave/app/driver_guard.hpp"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 /// A station as the main thread sees it, made by hand.
 #pragma once
 
-#include "dpslave/app/device_state.hpp"
+#include "app/main/device_state.hpp"
 
 #include <initializer_list>
 #include <memory>
@@ -39,7 +39,7 @@ public:
         profile_->has_tec = true;
         profile_->diagnosis = form;
         profile_->leds = led::Language::technology_box;
-        app::TecConfig tec;
+        config::TecConfig tec;
         tec.start.address = 5;
         tec.trip.bit.tag = 4;
         tec.health = {.tag = 272, .mask = 0x0008, .inverted = false};
@@ -85,8 +85,8 @@ public:
             if (one.state == WordState::good) one.state = WordState::stale;
     }
 
-    app::StationConfig station;
-    app::LineConfig line;
+    config::StationConfig station;
+    config::LineConfig line;
     app::StationView view;
     app::BusSnapshot bus;
 

@@ -131,7 +131,7 @@ TEST_F(Box, KeepsWhatWasSetByHandUnlessTheFileSaysSomethingElseThanBefore)
     looked();
     EXPECT_EQ(device->set("RIDE THROUGH", "7"), std::nullopt);
     EXPECT_EQ(device->set("INT DIAG SELECT", "100"), std::nullopt);
-    app::StationConfig other = bench.station;
+    config::StationConfig other = bench.station;
     other.tec->start.int_diag_select = 500;
     device->adopt(other);
     EXPECT_EQ(device->settings().ride_through, 7);
@@ -142,7 +142,7 @@ TEST_F(Box, DoesNotTakeAWordOfAnotherTagForItsTripAfterAReload)
 {
     bench.drive_reads({0, 5});
     looked();
-    app::StationConfig other = bench.station;
+    config::StationConfig other = bench.station;
     other.tec->trip.bit.tag = other.watched[1]; // read until now for something else
     std::swap(other.watched[0], other.watched[1]);
     device->adopt(other);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpslave/app/line_probe.hpp"
+#include "app/drive/line_probe.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,12 +11,12 @@ namespace {
 
 using drive::UnitAddress;
 
-LineConfig line(std::string_view protocol, std::uint32_t baud)
+config::LineConfig line(std::string_view protocol, std::uint32_t baud)
 {
-    LineConfig config;
+    config::LineConfig config;
     config.protocol = protocol;
     config.baud = baud;
-    if (protocol == kModbusRtu) config.format = {8, 'N', 1};
+    if (protocol == config::kModbusRtu) config.format = {8, 'N', 1};
     return config;
 }
 
@@ -27,10 +27,10 @@ bool asks(const ProbeTry& one, UnitAddress unit)
 
 TEST(LineProbe, AsksEveryUsualUnitAtTheLinesOwnSettingsFirst)
 {
-    const auto plan = probe_plan(line(kEiAscii, 19200), {.group = 2, .unit = 3});
+    const auto plan = probe_plan(line(config::kEiAscii, 19200), {.group = 2, .unit = 3});
 
     EXPECT_EQ(plan[0].baud, 19200U);
-    EXPECT_EQ(plan[0].format, (LineFormat{7, 'E', 1}));
+    EXPECT_EQ(plan[0].format, (config::LineFormat{7, 'E', 1}));
     EXPECT_EQ(plan[0].units.front(), (UnitAddress{.group = 2, .unit = 3}));
     EXPECT_TRUE(asks(plan[0], {.group = 0, .unit = 0}));
     EXPECT_TRUE(asks(plan[0], {.group = 7, .unit = 15}));
@@ -38,7 +38,7 @@ TEST(LineProbe, AsksEveryUsualUnitAtTheLinesOwnSettingsFirst)
 
 TEST(LineProbe, AsksEachOtherPairOfRateAndFormatOnceWithThisUnitAndTheFirst)
 {
-    for (const std::string_view protocol : {kEiAscii, kModbusRtu}) {
+    for (const std::string_view protocol : {config::kEiAscii, config::kModbusRtu}) {
         const auto plan = probe_plan(line(protocol, 9600), {.group = 0, .unit = 5});
         std::set<std::pair<std::uint32_t, char>> seen;
         for (const ProbeTry& one : plan) {
@@ -53,7 +53,7 @@ TEST(LineProbe, AsksEachOtherPairOfRateAndFormatOnceWithThisUnitAndTheFirst)
 
 TEST(LineProbe, WaitsNoLongerForAnAnswerThanTheLineAndNeverForLong)
 {
-    LineConfig config = line(kModbusRtu, 9600);
+    config::LineConfig config = line(config::kModbusRtu, 9600);
     config.timeout = std::chrono::milliseconds{600};
     EXPECT_EQ(probe_timeout(config), std::chrono::milliseconds{300});
     config.timeout = std::chrono::milliseconds{20};
@@ -62,7 +62,7 @@ TEST(LineProbe, WaitsNoLongerForAnAnswerThanTheLineAndNeverForLong)
 
 TEST(LineProbe, SaysHowLongItTakesAtMost)
 {
-    LineConfig config = line(kModbusRtu, 9600);
+    config::LineConfig config = line(config::kModbusRtu, 9600);
     config.timeout = std::chrono::milliseconds{200};
     const std::vector<ProbeTry> plan{
         {9600, config.format, {{.group = 0, .unit = 1}, {.group = 0, .unit = 2}}},
@@ -77,8 +77,8 @@ TEST(LineProbe, SaysHowLongItTakesAtMost)
 
 TEST(LineProbe, NamesAUnitAsTheConfigurationDoes)
 {
-    EXPECT_EQ(unit_text(line(kEiAscii, 9600), {.group = 1, .unit = 10}), "1A");
-    EXPECT_EQ(unit_text(line(kModbusRtu, 9600), {.group = 0, .unit = 10}), "10");
+    EXPECT_EQ(unit_text(line(config::kEiAscii, 9600), {.group = 1, .unit = 10}), "1A");
+    EXPECT_EQ(unit_text(line(config::kModbusRtu, 9600), {.group = 0, .unit = 10}), "10");
 }
 
 } // namespace

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a new configuration means for a program that runs.
-#include "config_bench.hpp"
-
-#include "dpslave/app/reload_plan.hpp"
+#include "app/main/reload_plan.hpp"
+#include "config/config_bench.hpp"
 
 namespace dpslave {
 namespace {
 
-using app::Config;
 using app::InForce;
 using app::Plan;
+using config::Config;
 using test::with;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -27,14 +26,14 @@ unit = "02"
 
 class ReloadPlan : public test::ConfigFile {
 protected:
-    static std::vector<std::uint8_t> addresses_of(const Config& config)
+    static std::vector<std::uint8_t> addresses_of(const config::Config& config)
     {
         std::vector<std::uint8_t> all;
         for (const auto& station : config.stations) all.push_back(station.address);
         return all;
     }
     /// As at the start, without a master.
-    static std::vector<InForce> in_force(const Config& config)
+    static std::vector<InForce> in_force(const config::Config& config)
     {
         std::vector<InForce> all;
         for (const auto& station : config.stations) all.push_back({station.address});
@@ -42,7 +41,7 @@ protected:
     }
     Plan plan(const std::string& before, const std::string& after) const
     {
-        const Config present = good(before);
+        const config::Config present = good(before);
         return app::plan_reload(present, in_force(present), good(after));
     }
     /// Of each station of the new file: the index that it had and keeps.
@@ -169,7 +168,7 @@ protected:
     Plan of(const std::string& rows, std::optional<std::uint16_t> speed = 1250)
     {
         folder_.write("tags/empty.csv", kRows);
-        const Config present = good(one);
+        const config::Config present = good(one);
         auto now = in_force(present);
         now[0].tags = {{55, speed}, {56, 700}};
         folder_.write("tags/empty.csv", rows);
@@ -233,7 +232,7 @@ TEST_F(ReloadOfRows, AppliesAScaleWhereNoValueWasEverOnTheBus)
 
 TEST_F(ReloadPlan, SeesAProfileOrATagTableThatIsAnotherOneUnderTheSameName)
 {
-    const Config present = good(two);
+    const config::Config present = good(two);
     folder_.write("tags/empty.csv", "tag,name,type\n55,SPEED,INT\n56,SETPOINT,INT\n");
     const Plan other_tags = app::plan_reload(present, in_force(present), good(two));
     EXPECT_THAT(other_tags.changes,
@@ -241,7 +240,7 @@ TEST_F(ReloadPlan, SeesAProfileOrATagTableThatIsAnotherOneUnderTheSameName)
 
     change_profile("590-site", "V4.2 onwards", "V4.2 onwards");
     const std::string site = with(two, "\"590\"", "\"590-site\"");
-    const Config now = good(site);
+    const config::Config now = good(site);
     change_profile("590-site", "V4.2 onwards", "V4.3 onwards");
     const Plan other_text = app::plan_reload(now, in_force(now), good(site));
     EXPECT_THAT(other_text.changes, ElementsAre("station unwinder: profile"));
@@ -329,7 +328,7 @@ TEST_F(ReloadPlan, DoesTheRestOfAChangeAtTheOldAddressOfAnOptionBoard)
 
 TEST_F(ReloadPlan, ForgetsAPendingAddressThatIsTakenBack)
 {
-    const Config present = good(two);
+    const config::Config present = good(two);
     const Plan first = app::plan_reload(present, {{5}, {6}}, good(with(two, "address = 6", "address = 7")));
     const Plan second = app::plan_reload(first.config, {{5}, {6}}, good(two));
     EXPECT_THAT(second.changes, IsEmpty());
@@ -368,7 +367,7 @@ TEST_F(ReloadPlan, ChangesTheAddressOfATechnologyBoxAtOnce)
 
 TEST_F(ReloadPlan, RefusesAnAddressThatATechnologyBoxWasGivenByHand)
 {
-    const Config present = good(boxed);
+    const config::Config present = good(boxed);
     const std::string after = boxed + with(with(kBox, "\"box\"", "\"other\""), "\"02\"", "\"03\"");
     const Plan plan =
         app::plan_reload(present, {{5}, {6}, {20}}, good(with(after, "address = 9", "address = 21")));
@@ -382,7 +381,7 @@ TEST_F(ReloadPlan, RefusesAnAddressThatATechnologyBoxWasGivenByHand)
 
 TEST_F(ReloadPlan, LetsATechnologyBoxGoOnAtTheAddressThatItWasGivenByHand)
 {
-    const Config present = good(boxed);
+    const config::Config present = good(boxed);
     const Plan plan = app::plan_reload(present, {{5}, {6}, {20}}, good(boxed));
     EXPECT_THAT(plan.changes, IsEmpty());
     EXPECT_THAT(stays(plan), ElementsAre(0U, 1U, 2U));

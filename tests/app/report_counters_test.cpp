@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// What was counted, as the control interface tells it.
-#include "dpslave/app/report.hpp"
-#include "dpslave/control/interface.hpp"
+#include "app/main/report.hpp"
+#include "control/interface.hpp"
 
 #include <gtest/gtest.h>
 
@@ -77,7 +77,7 @@ TEST(CountersReport, TellsWhatTheEdgeCounted)
 
 TEST(CountersReport, TellsTheDelayOfADriveThatIsAlwaysLateAndTheTimeOutThatItNeeds)
 {
-    StationConfig config;
+    config::StationConfig config;
     config.name = "unwinder";
     View view;
     StationView station{};

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the control socket shows of the device types.
+#include "control/interface.hpp"
 #include "device_bench.hpp"
-
-#include "dpslave/control/interface.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// What the program tests of itself at the start (B-006).
-#include "dpslave/app/self_test.hpp"
+#include "app/main/self_test.hpp"
 
 #include <gmock/gmock.h>
 

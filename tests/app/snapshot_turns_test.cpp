@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// When each station's state is shown to the main thread.
-#include "dpslave/app/snapshot_turns.hpp"
+#include "app/bus/snapshot_turns.hpp"
 
 #include <gtest/gtest.h>
 

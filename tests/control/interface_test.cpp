@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "control/interface.hpp"
 #include "fixtures.hpp"
 #include "varlink_reader.hpp"
-
-#include "dpslave/control/interface.hpp"
 
 #include <gtest/gtest.h>
 

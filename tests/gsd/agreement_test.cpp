@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The GSD is the contract with the master: what the files say, the profiles must do, key by key and in both
 // directions. The files are read by the tests' own small reader.
-#include "gsd/second_hand.hpp"
+#include "second_hand.hpp"
 
 #include <gmock/gmock.h>
 

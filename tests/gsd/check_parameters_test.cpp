@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // User parameters in the new style: ExtUserPrmData, PrmText and the references to them (wire
 // reference 9.2, 9.4).
-#include "gsd/second_hand.hpp"
+#include "second_hand.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is wrong in a file is told with its line and what to do (B-092, C-047; wire reference 9.2, 9.4).
-#include "gsd/second_hand.hpp"
+#include "second_hand.hpp"
 
 #include <gmock/gmock.h>
 

@@ -2,7 +2,7 @@
 // The daemon accepts exactly what `dpctl gsd make` wrote (C-048): a master that goes by the file is accepted,
 // one that deviates by one octet is not. What the master sends is taken from the file by the tests' own
 // reader.
-#include "gsd/second_hand.hpp"
+#include "second_hand.hpp"
 
 #include "dpslave/dp/chk_cfg.hpp"
 #include "dpslave/dp/set_prm.hpp"

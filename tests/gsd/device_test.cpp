@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `dpctl gsd make` puts into a file: mappings, limits, sentences (B-004, B-071, C-010 to C-012, C-022,
 // C-042, C-043, C-046, C-048).
-#include "gsd/second_hand.hpp"
+#include "second_hand.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // View I/O map of the configurator (C-044), and the limits of some masters.
-#include "gsd/second_hand.hpp"
+#include "second_hand.hpp"
 
 #include "dpslave/gsd/io_map.hpp"
 

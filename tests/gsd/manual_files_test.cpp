@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The two listings of HA389815 appendix A as they are printed, against the files that
 // are shipped.
-#include "gsd/second_hand.hpp"
+#include "second_hand.hpp"
 
 #include <gmock/gmock.h>
 

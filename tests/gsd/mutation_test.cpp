@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whatever octets come, reading, checking and mapping end and stay in bounds. Deterministic: one seed.
-#include "gsd/second_hand.hpp"
+#include "second_hand.hpp"
 
 #include "dpslave/gsd/io_map.hpp"
 

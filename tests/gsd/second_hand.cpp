@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gsd/second_hand.hpp"
+#include "second_hand.hpp"
 
 #include "dpslave/gsd/device.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The files in gsd/ are those that the command makes, octet for octet, and no other.
-#include "gsd/second_hand.hpp"
+#include "second_hand.hpp"
 
 #include "dpslave/gsd/type_file.hpp"
 

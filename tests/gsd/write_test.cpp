@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the writer makes: character set, line ends, lengths.
-#include "gsd/second_hand.hpp"
+#include "second_hand.hpp"
 
 #include "dpslave/gsd/device.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Who switches the transceiver, and that it is never left switched on.
-#include "driver_enable_port.hpp"
 #include "gpio_folder.hpp"
+#include "io/gpio/driver_enable_port.hpp"
 #include "pty.hpp"
 
 #include "dpslave/io/driver_enable.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// A line of a GPIO chip, by the real code over a stand-in of libgpiod whose chips are files.
-#include "gpio_chips.hpp"
 #include "gpio_folder.hpp"
+#include "io/gpio/gpio_chips.hpp"
 
 #include "dpslave/io/gpio.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// What is concluded from the UART behind a tty: the rate on the wire, and how soon it hands octets on. The
 /// UARTs are made of what the kernel says of them: no such hardware is at hand.
+#include "io/tty/uart.hpp"
 #include "pty.hpp"
-#include "uart.hpp"
 
 #include "dpslave/io/tty.hpp"
 

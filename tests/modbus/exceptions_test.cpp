@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// What each exception means for the access (EI-ASCII and Modbus reference, section 4), and which octets are
 /// no answer at all.
-#include "pdu.hpp"
+#include "modbus/pdu.hpp"
 #include "scripted_slave.hpp"
 
 #include <gmock/gmock.h>

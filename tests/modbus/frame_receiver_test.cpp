@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Octets of a Modbus RTU line become frames. The check sums are those of a second hand (scripted_slave).
-#include "frame_receiver.hpp"
+#include "modbus/frame_receiver.hpp"
 #include "scripted_slave.hpp"
 
 #include <gmock/gmock.h>

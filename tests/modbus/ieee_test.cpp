@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Tags in the IEEE area of the 2000 series: address 2 x tag + 8000h, two registers, high word first.
 /// The singles were made by another program.
-#include "ieee.hpp"
+#include "modbus/ieee.hpp"
 #include "scripted_slave.hpp"
 
 #include <gmock/gmock.h>

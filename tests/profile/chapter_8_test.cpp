@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tag table of the 2408f and 2404f against chapter 8 of their PROFIBUS handbook (C-100 to C-129).
 // chapter_8.txt is the chapter kept by itself; the programs are reckoned here.
-#include "profile/files.hpp"
+#include "files.hpp"
 
 #include "dpslave/profile/profile.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // tools/convert-tags on small tables of both forms of source: what it writes, what it leaves out, what it
 // refuses.
-#include "profile/files.hpp"
+#include "files.hpp"
 
 #include "dpslave/profile/profile.hpp"
 

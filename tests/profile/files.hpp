@@ -2,7 +2,7 @@
 /// A folder of its own for one test, gone when the test ends; and the sentence of a fault in one line.
 #pragma once
 
-#include "dpslave/profile/fault.hpp"
+#include "dpslave/toml/fault.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -54,15 +54,15 @@ inline std::string content_of(const std::filesystem::path& file)
 }
 
 /// "3:7: what": the fault without its file.
-inline std::string short_form(const profile::Fault& fault)
+inline std::string short_form(const toml::Fault& fault)
 {
     return std::to_string(fault.line) + ":" + std::to_string(fault.column) + ": " + fault.what;
 }
 
-inline std::vector<std::string> short_forms(const profile::Faults& faults)
+inline std::vector<std::string> short_forms(const toml::Faults& faults)
 {
     std::vector<std::string> out;
-    for (const profile::Fault& fault : faults) out.push_back(short_form(fault));
+    for (const toml::Fault& fault : faults) out.push_back(short_form(fault));
     return out;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "profile/files.hpp"
+#include "files.hpp"
 
 #include "dpslave/profile/profile.hpp"
 
@@ -8,7 +8,6 @@
 namespace dpslave {
 namespace {
 
-using profile::Faults;
 using profile::load_profile;
 using profile::Profile;
 using test::Folder;
@@ -19,6 +18,7 @@ using testing::ElementsAre;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
+using toml::Faults;
 
 const std::filesystem::path kShipped = std::filesystem::path{DPSLAVE_SOURCE_DIR} / "config/profiles";
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The shipped profiles against the manuals of their devices, key by key.
-#include "profile/files.hpp"
+#include "files.hpp"
 
 #include "dpslave/profile/profile.hpp"
 

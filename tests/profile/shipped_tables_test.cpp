@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tag tables of config/tags as files, and those of the drives against what public pages of their manuals
 // print.
-#include "profile/files.hpp"
+#include "files.hpp"
 
 #include "dpslave/profile/profile.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // From what a survey saw to a tag table: new rows, rows that wait, and rows that a person has confirmed.
-#include "profile/sightings.hpp"
+#include "sightings.hpp"
 
 #include "dpslave/profile/profile.hpp"
 #include "dpslave/profile/survey.hpp"
@@ -24,13 +24,13 @@ SurveyedTable merged(std::string_view table, const Survey& seen)
 {
     auto result = merge_survey(table, "t.csv", seen);
     if (!result) {
-        for (const Fault& fault : result.error()) ADD_FAILURE() << to_string(fault);
+        for (const toml::Fault& fault : result.error()) ADD_FAILURE() << to_string(fault);
         return {};
     }
     // Whatever a survey writes, the daemon must be able to read.
     const auto tags = read_tags(result->text, "t.csv");
     if (!tags)
-        for (const Fault& fault : tags.error()) ADD_FAILURE() << to_string(fault);
+        for (const toml::Fault& fault : tags.error()) ADD_FAILURE() << to_string(fault);
     return *std::move(result);
 }
 

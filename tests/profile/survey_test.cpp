@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a survey sees in the answers of a drive, whom it asks next, and how long it says that it takes.
-#include "profile/sightings.hpp"
+#include "sightings.hpp"
 
 #include "dpslave/profile/survey.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "profile/files.hpp"
+#include "files.hpp"
 
 #include "dpslave/profile/profile.hpp"
 
@@ -12,7 +12,6 @@ namespace {
 using drive::Access;
 using drive::Tag;
 using drive::TagType;
-using profile::Faults;
 using profile::load_tags;
 using test::Folder;
 using testing::AllOf;
@@ -20,6 +19,7 @@ using testing::ElementsAre;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
+using toml::Faults;
 
 class TagTable : public testing::Test {
 protected:
@@ -54,9 +54,9 @@ TEST_F(TagTable, with_thousands_of_faults_tells_the_first_ones_and_that_there_ar
 
     const Faults faults = bad(content);
 
-    ASSERT_EQ(faults.size(), profile::kMaxFaults + 1);
+    ASSERT_EQ(faults.size(), toml::kMaxFaults + 1);
     EXPECT_EQ(faults[0].line, 2u);
-    EXPECT_EQ(faults[profile::kMaxFaults - 1].line, profile::kMaxFaults + 1);
+    EXPECT_EQ(faults[toml::kMaxFaults - 1].line, toml::kMaxFaults + 1);
     EXPECT_THAT(faults.back().what, HasSubstr("more faults"));
 }
 
@@ -65,7 +65,7 @@ TEST_F(TagTable, with_thousands_of_rows_of_wrong_form_tells_the_first_ones_and_t
     std::string content = "tag,name\n";
     for (int i = 0; i < 12'000; ++i) content += std::to_string(i) + ",a\x07\n";
 
-    EXPECT_EQ(bad(content).size(), profile::kMaxFaults + 1);
+    EXPECT_EQ(bad(content).size(), toml::kMaxFaults + 1);
 }
 
 TEST_F(TagTable, whose_first_line_is_nothing_but_commas_is_refused_with_what_to_do)
@@ -445,9 +445,9 @@ TEST_F(TagTable, a_file_that_is_not_there_or_no_file_is_a_fault_of_the_file)
 
 TEST(FaultText, is_file_line_column_and_sentence_as_compilers_have_it)
 {
-    EXPECT_EQ(to_string(profile::Fault{"a.toml", 3, 7, "wrong."}), "a.toml:3:7: wrong.");
-    EXPECT_EQ(to_string(profile::Fault{"a.toml", 3, 0, "wrong."}), "a.toml:3: wrong.");
-    EXPECT_EQ(to_string(profile::Fault{"a.toml", 0, 0, "wrong."}), "a.toml: wrong.");
+    EXPECT_EQ(to_string(toml::Fault{"a.toml", 3, 7, "wrong."}), "a.toml:3:7: wrong.");
+    EXPECT_EQ(to_string(toml::Fault{"a.toml", 3, 0, "wrong."}), "a.toml:3: wrong.");
+    EXPECT_EQ(to_string(toml::Fault{"a.toml", 0, 0, "wrong."}), "a.toml: wrong.");
 }
 
 } // namespace

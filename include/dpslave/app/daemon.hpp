@@ -2,7 +2,7 @@
 /// The whole daemon from a judged configuration to its end.
 #pragma once
 
-#include "dpslave/app/config.hpp"
+#include "dpslave/config/config.hpp"
 
 #include <filesystem>
 
@@ -19,6 +19,6 @@ enum class ExitStatus : int {
 /// Opens every device and the socket, serves until SIGTERM or SIGINT, leaves the bus and puts the outputs
 /// into their safe state. Either everything runs, or nothing was started. Logs through spdlog's default
 /// logger.
-ExitStatus run_daemon(const Config& config, const std::filesystem::path& profiles);
+ExitStatus run_daemon(const config::Config& config, const std::filesystem::path& profiles);
 
 } // namespace dpslave::app

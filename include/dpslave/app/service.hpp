@@ -2,7 +2,7 @@
 /// What a service manager asks beside the daemon itself (systemd/dpslaved.service.in).
 #pragma once
 
-#include "dpslave/app/config.hpp"
+#include "dpslave/config/config.hpp"
 
 #include <filesystem>
 #include <optional>

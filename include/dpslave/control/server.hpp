@@ -5,7 +5,8 @@
 /// by him. A caller who is too slow or speaks nonsense loses his connection, and no other one notices.
 #pragma once
 
-#include "dpslave/control/interface.hpp"
+#include "control/interface.hpp"
+
 #include "dpslave/control/protocol.hpp"
 
 #include <sys/types.h>

@@ -4,8 +4,8 @@
 
 #include "dpslave/base/result.hpp"
 #include "dpslave/gsd/device.hpp"
-#include "dpslave/profile/fault.hpp"
 #include "dpslave/profile/profile.hpp"
+#include "dpslave/toml/fault.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -43,6 +43,6 @@ struct Mapping {
     std::string profile;
     Selection selection;
 };
-Result<Mapping, Faults> load_mapping(const std::filesystem::path& file);
+Result<Mapping, toml::Faults> load_mapping(const std::filesystem::path& file);
 
 } // namespace dpslave::profile

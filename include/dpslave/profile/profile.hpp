@@ -8,7 +8,7 @@
 #include "dpslave/drive/poller.hpp"
 #include "dpslave/drive/tag.hpp"
 #include "dpslave/led/pattern.hpp"
-#include "dpslave/profile/fault.hpp"
+#include "dpslave/toml/fault.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -100,12 +100,12 @@ struct Profile {
 
 /// Reads `folder`/NAME.toml and the table it names (../tags/FILE beside the folder). All faults of both files
 /// in one list.
-Result<Profile, Faults> load_profile(const std::filesystem::path& folder, const std::string& name);
+Result<Profile, toml::Faults> load_profile(const std::filesystem::path& folder, const std::string& name);
 
 /// Reads a tag table.
-Result<drive::TagTable, Faults> load_tags(const std::filesystem::path& file);
+Result<drive::TagTable, toml::Faults> load_tags(const std::filesystem::path& file);
 /// The same of its text; `file` is for the faults.
-Result<drive::TagTable, Faults> read_tags(std::string_view content, const std::string& file);
+Result<drive::TagTable, toml::Faults> read_tags(std::string_view content, const std::string& file);
 
 /// The names for which `folder` holds a profile, sorted: for messages.
 std::vector<std::string> profile_names(const std::filesystem::path& folder);

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "dpslave/base/result.hpp"
-#include "dpslave/profile/fault.hpp"
+#include "dpslave/toml/fault.hpp"
 
 #include <array>
 #include <chrono>
@@ -86,7 +86,7 @@ using Survey = std::map<std::uint16_t, Sighting>;
 
 /// The record of a survey as a CSV file, from which it can go on.
 std::string record_text(const Survey& survey);
-Result<Survey, Faults> read_record(std::string_view content, const std::string& file);
+Result<Survey, toml::Faults> read_record(std::string_view content, const std::string& file);
 
 /// Which tag is asked next: of those that are still wanted the one that was asked least, ascending. A tag
 /// that was only ever denied is asked once; one that never answered three times, for a silence may be the
@@ -137,7 +137,7 @@ struct SurveyedTable {
 /// confirmed = no; rows with confirmed = no are widened (more decimals, further extremes) and keep what a
 /// person wrote into their other cells; every other row stays as it is, octet by octet, but for the cells of
 /// new columns. Faults: `table` is no tag table.
-Result<SurveyedTable, Faults> merge_survey(std::string_view table, const std::string& file,
-                                           const Survey& seen);
+Result<SurveyedTable, toml::Faults> merge_survey(std::string_view table, const std::string& file,
+                                                 const Survey& seen);
 
 } // namespace dpslave::profile

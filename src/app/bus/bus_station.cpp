@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bus_station.hpp"
+
+#include <utility>
+
+namespace dpslave::app {
+
+BusStation::BusStation(const config::StationConfig& config, std::shared_ptr<StationLink> link)
+    : link_(std::move(link)), personality_(config.personality), slave_(*personality_, config.address)
+{
+    orders_.address = config.address;
+}
+
+void BusStation::fetch()
+{
+    if (link_->inputs.fresh()) slave_.set_inputs(link_->inputs.latest());
+    if (link_->demand_answer.fresh()) slave_.set_demand_answer(link_->demand_answer.latest());
+    take_orders();
+}
+
+bool BusStation::take_orders()
+{
+    if (!link_->bus_orders.fresh()) return false;
+    orders_ = link_->bus_orders.latest();
+    slave_.set_ext_diag(orders_.ext_diag, orders_.ext_diag_fault);
+    return true;
+}
+
+fdl::Answer BusStation::srd(const fdl::Indication& request, fdl::ReplyData& reply)
+{
+    fetch();
+    return slave_.srd(request, reply);
+}
+
+void BusStation::sdn(const fdl::Indication& request)
+{
+    fetch(); // Freeze holds the inputs as they are at the command
+    slave_.sdn(request);
+}
+
+void BusStation::on_time(Instant now)
+{
+    fetch();
+    slave_.on_time(now);
+}
+
+bool BusStation::hand_on()
+{
+    while (const auto left = slave_.take_left())
+        link_->ended.store(left->generation, std::memory_order_release);
+    if (const auto outputs = slave_.take_outputs()) link_->outputs.publish(*outputs);
+
+    if (!waiting_order_) waiting_order_ = slave_.take_demand_order();
+    while (waiting_order_ && link_->demand_orders.push(*waiting_order_))
+        waiting_order_ = slave_.take_demand_order();
+
+    while (const auto event = slave_.take_event()) {
+        link_->events.push(*event); // full: counted by the ring; the log is not worth a lost telegram
+    }
+    return !waiting_order_;
+}
+
+} // namespace dpslave::app

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+/// One slave as the bus sees it: a dp::Slave that fetches the newest inputs and answers when it is spoken to,
+/// so that the cost of a telegram does not grow with the number of stations. It is on the bus while the main
+/// thread wants it there.
+#pragma once
+
+#include "app/links.hpp"
+
+#include "dpslave/config/config.hpp"
+#include "dpslave/dp/slave.hpp"
+
+#include <memory>
+#include <optional>
+
+namespace dpslave::app {
+
+/// Built by the main thread, then the bus thread's alone while it is in its roster.
+class BusStation final : public fdl::SapUser {
+public:
+    /// Takes from `config` what it needs.
+    BusStation(const config::StationConfig& config, std::shared_ptr<StationLink> link);
+
+    fdl::Answer srd(const fdl::Indication& request, fdl::ReplyData& reply) override;
+    void sdn(const fdl::Indication& request) override;
+    void heard(std::uint8_t sa, Instant at) override { slave_.heard(sa, at); }
+    Tbit min_tsdr() const override { return slave_.min_tsdr(); }
+    fdl::Supervision supervision() const override { return slave_.supervision(); }
+    void on_time(Instant now) override;
+    Instant next_deadline() const override { return slave_.next_deadline(); }
+
+    dp::Slave& slave() { return slave_; }
+    const dp::Personality& personality() const { return *personality_; }
+
+    /// Takes what the main thread ordered, also while nobody speaks to the station. True: it was news.
+    bool take_orders();
+    const BusOrders& orders() const { return orders_; }
+
+    /// Hands outputs, orders and events on. False: a full ring has refused an order; call again.
+    bool hand_on();
+    /// Hands a fresh snapshot to the main thread.
+    void publish_snapshot() { link_->bus_snapshot.publish(slave_.snapshot()); }
+
+private:
+    void fetch();
+
+    std::shared_ptr<StationLink> link_;
+    std::shared_ptr<const dp::Personality> personality_; // the slave looks into it
+    dp::Slave slave_;
+    BusOrders orders_;                         ///< as they were seen last
+    std::optional<DemandOrder> waiting_order_; ///< refused by a full ring: late, not lost
+};
+
+} // namespace dpslave::app

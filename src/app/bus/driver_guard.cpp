@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "driver_guard.hpp"
+
+#include "dpslave/fdl/transmission.hpp"
+#include "dpslave/io/clock.hpp"
+#include "dpslave/io/realtime.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+namespace dpslave::app {
+
+void DriverGuard::start(int bus_priority)
+{
+    if (!driver_.by_hand()) return;
+    constexpr int kHighest = 99;
+    const int priority = bus_priority == 0 ? 0 : std::min(bus_priority + 1, kHighest);
+    thread_ = std::jthread([this, priority](const std::stop_token& stop) { watch(stop, priority); });
+}
+
+void DriverGuard::watch(const std::stop_token& stop, int priority)
+{
+    io::name_thread("guard");
+    for (const std::string& refused : io::enter_realtime(priority, -1))
+        spdlog::warn("guard of the driver enable: {}", refused);
+    while (!stop.stop_requested()) {
+        std::this_thread::sleep_for(kLook);
+        const Baud baud = baud_.load(std::memory_order_relaxed);
+        if (driver_.drop_if_stuck(io::monotonic_now(), fdl::transmission_guard(baud)))
+            dropped_.fetch_add(1, std::memory_order_relaxed);
+    }
+}
+
+} // namespace dpslave::app

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+/// All that crosses between the threads: one struct per pair of neighbours, made of Mailbox and Ring only.
+/// Each member names its one writer and its one reader (docs/architecture.md, "Three kinds of threads").
+#pragma once
+
+#include "app/drive/line_probe.hpp"
+
+#include "dpslave/base/handover.hpp"
+#include "dpslave/base/histogram.hpp"
+#include "dpslave/base/mailbox.hpp"
+#include "dpslave/base/process_image.hpp"
+#include "dpslave/base/ring.hpp"
+#include "dpslave/config/config.hpp"
+#include "dpslave/dp/event_log.hpp"
+#include "dpslave/dp/snapshot.hpp"
+#include "dpslave/drive/poller.hpp"
+#include "dpslave/fdl/layer2.hpp"
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dpslave::app {
+
+/// What the main thread wants of a station on the bus.
+struct BusOrders {
+    bool enabled = true; ///< false: the station is silent (TEC OPTION: FAULT is not NONE)
+    std::uint8_t address = 0;
+    ByteBuffer<8> ext_diag;      ///< the block of the extended diagnosis; empty = the device has none
+    bool ext_diag_fault = false; ///< it reports a fault, and the Ext_Diag bit shall say so
+    friend bool operator==(const BusOrders&, const BusOrders&) = default;
+};
+
+/// StationLink::zero_after_ms: how ZeroAfter crosses between threads.
+inline constexpr std::int64_t kNeverToZero = -1;
+constexpr std::int64_t to_ms(drive::ZeroAfter after)
+{
+    return after ? std::chrono::ceil<std::chrono::milliseconds>(*after).count() : kNeverToZero;
+}
+constexpr drive::ZeroAfter from_ms(std::int64_t after)
+{
+    if (after == kNeverToZero) return std::nullopt;
+    return std::chrono::milliseconds{after};
+}
+
+/// One station between its bus, its drive line and the main thread.
+struct StationLink {
+    // drive -> bus
+    Mailbox<InputImage> inputs;
+    /// Newest wins: an answer to an order that no longer stands is dropped anyway.
+    Mailbox<DemandAnswer> demand_answer;
+    // bus -> drive
+    /// Every layout up to this generation has ended. Stored before the outputs of the next layout are
+    /// published, read after them: whoever sees a new layout also sees the end of the old one. It only grows,
+    /// so no end is overwritten.
+    std::atomic<Generation> ended{0};
+    Mailbox<OutputImage> outputs;
+    Ring<DemandOrder, 16> demand_orders;
+    // bus -> main
+    Mailbox<dp::Snapshot> bus_snapshot;
+    Ring<dp::Event, 64> events;
+    // drive -> main
+    Mailbox<drive::UnitSnapshot> drive_snapshot;
+    // main -> bus
+    Mailbox<BusOrders> bus_orders;
+    // main -> drive
+    /// When the outputs go to zero after the loss of the master, ms; kNeverToZero = never. Settable while the
+    /// program runs (RIDE THROUGH).
+    std::atomic<std::int64_t> zero_after_ms{0};
+};
+
+class BusStation;
+/// Those who live on the bus, at most 127, in any order. A station of two rosters that stand one after the
+/// other stays on the bus without a break.
+using Roster = std::vector<std::shared_ptr<BusStation>>;
+
+/// What the bus thread noticed at its port, for the log.
+enum class PortNews : std::uint8_t {
+    gone,
+    back,
+    driver_gone, ///< an edge of the driver enable failed: nothing is sent until it works again
+    driver_back,
+    driver_guarded, ///< only the guard made it inactive; told once until the port is opened again
+};
+
+/// A sentence about the port, with its path, each reason once.
+struct PortWords {
+    bool is_warning = false; ///< else the port is closed
+    std::string text;
+};
+
+/// The bus as a whole, bus -> main.
+struct BusSnapshot {
+    Baud baud = Baud::k9_6;
+    fdl::BaudState baud_state = fdl::BaudState::fixed;
+    bool port_open = false;
+    Instant taken_at{};
+    Instant last_telegram{}; ///< with a checksum, of anybody; default = none was heard yet
+    fdl::Counters counters{};
+    fdl::AskedAddresses::List unanswered{}; ///< addresses of others that do not answer
+    std::uint64_t write_errors = 0;
+    std::uint64_t unsent = 0; ///< replies that did not go out: those, no port, or no driver enable
+    /// Of each reply, from the read of the request's last octet to the end of the write: us, and T_bit of the
+    /// rate of then.
+    Histogram turnaround_us, turnaround_tbit;
+    std::uint64_t too_late =
+        0; ///< replies whose write ended behind their window although it had begun within it
+    bool driver_works = true;         ///< false: nothing is sent, for an edge of the driver enable has failed
+    std::uint64_t driver_errors = 0;  ///< edges of the driver enable that failed
+    std::uint64_t driver_guarded = 0; ///< times that only the guard made the driver enable inactive
+    bool echo_heard = false;
+    std::uint64_t echo_broken = 0;  ///< echoes that were not what was sent
+    std::uint64_t echo_missing = 0; ///< echoes that were due and did not come
+    std::uint64_t page_faults = 0;  ///< of the bus thread since it serves
+    bool valid = false;             ///< false: nothing was published yet
+};
+struct BusLink {
+    Mailbox<BusSnapshot> snapshot;
+    /// Counts the rounds of the bus thread: while it moves, the watchdog of systemd is fed.
+    std::atomic<std::uint64_t> heartbeat{0};
+    /// A thread had to give up (said in the log): the main thread ends the program.
+    std::atomic<bool> failed{false};
+    /// The stations from now on, main -> bus, and back what is no longer on the bus.
+    Handover<Roster> roster;
+    Ring<PortNews, 8> port_news; ///< bus -> main
+    /// Why the port is closed and stays so, or what it cannot do since it is open again, bus -> main.
+    Handover<PortWords> port_words;
+    std::atomic<Baud> baud{Baud::k9_6}; ///< the rate of replies, bus -> guard of the driver enable
+    std::atomic<bool> ended{false};     ///< the bus thread has said its last word
+};
+
+/// What a drive said no to, in words; the newest few of a line.
+struct Trouble {
+    std::uint32_t station = 0; ///< DriveUnit::number
+    std::uint16_t tag = 0;
+    bool is_write = false; ///< a tag may be read and refuse to be written
+    AccessError error = AccessError::none;
+    std::array<char, 240> text{}; ///< ends with NUL
+};
+struct TroubleList {
+    std::array<Trouble, 16> troubles{};
+    std::uint8_t count = 0;
+};
+
+/// One drive of a line: the station that it stands for.
+struct DriveUnit {
+    std::uint32_t number = 0; ///< of the station: never given twice while the program runs
+    std::shared_ptr<const config::StationConfig> config;
+    std::shared_ptr<StationLink> link;
+};
+
+class LineBackend;
+/// What a line is to do from now on.
+struct LineWork {
+    ~LineWork();
+    /// One that was there before goes on without a break, with its `config` of now.
+    std::vector<DriveUnit> units;
+    std::optional<config::LineConfig> line; ///< a key of it is different
+    bool opens_port = false;                ///< the port is another one, or set in another way
+    bool is_other_port = false;             ///< with `opens_port`: standing outputs are written there at once
+    bool leaves_drives = false; ///< with `is_other_port`: the drives at the old one go to the safe state
+    /// With `opens_port`: opened already; null: one of ours has it and is about to let go of it.
+    std::unique_ptr<LineBackend> backend;
+};
+
+/// An order of `dpctl`; its `unit` is found by the number of the station.
+struct LineOrder {
+    std::uint32_t station = 0; ///< DriveUnit::number
+    drive::OperateOrder order;
+    bool is_survey = false; ///< Poller::survey() in place of operate()
+};
+
+/// A drive line and the main thread.
+struct LineLink {
+    Ring<LineOrder, 16> orders;                // main -> drive
+    Ring<drive::OperateAnswer, 16> answers;    // drive -> main
+    Ring<ProbeOrder, 2> probes;                // main -> drive
+    Ring<ProbeReport, 2> probe_reports;        // drive -> main
+    std::atomic<std::uint32_t> probe_tried{0}; ///< drive -> main: questions of the probe that runs
+    /// main -> drive: the number of a probe that nobody waits for any more.
+    std::atomic<std::uint32_t> probe_ended{0};
+    Mailbox<TroubleList> troubles;           // drive -> main
+    std::atomic<bool> port_open{false};      // drive -> main
+    Handover<LineWork> work;                 // main -> drive
+    std::atomic<std::uint32_t> work_done{0}; ///< drive -> main: how many of them were carried out
+    std::atomic<bool> ended{false};          ///< drive -> main: the thread has said its last word
+};
+
+} // namespace dpslave::app

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dpslave/app/daemon.hpp"
+
+#include "app/bus/bus_thread.hpp"
+#include "app/bus/driver_guard.hpp"
+#include "main_thread.hpp"
+#include "plant.hpp"
+
+#include "dpslave/app/service.hpp"
+#include "dpslave/app/version.hpp"
+#include "dpslave/io/clock.hpp"
+#include "dpslave/io/driver_enable.hpp"
+#include "dpslave/io/port.hpp"
+#include "dpslave/io/realtime.hpp"
+#include "dpslave/io/signals.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <thread>
+
+namespace dpslave::app {
+
+namespace {
+
+void say_warnings(const std::vector<std::string>& warnings)
+{
+    for (const std::string& warning : warnings) spdlog::warn("{}", warning);
+}
+
+/// Opens the port of the bus and makes `driver` switch it; nothing: it cannot, and the log says why.
+std::optional<io::Port> open_bus(const config::Config& config, io::DriverEnable& driver)
+{
+    const auto refuse = [&config](const std::string& why) -> std::optional<io::Port> {
+        spdlog::error("{}[bus]: {}", place(config, config.bus.port_line), why);
+        return std::nullopt;
+    };
+    auto port = io::Port::open(config.bus.port, bus_tty_settings(config));
+    if (!port) return refuse(port.error());
+    if (const auto trouble = driver.attach(port->tty())) return refuse(*trouble);
+    for (const std::string& warning : port->tty().warnings())
+        spdlog::warn("{}: {}", config.bus.port, warning);
+    if (const auto trouble = driver.self_check()) {
+        driver.detach();
+        return refuse(*trouble);
+    }
+    spdlog::info("{}: {}", config.bus.port, driver.in_words());
+    Baud highest = Baud::k9_6; // that the bus may have
+    if (config.bus.baud) {
+        highest = *config.bus.baud;
+    } else {
+        const io::TtyBauds bauds = port->tty().bauds();
+        if (!bauds.why_not.empty()) spdlog::warn("{}: {}", config.bus.port, bauds.why_not);
+        for (const Baud baud : kBauds)
+            if (bauds.can.test(index_of(baud))) highest = std::max(highest, baud);
+    }
+    if (const auto doubt = driver.doubt(highest)) spdlog::warn("{}: {}", config.bus.port, *doubt);
+    return std::move(*port);
+}
+
+std::string rate_in_words(const config::BusConfig& bus)
+{
+    if (!bus.baud) return "a rate that is searched for";
+    return fmt::format("{} bit/s", static_cast<std::uint32_t>(*bus.baud));
+}
+
+/// Tells the bus thread to end and waits for it. False: it hangs in a call of the system.
+bool end(std::jthread& thread, io::EventFd& wake, const BusLink& link)
+{
+    constexpr std::chrono::seconds kPatience{2}; // more than twice the longest telegram at any rate
+    thread.request_stop();
+    wake.ring();
+    const Instant limit = io::monotonic_now() + kPatience;
+    while (!link.ended.load(std::memory_order_acquire)) {
+        if (io::monotonic_now() > limit) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds{1});
+    }
+    thread.join();
+    return true;
+}
+
+} // namespace
+
+ExitStatus run_daemon(const config::Config& config, const std::filesystem::path& profiles)
+{
+    io::Signals signals; // first: every later thread inherits the blocked signals
+    for (const toml::Fault& warning : config.warnings) spdlog::warn("{}", to_string(warning));
+
+    // Everything that can fail comes first, in this thread, before anybody on the bus hears of us.
+    auto driver = io::DriverEnable::open(config.bus.driver_enable);
+    if (!driver) {
+        spdlog::error("{}[bus]: {}", place(config, config.bus.port_line), driver.error());
+        return ExitStatus::device_not_opened;
+    }
+    auto port = open_bus(config, *driver);
+    if (!port) return ExitStatus::device_not_opened;
+    if (const auto trouble = keep({config.bus.driver_enable, config.bus.port}, runtime_folder()))
+        spdlog::warn("{}", *trouble);
+    BusLink link;
+    Plant plant{link.failed};
+    const auto give_up = [&driver] {
+        driver->detach(); // the port goes before it
+        return ExitStatus::device_not_opened;
+    };
+    if (const auto trouble = plant.open(config)) {
+        spdlog::error("{}", *trouble);
+        return give_up();
+    }
+    DriverGuard guard{*driver, link.baud};
+    MainThread main_thread(config, profiles, plant, link, guard, signals);
+    if (const auto trouble = main_thread.open_socket()) {
+        spdlog::error("{}: [control] socket: {}; set it to a place where this user may write",
+                      config.file.string(), *trouble);
+        return give_up();
+    }
+
+    BusThread bus(config.bus, std::move(*port), *driver, plant.roster(), link);
+    io::make_stacks_small();
+    if (config.realtime.lock_memory) say_warnings(io::lock_memory());
+    spdlog::info("dpslaved {}: {} station(s) on {} at {}", kVersion, config.stations.size(), config.bus.port,
+                 rate_in_words(config.bus));
+
+    plant.start();
+    guard.start(config.realtime.priority);
+    io::EventFd bus_wake;
+    std::jthread bus_thread([&](const std::stop_token& stop) {
+        guarded(link.failed, "bus", [&] {
+            say_warnings(io::enter_realtime(config.realtime.priority, config.realtime.cpu));
+            bus.run(stop, bus_wake);
+        });
+        link.ended.store(true, std::memory_order_release);
+    });
+
+    const bool by_signal = main_thread.run();
+
+    // The bus first: its last word to the drive lines is what puts the outputs into their safe state.
+    if (!end(bus_thread, bus_wake, link)) {
+        spdlog::critical("the bus thread hangs in a call of the system for {}: the program ends without it",
+                         config.bus.port);
+        plant.end(); // meanwhile the guard has the driver enable
+        main_thread.go_dark();
+        std::_Exit(static_cast<int>(ExitStatus::device_not_opened)); // what it uses cannot be taken away
+    }
+    static_cast<void>(driver->set(false, io::monotonic_now())); // also after a bus thread that had to give up
+    plant.end();
+    spdlog::info("ended");
+    return by_signal ? ExitStatus::ended_by_signal : ExitStatus::device_not_opened;
+}
+
+} // namespace dpslave::app

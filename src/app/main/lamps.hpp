@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The lamps of all stations: the LED language says the pattern, the sinks shine.
+#pragma once
+
+#include "dpslave/config/config.hpp"
+#include "dpslave/io/led_sink.hpp"
+#include "dpslave/led/pattern.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dpslave::app {
+
+class Lamps {
+public:
+    /// From now on those that the configuration names. A lamp that was there before, under whatever name,
+    /// shines on without a flicker. One that cannot be opened stays dark: the result says why, a sentence
+    /// each.
+    std::vector<std::string> exchange(const config::Config& config);
+
+    /// What is the case at this station from now on.
+    void set(std::size_t station, const led::Condition& condition);
+    /// Lets every lamp shine as its pattern says at `now`.
+    void show(Instant now);
+    /// When show() is needed next.
+    Instant next_change(Instant now) const;
+
+    const led::Condition& condition(std::size_t station) const { return conditions_[station]; }
+
+private:
+    struct Lamp {
+        std::size_t station = 0;
+        config::LedConfig config;
+        led::Pattern pattern;
+        std::unique_ptr<io::LedSink> sink;
+    };
+    std::filesystem::path sysfs_;
+    std::vector<led::Language> languages_;
+    std::vector<led::Condition> conditions_;
+    std::vector<Lamp> lamps_;
+};
+
+} // namespace dpslave::app

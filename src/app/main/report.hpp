@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+/// From the snapshots that the main thread holds to the words and numbers of the control interface
+/// (org.dpslaved.Control.varlink). Nothing here asks another thread; the time is a parameter.
+#pragma once
+
+#include "app/links.hpp"
+
+#include "dpslave/base/recent_count.hpp"
+#include "dpslave/config/config.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dpslave::app {
+
+class DeviceState;
+
+/// One station as the main thread sees it now.
+struct StationView {
+    std::uint32_t number = 0; ///< DriveUnit::number
+    const config::StationConfig* config = nullptr;
+    const config::LineConfig* line = nullptr;
+    std::uint8_t address = 0; ///< in force
+    dp::Snapshot bus{};
+    drive::UnitSnapshot drive{};
+    bool line_open = false;
+    bool ever_answered = false;    ///< the drive, since the station is there
+    std::string silent_because;    ///< why it is kept off the bus (FAULT of TEC OPTION), and what to do
+    std::vector<Trouble> troubles; ///< what the drive or the tag table said no to, newest last
+};
+
+struct View;
+
+/// How each counter of the control interface has grown within the last minute.
+class CounterHistory {
+public:
+    /// Stands for the bus where else the number of a station stands.
+    static constexpr std::uint32_t kOfBus = std::numeric_limits<std::uint32_t>::max();
+
+    /// All counters as they are now; to be called about once a second. A station that has gone is forgotten.
+    void sample(const View& view, Instant now);
+    /// `counter`: its place in the group that counters_json() tells. Null: it was never sampled.
+    const RecentCount* find(std::uint32_t owner, std::size_t counter) const;
+
+private:
+    std::vector<std::uint32_t> owners_;
+    std::vector<std::vector<RecentCount>> counts_; ///< by owner
+};
+
+/// Everything, as the main thread sees it now.
+struct View {
+    const config::Config* config = nullptr;
+    BusSnapshot bus{};
+    std::vector<StationView> stations;
+    std::uint64_t lost_events = 0; ///< events that no log could take
+    CounterHistory history;
+};
+
+nlohmann::json bus_json(const View& view, Instant now);
+nlohmann::json station_json(const StationView& station, Instant now);
+nlohmann::json stations_json(const View& view, Instant now);
+/// `pending`: the address in the configuration file now, when it differs from the active one. `notes`: of
+/// DeviceState.
+nlohmann::json info_json(const StationView& station, std::optional<std::uint8_t> pending,
+                         const std::vector<std::string>& notes);
+nlohmann::json io_json(const StationView& station, Instant now);
+nlohmann::json words_json(const StationView& station, Instant now);
+/// Which chosen tags have no scale, what becomes of them, and what to do; nothing: none.
+std::optional<std::string> scale_words(const StationView& station);
+/// The same as values: [{tag, direction, answer, contradicted}].
+nlohmann::json unscaled_json(const StationView& station);
+/// What the tag table lacks for this tag, and what to do; empty: nothing.
+std::string row_advice(const config::StationConfig& station, std::uint16_t tag);
+nlohmann::json diagnosis_json(const StationView& station);
+/// The whole reply of GetCounters.
+nlohmann::json counters_json(const View& view, Instant now);
+/// Of a station that has the function block.
+nlohmann::json tec_json(const std::string& station, const DeviceState& device);
+nlohmann::json leds_json(const config::StationConfig& station, const led::Condition& condition, Instant now);
+
+/// "octets" and "bits" of a Slave_Diag reply of this station, in words (wire reference 5.1).
+nlohmann::json diagnosis_octets_json(const config::StationConfig& station, Bytes diagnosis);
+
+/// What the octet at `offset` (from 0, 6 at least) of a Slave_Diag reply says.
+std::string extended_meaning(const config::StationConfig& station, std::size_t offset, Bytes diagnosis);
+
+/// What a refused Set_Prm or Chk_Cfg was refused for, in a sentence and with an advice.
+struct Explanation {
+    std::string telegram; ///< "Set_Prm" or "Chk_Cfg"
+    std::string what;
+    std::optional<std::string> expected;
+    std::optional<std::string> got;
+    std::string advice;
+};
+Explanation explain(const dp::RefusalDetail& refusal);
+
+/// One line for the log.
+std::string sentence(const std::string& station, const dp::Event& event);
+
+/// "2 of 3 stations in Data_Exch; unwinder: Data_Exch with master 2 ...": for systemctl status.
+std::string status_line(const View& view);
+
+/// "7E1"
+std::string format_text(const config::LineFormat& format);
+
+/// A word as `dpctl` shows it: by the tag table, else hexadecimal.
+std::string shown_value(const drive::TagTable& tags, std::uint16_t tag, std::uint16_t word);
+
+/// Why a value given by hand cannot be written to this tag, with what it takes.
+std::string bad_value_words(const drive::Tag& tag, AccessError error);
+
+/// "invalid tag", "read only" ...
+std::string_view text(AccessError error) noexcept;
+
+// The codes of the control interface: words that programs compare.
+std::string_view code(AccessError error) noexcept;      ///< "no_answer", "invalid_tag" ...
+std::string_view code(dp::Refusal why) noexcept;        ///< "prm_ident", "cfg_too_few" ...
+std::string_view code(dp::LeaveReason reason) noexcept; ///< "watchdog", "unlock" ...
+
+} // namespace dpslave::app

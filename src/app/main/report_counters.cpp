@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+// What was counted, with a meaning beside each number.
+#include "report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dpslave::app {
+
+using nlohmann::json;
+
+namespace {
+
+struct Counter {
+    std::string name;
+    std::uint64_t value = 0;
+    std::string_view meaning;
+};
+struct Group {
+    std::string name;
+    std::vector<Counter> counters; ///< the same in the same order each time
+};
+
+void add(std::vector<Counter>& counters, std::string name, std::uint64_t value, std::string_view meaning)
+{
+    counters.push_back({std::move(name), value, meaning});
+}
+
+Group bus_counters(const View& view)
+{
+    const fdl::Counters& fdl = view.bus.counters;
+    std::vector<Counter> c;
+    add(c, "octets", fdl.octets, "received");
+    add(c, "telegrams", fdl.telegrams, "valid ones, of anybody");
+    add(c, "checked", fdl.checked, "those of them that have a checksum: noise cannot make them");
+    add(c, "requests", fdl.requests, "to one of our addresses or to all");
+    add(c, "replies", fdl.replies, "sent");
+    add(c, "retries", fdl.retries, "answered with the stored reply: the master had not heard the first one");
+    add(c, "overtaken", fdl.overtaken,
+        "requests dropped because something followed them: the machine reads too late");
+    add(c, "late", fdl.late, "replies suppressed because MaxTsdr had passed: see [realtime] and max_tsdr");
+    add(c, "too_late", view.bus.too_late,
+        "replies begun in time whose write ended behind MaxTsdr: see [realtime] and max_tsdr");
+    add(c, "own_address", fdl.own_address, "telegrams of somebody else who uses one of our addresses");
+    add(c, "write_errors", view.bus.write_errors, "replies that the port did not take");
+    add(c, "unsent", view.bus.unsent,
+        "replies that did not go out: those, or the port was closed, or the driver enable did not work");
+    add(c, "driver_errors", view.bus.driver_errors,
+        "edges of the driver enable that failed: look at gpio_chip, gpio_line and the log");
+    add(c, "driver_guarded", view.bus.driver_guarded,
+        "times that the guard let the driver go: the UART never said that it had sent all");
+    add(c, "echo_missing", view.bus.echo_missing, "echoes of our own that did not come: is echo set right?");
+    add(c, "echo_broken", view.bus.echo_broken,
+        "echoes of our own that were not what was sent: a collision, or a short circuit");
+    add(c, "page_faults", view.bus.page_faults,
+        "of the bus thread while it serves: see lock_memory in [realtime]");
+    for (std::size_t i = 0; i < fdl::kFlaws; ++i)
+        add(c, fmt::format("flaw: {}", fdl::text(static_cast<fdl::Flaw>(i))), fdl.flaws[i],
+            "telegrams that were none: noise, wiring, termination, rate");
+    add(c, "search_flaws", fdl.search_flaws,
+        "the same while the rate was searched: at a rate that is not the bus's all telegrams are none");
+    add(c, "lost_events", view.lost_events, "events that the log could not take");
+    return {"bus", std::move(c)};
+}
+
+Group station_counters(const StationView& station)
+{
+    const dp::Counters& dp = station.bus.counters;
+    const drive::UnitSnapshot& drive = station.drive;
+    std::vector<Counter> c;
+    add(c, "data_exchange", dp.data_exchange, "Data_Exchange telegrams carried out");
+    add(c, "slave_diag", dp.slave_diag, "");
+    add(c, "set_prm", dp.set_prm, "");
+    add(c, "chk_cfg", dp.chk_cfg, "");
+    add(c, "get_cfg", dp.get_cfg, "");
+    add(c, "rd_inp", dp.rd_inp, "");
+    add(c, "rd_outp", dp.rd_outp, "");
+    add(c, "global_control", dp.global_control, "received, also those for other groups or of other masters");
+    add(c, "not_activated", dp.not_activated,
+        "requests answered RS: not possible in this state or for this master");
+    add(c, "no_resource", dp.no_resource, "requests answered RR");
+    add(c, "watchdog_expired", dp.watchdog_expired, "the master was silent for longer than it promised");
+    add(c, "left_data_exchange", dp.left_data_exchange,
+        "ways out of Data_Exch: the outputs went to their safe state");
+    add(c, "demand_orders", dp.demand_orders, "Demand Data reads and writes");
+    add(c, "demand_rejects", dp.demand_rejects, "answered with 7");
+    add(c, "drive_reads", drive.reads, "transactions with the drive");
+    add(c, "drive_writes", drive.writes, "");
+    add(c, "drive_silences", drive.silences, "transactions without answer");
+    add(c, "drive_refusals", drive.refusals, "transactions that the drive refused");
+    add(c, "drive_not_understood", drive.not_understood,
+        "those of them that the drive could not take: noise on the way to it, or a wrong format");
+    add(c, "drive_not_accepted", drive.heard.not_accepted,
+        "requests that the drive refused for their check sum (EI-ASCII: EE 02): noise on the way to it");
+    add(c, "drive_losses", drive.losses, "times the drive was given up until it answered again");
+    add(c, "drive_damaged", drive.heard.damaged, "answers with a wrong check sum, a parity fault or no form");
+    add(c, "drive_bad_checksum", drive.heard.bad_checksum,
+        "those of them that were whole but for their check sum (EI-ASCII)");
+    add(c, "drive_late", drive.heard.late, "answers that came after their time-out");
+    add(c, "drive_foreign", drive.heard.foreign, "frames that answered nothing that was asked");
+    add(c, "drive_came_back", drive.heard.came_back,
+        "requests that were heard again: the line has an echo and [[line]] echo is off");
+    add(c, "drive_delay_ms", static_cast<std::uint64_t>(drive.heard.delay / std::chrono::milliseconds{1}),
+        "of the late answers: the longest since one came in time");
+    add(c, "drive_needs_timeout_ms", static_cast<std::uint64_t>(drive::needed_timeout(drive.heard).count()),
+        "not 0: the drive is always late, and timeout_ms has to be at least this");
+    add(c, "demand_orders_lost", dp.orders_lost, "Demand Data orders that the bus side had no room for");
+    add(c, "drive_orders_dropped", drive.orders_dropped,
+        "Demand Data writes that no longer stood when they could have been carried out");
+    return {station.config->name, std::move(c)};
+}
+
+/// The bus first, then each station.
+std::vector<Group> groups_of(const View& view)
+{
+    std::vector<Group> groups{bus_counters(view)};
+    for (const StationView& one : view.stations) groups.push_back(station_counters(one));
+    return groups;
+}
+
+json counter_json(const Counter& counter, const RecentCount* recent, Instant now)
+{
+    const auto age = [now](Instant then) {
+        if (then == Instant{}) return json(nullptr);
+        return json(std::chrono::duration<double, std::milli>(now - then).count());
+    };
+    return {{"name", counter.name},
+            {"value", counter.value},
+            {"meaning", counter.meaning},
+            {"minute", recent != nullptr ? recent->in_span() : 0},
+            {"last_age_ms", recent != nullptr ? age(recent->last()) : json(nullptr)},
+            {"since_age_ms", recent != nullptr ? age(recent->since()) : json(nullptr)}};
+}
+
+json distribution(std::string_view unit, const Histogram& counted)
+{
+    json classes = json::array();
+    for (std::size_t n = 0; n < Histogram::kClasses; ++n) {
+        if (counted.in_class(n) == 0) continue;
+        json upper; // null: the last class is open
+        if (n + 1 < Histogram::kClasses) upper = Histogram::lower_end(n + 1) - 1;
+        classes.push_back(
+            {{"from", Histogram::lower_end(n)}, {"to", std::move(upper)}, {"count", counted.in_class(n)}});
+    }
+    const auto if_any = [&](std::uint32_t value) { return counted.count() != 0 ? json(value) : json(); };
+    return {{"unit", unit},
+            {"count", counted.count()},
+            {"p50", if_any(counted.quantile(0.5))},
+            {"p99", if_any(counted.quantile(0.99))},
+            {"p999", if_any(counted.quantile(0.999))},
+            {"highest", if_any(counted.highest())},
+            {"classes", std::move(classes)}};
+}
+
+} // namespace
+
+void CounterHistory::sample(const View& view, Instant now)
+{
+    std::vector<std::vector<RecentCount>> next;
+    const std::vector<Group> groups = groups_of(view);
+    std::vector<std::uint32_t> owners{kOfBus};
+    for (const StationView& one : view.stations) owners.push_back(one.number);
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        const auto known = std::find(owners_.begin(), owners_.end(), owners[i]);
+        std::vector<RecentCount>& counts = next.emplace_back(
+            known != owners_.end() ? std::move(counts_[static_cast<std::size_t>(known - owners_.begin())])
+                                   : std::vector<RecentCount>{});
+        counts.resize(groups[i].counters.size());
+        for (std::size_t k = 0; k < counts.size(); ++k) counts[k].sample(groups[i].counters[k].value, now);
+    }
+    owners_ = std::move(owners);
+    counts_ = std::move(next);
+}
+
+const RecentCount* CounterHistory::find(std::uint32_t owner, std::size_t counter) const
+{
+    const auto known = std::find(owners_.begin(), owners_.end(), owner);
+    if (known == owners_.end()) return nullptr;
+    const std::vector<RecentCount>& counts = counts_[static_cast<std::size_t>(known - owners_.begin())];
+    return counter < counts.size() ? &counts[counter] : nullptr;
+}
+
+json counters_json(const View& view, Instant now)
+{
+    json groups = json::array();
+    const std::vector<Group> all = groups_of(view);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const std::uint32_t owner = i == 0 ? CounterHistory::kOfBus : view.stations[i - 1].number;
+        json counters = json::array();
+        for (std::size_t k = 0; k < all[i].counters.size(); ++k)
+            counters.push_back(counter_json(all[i].counters[k], view.history.find(owner, k), now));
+        groups.push_back({{"name", all[i].name}, {"counters", std::move(counters)}});
+    }
+    json turnaround = json::array();
+    turnaround.push_back(distribution("us", view.bus.turnaround_us));
+    turnaround.push_back(distribution("T_bit", view.bus.turnaround_tbit));
+    return {{"groups", std::move(groups)}, {"turnaround", std::move(turnaround)}};
+}
+
+} // namespace dpslave::app

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// The TEC OPTION function block, and what an extended diagnosis says.
+#include "device_state.hpp"
+#include "report.hpp"
+
+#include <fmt/format.h>
+
+namespace dpslave::app {
+
+using nlohmann::json;
+using profile::DiagForm;
+
+json tec_json(const std::string& station, const DeviceState& device)
+{
+    json rows = json::array();
+    for (const tec::Row& row : device.rows())
+        rows.push_back({{"name", row.name},
+                        {"generic_name", row.generic_name},
+                        {"input", row.is_input},
+                        {"value", row.value},
+                        {"shown", row.shown},
+                        {"range", row.range}});
+    const auto trip = device.trip();
+    const auto tripped = device.tripped();
+    return {{"name", station},
+            {"view", device.settings().type == tec::kProfibusDp ? "profibus" : "generic"},
+            {"rows", rows},
+            {"trip", trip ? json(*trip) : json(nullptr)},
+            {"tripped", tripped ? json(*tripped) : json(nullptr)},
+            {"notes", device.notes()}};
+}
+
+namespace {
+
+constexpr std::size_t kHeader = 6; ///< offset of the first block
+
+} // namespace
+
+std::string extended_meaning(const config::StationConfig& station, std::size_t offset, Bytes diagnosis)
+{
+    const DiagForm form = station.profile->diagnosis;
+    if (form == DiagForm::none || offset < kHeader) return "extended diagnosis";
+    if (offset == kHeader)
+        return fmt::format("header: device-related diagnosis, {} octets with this one", diagnosis[offset]);
+    if (form == DiagForm::status_word) {
+        if (offset == kHeader + 1) return "status word, high octet";
+        if (offset == kHeader + 2)
+            return "status word, low octet: " +
+                   shown_value(*station.tags, station.status_tag, be16(diagnosis, kHeader + 1));
+        return "extended diagnosis";
+    }
+    std::string words = tec::ext_diag_words(diagnosis.subspan(kHeader), offset - kHeader);
+    return words.empty() ? "extended diagnosis" : words;
+}
+
+} // namespace dpslave::app

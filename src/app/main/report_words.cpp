@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+// Diagnosis, refusals and events in words.
+#include "report.hpp"
+
+#include "dpslave/dp/diagnosis_bits.hpp"
+
+#include <fmt/format.h>
+
+namespace dpslave::app {
+
+using nlohmann::json;
+
+namespace {
+
+std::string octet_meaning(const config::StationConfig& station, std::size_t offset, Bytes diagnosis)
+{
+    switch (offset) {
+        case 0: return "Station_status_1";
+        case 1: return "Station_status_2";
+        case 2: return "Station_status_3";
+        case 3:
+            return diagnosis[3] == 0xFF ? "Master_Add: none, not parameterised"
+                                        : fmt::format("Master_Add: owned by master {}", diagnosis[3]);
+        case 4: return "Ident_Number, high octet";
+        case 5: return fmt::format("Ident_Number, low octet: 0x{:04X}", be16(diagnosis, 4));
+        default: return extended_meaning(station, offset, diagnosis);
+    }
+}
+
+std::string_view advice_for(dp::Refusal why)
+{
+    using enum dp::Refusal;
+    switch (why) {
+        case none: return "";
+        case prm_ident:
+            return "use the GSD of this device in the master's project, or check that the master expects "
+                   "this device at this address";
+        case prm_watchdog: return "both watchdog factors must be 1 to 255, or the watchdog be off";
+        case prm_not_supported: return "switch Sync and Freeze off for this slave in the master's project";
+        case prm_length:
+            return "check the User_Prm_Data (the hex parameters of the slave) in the master's project";
+        case prm_dpv1: return "switch the DP-V1 functions off for this slave in the master's project";
+        case prm_tag_too_large:
+            return "check the tag numbers; three octets 00 too many at the front come from a master that "
+                   "takes this for a DP-V1 device";
+        case prm_zero_tag: return "close the gap: unused tags stand at the end";
+        case cfg_empty: return "add at least one module (identifier) to the slave in the master's project";
+        case cfg_too_long: return "take modules away";
+        case cfg_identifier: return "use the modules of the GSD; Demand Data can only be the first one";
+        case cfg_too_few: return "add a module for each tag, or end the list of tags with 0";
+        case cfg_too_many: return "name a tag in User_Prm_Data for each input and output module";
+        case cfg_changed:
+            return "a new configuration needs a new start-up: the master will parameterise again";
+    }
+    return "";
+}
+
+} // namespace
+
+json diagnosis_octets_json(const config::StationConfig& station, Bytes diagnosis)
+{
+    json octets = json::array();
+    for (std::size_t i = 0; i < diagnosis.size(); ++i)
+        octets.push_back({{"octet", i + 1},
+                          {"offset", i},
+                          {"value", diagnosis[i]},
+                          {"meaning", octet_meaning(station, i, diagnosis)}});
+    json bits = json::array();
+    for (const dp::DiagnosisBit& bit : dp::kDiagnosisBits)
+        if (bit.offset < diagnosis.size() && (diagnosis[bit.offset] & bit.mask) != 0)
+            bits.push_back(fmt::format("{}: {}", bit.name, bit.meaning));
+    return {{"octets", octets}, {"bits", bits}};
+}
+
+Explanation explain(const dp::RefusalDetail& refusal)
+{
+    using enum dp::Refusal;
+    Explanation result;
+    result.telegram = dp::service_of(refusal.why) == dp::Service::chk_cfg ? "Chk_Cfg" : "Set_Prm";
+    result.what = dp::text(refusal.why);
+    result.advice = advice_for(refusal.why);
+    switch (refusal.why) {
+        case prm_ident:
+            result.expected = fmt::format("Ident_Number 0x{:04X}", refusal.expected);
+            result.got = fmt::format("0x{:04X}", refusal.got);
+            break;
+        case prm_length:
+            result.expected = fmt::format("{} octets of User_Prm_Data", refusal.expected);
+            result.got = fmt::format("{}", refusal.got);
+            break;
+        case prm_tag_too_large:
+            result.expected = fmt::format("a tag up to {}", refusal.expected);
+            result.got = fmt::format("{}", refusal.got);
+            break;
+        case cfg_too_few:
+        case cfg_too_many:
+            result.expected = fmt::format("{} identifiers for as many tags", refusal.expected);
+            result.got = fmt::format("{}", refusal.got);
+            break;
+        case cfg_too_long:
+            result.expected = fmt::format("at most {} identifiers", refusal.expected);
+            result.got = fmt::format("{}", refusal.got);
+            break;
+        case cfg_changed:
+        case cfg_identifier:
+        case prm_watchdog:
+        case prm_not_supported:
+        case prm_dpv1:
+            if (refusal.expected != refusal.got) result.expected = fmt::format("0x{:02X}", refusal.expected);
+            result.got = fmt::format("0x{:02X}", refusal.got);
+            break;
+        case none:
+        case prm_zero_tag:
+        case cfg_empty: break;
+    }
+    return result;
+}
+
+std::string_view code(dp::Refusal why) noexcept
+{
+    using enum dp::Refusal;
+    switch (why) {
+        case none: return "none";
+        case prm_ident: return "prm_ident";
+        case prm_watchdog: return "prm_watchdog";
+        case prm_not_supported: return "prm_not_supported";
+        case prm_length: return "prm_length";
+        case prm_dpv1: return "prm_dpv1";
+        case prm_tag_too_large: return "prm_tag_too_large";
+        case prm_zero_tag: return "prm_zero_tag";
+        case cfg_empty: return "cfg_empty";
+        case cfg_too_long: return "cfg_too_long";
+        case cfg_identifier: return "cfg_identifier";
+        case cfg_too_few: return "cfg_too_few";
+        case cfg_too_many: return "cfg_too_many";
+        case cfg_changed: return "cfg_changed";
+    }
+    return "?";
+}
+
+std::string_view code(dp::LeaveReason reason) noexcept
+{
+    using enum dp::LeaveReason;
+    switch (reason) {
+        case none: return "none";
+        case prm_fault: return "prm_fault";
+        case not_supported: return "not_supported";
+        case cfg_fault: return "cfg_fault";
+        case watchdog: return "watchdog";
+        case unlock: return "unlock";
+        case output_length: return "output_length";
+        case new_parameters: return "new_parameters";
+        case stop: return "stop";
+    }
+    return "?";
+}
+
+std::string_view code(AccessError error) noexcept
+{
+    using enum AccessError;
+    switch (error) {
+        case none: return "none";
+        case no_answer: return "no_answer";
+        case not_understood: return "not_understood";
+        case deferred: return "deferred";
+        case no_scale: return "no_scale";
+        case contradicted: return "contradicted";
+        case not_kept: return "not_kept";
+        case invalid_tag: return "invalid_tag";
+        case read_only: return "read_only";
+        case out_of_range: return "out_of_range";
+        case not_stopped: return "not_stopped";
+        case not_config_mode: return "not_config_mode";
+        case unsupported_type: return "unsupported_type";
+        case value_not_encoded: return "value_not_encoded";
+    }
+    return "?";
+}
+
+std::string sentence(const std::string& station, const dp::Event& event)
+{
+    using Kind = dp::Event::Kind;
+    switch (event.kind) {
+        case Kind::state: {
+            std::string line = fmt::format("{}: {}", station, dp::text(event.state));
+            if (event.master != 0xFF) line += fmt::format(", master {}", event.master);
+            if (event.reason != dp::LeaveReason::none) line += fmt::format(" ({})", dp::text(event.reason));
+            return line;
+        }
+        case Kind::refused: {
+            const Explanation why = explain(event.refusal);
+            std::string line =
+                fmt::format("{}: {} of master {} refused: {}", station, why.telegram, event.master, why.what);
+            if (event.refusal.octet != 0) line += fmt::format(", octet {}", event.refusal.octet);
+            if (why.expected) line += fmt::format(", expected {}", *why.expected);
+            if (why.got) line += fmt::format(", got {}", *why.got);
+            return line + fmt::format("; {}", why.advice);
+        }
+        case Kind::foreign_set_prm:
+            return fmt::format("{}: master {} tried to parameterise a slave that another master owns",
+                               station, event.master);
+        case Kind::sync: return fmt::format("{}: Sync", station);
+        case Kind::unsync: return fmt::format("{}: Unsync", station);
+        case Kind::freeze: return fmt::format("{}: Freeze", station);
+        case Kind::unfreeze: return fmt::format("{}: Unfreeze", station);
+        case Kind::clear_data: return fmt::format("{}: Clear_Data, outputs are zero", station);
+        case Kind::watchdog_of_master:
+            return fmt::format(
+                "{}: master {} runs without watchdog: if it vanishes, the outputs stay as they are for ever",
+                station, event.master);
+        case Kind::overflow: return fmt::format("{}: events were lost, the log has a gap", station);
+    }
+    return station;
+}
+
+} // namespace dpslave::app

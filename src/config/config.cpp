@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dpslave/config/config.hpp"
+
+#include "parts.hpp"
+
+#include <grp.h>
+#include <sys/un.h>
+
+#include <algorithm>
+#include <system_error>
+
+namespace dpslave::config {
+namespace {
+
+using toml::Document;
+using toml::Faults;
+using toml::Table;
+
+RealtimeConfig read_realtime(Table table)
+{
+    RealtimeConfig config;
+    if (const auto priority = table.integer("priority", 0, 99)) config.priority = static_cast<int>(*priority);
+    if (const auto cpu = table.integer("cpu", -1, 1023)) config.cpu = static_cast<int>(*cpu);
+    config.lock_memory = table.boolean("lock_memory").value_or(config.lock_memory);
+    return config;
+}
+
+ControlConfig read_control(Document& document, Table table, Faults& warnings)
+{
+    ControlConfig config;
+    if (auto socket = table.text("socket")) {
+        constexpr std::size_t longest = sizeof(sockaddr_un::sun_path) - 1;
+        if (socket->size() > longest)
+            table.refuse("socket", "'socket' is longer than the " + std::to_string(longest) +
+                                       " octets that a socket's path may have: choose a shorter path.");
+        config.socket = *std::move(socket);
+    }
+    if (auto group = table.text("operator_group")) config.operator_group = *std::move(group);
+    if (!operator_group_of(config)) {
+        const toml::Place at = table.place_of("operator_group");
+        warnings.push_back(
+            {document.name(), at.line, at.column,
+             "the system has no group \"" + config.operator_group +
+                 "\": only root may operate until there is one or 'operator_group' names another."});
+    }
+    return config;
+}
+
+} // namespace
+
+std::shared_ptr<const profile::Profile> Shelf::profile(const std::string& name)
+{
+    const auto [entry, is_new] = profiles_.try_emplace(name);
+    if (!is_new) return entry->second;
+    auto loaded = profile::load_profile(folder_, name);
+    if (loaded)
+        entry->second = std::make_shared<const profile::Profile>(*std::move(loaded));
+    else
+        keep(loaded.error());
+    return entry->second;
+}
+
+std::shared_ptr<const drive::TagTable> Shelf::tags(const std::filesystem::path& file)
+{
+    const auto [entry, is_new] = tables_.try_emplace(file);
+    if (!is_new || !has_room_for(file)) return entry->second;
+    auto loaded = profile::load_tags(file);
+    if (loaded)
+        entry->second = std::make_shared<const drive::TagTable>(*std::move(loaded));
+    else
+        keep(loaded.error());
+    return entry->second;
+}
+
+/// Said once, of the first table that is too much. A file that cannot be read takes no room: its reader says
+/// why.
+bool Shelf::has_room_for(const std::filesystem::path& table)
+{
+    const bool had_room = size_of_tables_ <= kMaxTablesTogether;
+    std::error_code unreadable;
+    if (const auto size = std::filesystem::file_size(table, unreadable);
+        !unreadable && size <= toml::kMaxFileSize)
+        size_of_tables_ += size;
+    if (size_of_tables_ <= kMaxTablesTogether) return true;
+    if (had_room)
+        keep({{table.string(), 0, 0,
+               "with this table the tag tables of the stations have more than 2 MiB together: name one table "
+               "for "
+               "drives of one kind, and leave out the tags that nobody uses."}});
+    return false;
+}
+
+void Shelf::keep(const toml::Faults& faults)
+{
+    for (const toml::Fault& fault : faults) // two profiles may name one tag table: its faults are said once
+        if (told_.insert(to_string(fault)).second) faults_.push_back(fault);
+}
+
+void Unlike::check(Table& table, std::string_view key, const std::string& value, const std::string& shown,
+                   std::string_view remedy)
+{
+    const auto [entry, is_new] = seen_.try_emplace(value, table.place_of(key));
+    if (!is_new)
+        table.refuse(key, shown + " stands on line " + std::to_string(entry->second.line) +
+                              " already: " + std::string{remedy} + ".");
+}
+
+std::string canonical(const std::string& path)
+{
+    std::error_code error;
+    const auto found = std::filesystem::weakly_canonical(path, error);
+    return error ? std::filesystem::path{path}.lexically_normal().string() : found.string();
+}
+
+std::optional<gid_t> operator_group_of(const ControlConfig& control)
+{
+    const group* const found = ::getgrnam(control.operator_group.c_str());
+    return found != nullptr ? std::optional{found->gr_gid} : std::nullopt;
+}
+
+Result<Config, Faults> load_config(const std::filesystem::path& file, const std::filesystem::path& profiles)
+{
+    Document document{file};
+    if (!document.readable()) return Failure{document.faults()};
+
+    Config config;
+    config.file = file;
+    Shelf shelf{profiles};
+    Table root = document.root();
+    config.bus = read_bus(document, config.warnings);
+    config.realtime = read_realtime(root.table("realtime"));
+    if (const auto sysfs = root.table("leds").text("sysfs")) config.sysfs = *sysfs;
+    config.control = read_control(document, root.table("control"), config.warnings);
+    const std::vector<ReadLine> lines = read_lines(document, config.bus);
+    config.stations = read_stations(document, config.bus, config.sysfs, lines, shelf, config.warnings);
+    for (const ReadLine& read : lines) config.lines.push_back(read.line);
+
+    Faults faults = document.faults();
+    faults.insert(faults.end(), shelf.faults().begin(), shelf.faults().end());
+    toml::cap(faults);
+    if (!faults.empty()) return Failure{std::move(faults)};
+    return config;
+}
+
+} // namespace dpslave::config

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tag table of a station, and what is said of it: tags without a mnemonic, without a scale, not
+// confirmed.
+#include "parts.hpp"
+
+#include "dpslave/toml/wording.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace dpslave::config {
+namespace {
+
+using toml::Document;
+using toml::Faults;
+using toml::in_quotes;
+using toml::Table;
+
+/// "tag 5", "tags 5, 6 and 12 more".
+std::string listed_tags(const std::vector<std::uint16_t>& tags)
+{
+    constexpr std::size_t shown = 16;
+    std::string list = tags.size() == 1 ? "tag " : "tags ";
+    for (std::size_t i = 0; i < tags.size() && i < shown; ++i)
+        list += (i > 0 ? ", " : "") + std::to_string(tags[i]);
+    if (tags.size() > shown) list += " and " + std::to_string(tags.size() - shown) + " more";
+    return list;
+}
+
+std::vector<std::uint16_t> tags_where(const drive::TagTable& table, bool (*is_so)(const drive::Tag&))
+{
+    std::vector<std::uint16_t> found;
+    for (const drive::Tag& tag : table.all())
+        if (is_so(tag)) found.push_back(tag.number);
+    return found;
+}
+
+/// Of a table as a whole: two stations may name the same one, and it is said once.
+void warn_of_table(const StationConfig& station, const std::string& what, Faults& warnings)
+{
+    const bool is_said = std::any_of(warnings.begin(), warnings.end(), [&](const toml::Fault& known) {
+        return known.file == station.tag_file && known.what == what;
+    });
+    if (!is_said) warnings.push_back({station.tag_file, 0, 0, what});
+}
+
+void warn_of_tags_without_mnemonic(const StationConfig& station, Faults& warnings)
+{
+    std::vector<std::uint16_t> without;
+    for (const drive::Tag& tag : station.tags->all())
+        if (tag.type != drive::TagType::string && !mnemonic_of(tag, station.profile->mnemonics))
+            without.push_back(tag.number);
+    if (without.empty()) return;
+    warn_of_table(
+        station,
+        "no mnemonic for " + listed_tags(without) +
+            ": they read as invalid tag; fill in column mnemonic, or set mnemonic_rule in profile " +
+            in_quotes(station.profile->name) + ".",
+        warnings);
+}
+
+/// A mnemonic of the table that the rule gives to another tag of it: one parameter under two scales.
+void refuse_shared_mnemonics(Document& document, Table& table, const StationConfig& station)
+{
+    std::map<std::array<char, 2>, std::uint16_t> known;
+    for (const drive::Tag& tag : station.tags->all()) {
+        const auto mnemonic = mnemonic_of(tag, station.profile->mnemonics);
+        if (!mnemonic) continue;
+        const auto [first, is_new] = known.try_emplace(*mnemonic, tag.number);
+        if (is_new) continue;
+        document.fault(table.place(), station.tag_file + ": tags " + std::to_string(first->second) + " and " +
+                                          std::to_string(tag.number) + " both have the mnemonic " +
+                                          in_quotes({mnemonic->data(), mnemonic->size()}) +
+                                          ", one from its row and one by the rule of profile " +
+                                          in_quotes(station.profile->name) +
+                                          ": correct column mnemonic of one of them.");
+    }
+}
+
+void warn_of_unknown_scales(const StationConfig& station, Faults& warnings)
+{
+    const auto bare = tags_where(*station.tags, [](const drive::Tag& tag) { return !tag.decimals_known; });
+    if (!bare.empty())
+        warn_of_table(
+            station,
+            listed_tags(bare) + (bare.size() == 1 ? " is a number" : " are numbers") +
+                " without decimals: over EI-ASCII the scale is not known, and the exchange does not "
+                "begin while a master chooses such a tag; fill in column decimals.",
+            warnings);
+}
+
+/// Rows that a survey wrote.
+void warn_of_unconfirmed_rows(const StationConfig& station, bool is_text, Faults& warnings)
+{
+    const auto waiting = tags_where(*station.tags, [](const drive::Tag& tag) { return !tag.confirmed; });
+    if (waiting.empty()) return;
+    warn_of_table(station,
+                  listed_tags(waiting) + (waiting.size() == 1 ? " waits" : " wait") +
+                      " for confirmation: until then " +
+                      (is_text ? "the scale is not known" : "values are shown in hexadecimal") +
+                      "; compare the rows with the manual of the device and set column confirmed to yes.",
+                  warnings);
+}
+
+void warn_of_no_table(Document& document, const Table& table, const StationConfig& station, bool is_text,
+                      Faults& warnings)
+{
+    const std::string without =
+        "station " + in_quotes(station.name) + " has no tag table (" + station.tag_file + " holds no row): ";
+    const toml::Place at = table.place();
+    std::string what =
+        without + "its tags go to and from the instrument as they are, 16 bits without a name.";
+    if (is_text && station.unlisted_decimals)
+        what = without + "every number of its drive is taken with " +
+               std::to_string(*station.unlisted_decimals) + " decimals, as 'unlisted_decimals' says.";
+    else if (is_text)
+        what = without +
+               "the scale of its drive's numbers is not known, and the exchange does not begin while a "
+               "master chooses a tag that answers with one; name a table with 'tags', or set "
+               "'unlisted_decimals'.";
+    warnings.push_back({document.name(), at.line, at.column, what});
+}
+
+} // namespace
+
+void read_tag_keys(Document& document, Table& table, StationConfig& station, Shelf& shelf,
+                   std::string_view protocol)
+{
+    if (const auto own = table.text("tags")) {
+        const std::filesystem::path file =
+            std::filesystem::path{document.name()}.parent_path() / *own; // absolute stays
+        station.tag_file = file.lexically_normal().string();
+        station.tags = shelf.tags(file.lexically_normal());
+    } else if (station.profile) {
+        station.tag_file = station.profile->tag_file.string();
+        station.tags = {station.profile, &station.profile->tags};
+    }
+    if (const auto decimals = table.integer("unlisted_decimals", 0, 4))
+        station.unlisted_decimals = static_cast<std::uint8_t>(*decimals);
+    station.unscaled_holds =
+        table.choice<bool>("unscaled_tags", {{"refuse", true}, {"zero", false}}).value_or(true);
+    for (const char* const key : {"unlisted_decimals", "unscaled_tags"})
+        if (protocol == kModbusRtu && table.has(key))
+            table.refuse(key, "'" + std::string{key} +
+                                  "' has a meaning only on an EI-ASCII line, where numbers travel as text: "
+                                  "remove it.");
+}
+
+void judge_tags(Document& document, Table& table, const StationConfig& station, std::string_view protocol,
+                Faults& warnings)
+{
+    if (!station.profile || !station.tags || protocol.empty()) return;
+    const bool is_text = protocol == kEiAscii;
+    if (station.tags->all().empty()) warn_of_no_table(document, table, station, is_text, warnings);
+    warn_of_unconfirmed_rows(station, is_text, warnings);
+    if (!is_text) return;
+    warn_of_tags_without_mnemonic(station, warnings);
+    warn_of_unknown_scales(station, warnings);
+    refuse_shared_mnemonics(document, table, station);
+}
+
+} // namespace dpslave::config

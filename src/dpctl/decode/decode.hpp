@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+/// PROFIBUS telegrams and diagnoses in words. Pure. Source: wire reference 2, 4 and 5.
+#pragma once
+
+#include "dpctl/cli/fields.hpp"
+#include "dpctl/cli/table.hpp"
+
+#include "dpslave/base/bytes.hpp"
+#include "dpslave/base/result.hpp"
+#include "dpslave/fdl/telegram.hpp"
+#include "dpslave/profile/profile.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dpslave::dpctl {
+
+/// One telegram, or one diagnosis, in words.
+struct Decoded {
+    struct Line {
+        std::string name, value;
+    };
+    struct Octet {
+        std::size_t octet = 0; ///< of the user data, counted from 1
+        std::uint8_t value = 0;
+        std::string meaning;
+    };
+    std::string kind; ///< "SD2: Set_Prm, master 2 to station 5", "Slave_Diag"
+    std::string hex;
+    std::vector<Line> lines;
+    std::vector<Octet> octets;
+    std::vector<std::string> faults; ///< what is wrong with it, a sentence each
+};
+
+/// What is known beside the octets: the device, and the tags of a Set_Prm that was decoded before.
+struct DecodeContext {
+    const profile::Profile* device = nullptr;
+    std::optional<std::vector<std::uint16_t>> tags;
+};
+
+/// "68 05 05", "680505", "0x68,0x05": octets, or a sentence that says what is none.
+Result<std::vector<std::uint8_t>, std::string> read_octets(const std::vector<std::string>& words);
+
+/// Telegrams back to back, else one diagnosis of six octets or more, else blocks of an extended diagnosis.
+std::vector<Decoded> decode_all(Bytes octets, DecodeContext context);
+
+/// Octets without a telegram around them, as `dpctl diag` prints them.
+enum class Form : std::uint8_t { set_prm, chk_cfg, slave_diag };
+/// "prm", "cfg", "diag".
+std::optional<Form> form_called(std::string_view name);
+Decoded decode_as(Form form, Bytes octets, DecodeContext context);
+
+Json decoded_json(const std::vector<Decoded>& parts);
+std::string render_decoded(const std::vector<Decoded>& parts, Look look);
+
+// Parts of the work, each in its own file.
+/// One frame; `frame` has the length that its head promises, or less.
+Decoded decode_telegram(Bytes frame, DecodeContext& context);
+void decode_set_prm(Bytes data, DecodeContext& context, Decoded& into);
+void decode_cfg(Bytes data, const DecodeContext& context, bool check, Decoded& into);
+void decode_diagnosis(Bytes data, const DecodeContext& context, Decoded& into);
+/// Blocks back to back; `at`: octets before them.
+void decode_extended(Bytes blocks, std::size_t at, const DecodeContext& context, Decoded& into);
+/// True: whole blocks from the first octet to the last.
+bool are_blocks(Bytes octets);
+
+/// "1, 8" of Group_Ident or Group_Select; empty for 0.
+std::string group_list(std::uint8_t octet);
+
+} // namespace dpslave::dpctl

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bus as a whole, by the counters.
+#include "doctor_rules.hpp"
+#include "dpctl/cli/words.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace dpslave::dpctl {
+namespace {
+
+constexpr std::string_view kBoard = "HA389815 chapter 9";
+constexpr std::string_view kBox = "HA463561U002, Troubleshooting";
+constexpr std::string_view kGateway = "dpslaved";
+
+constexpr std::int64_t kOften = 1000;  ///< one in so many is more than a sound machine has
+constexpr std::int64_t kSomeFlaws = 5; ///< in a minute: a sound line has none
+
+/// All kinds of them as one count.
+Count flaws(const Facts& f)
+{
+    Count sum;
+    for (const Json& counter : list(f.counters, "counters")) {
+        if (!text(counter, "name").starts_with("flaw: ")) continue;
+        const Count one = counted(f.counters, text(counter, "name"));
+        sum.total += one.total;
+        sum.minute += one.minute;
+        if (one.last_ms && (!sum.last_ms || *one.last_ms < *sum.last_ms)) sum.last_ms = one.last_ms;
+        if (one.since_ms && (!sum.since_ms || *one.since_ms > *sum.since_ms)) sum.since_ms = one.since_ms;
+    }
+    return sum;
+}
+
+constexpr std::array kLateSteps = std::to_array<std::string_view>({
+    "Look at [realtime] in the configuration: priority, cpu and lock_memory keep the machine's other work "
+    "away.",
+    "Where the machine cannot be faster, set max_tsdr under [bus] and give the master the GSD that `dpctl "
+    "gsd make` then writes.",
+    "dpctl tune: what holds this machine up, and which rates it can serve.",
+    "dpctl counters: do `late`, `too_late` and `overtaken` still grow?",
+});
+constexpr std::array kDoubleSteps = std::to_array<std::string_view>({
+    "Check that no other PROFIBUS-DP slave or master has the same address.",
+    "Give this station another address, in the configuration and in the master's project.",
+});
+constexpr std::array kLineSteps = std::to_array<std::string_view>({
+    "Check wiring, paying particular attention to the screening.",
+    "Check that the line is not longer than the rate allows (below).",
+    "Check that the last device of the segment, and no other but the ends, is terminated. Some equipment has "
+    "resistors that can be switched in and out.",
+    "dpctl counters: which flaws grow?",
+});
+constexpr std::array kRetrySteps = std::to_array<std::string_view>({
+    "Check that the transceiver is switched to sending in time ([bus] direction) and back at once.",
+    "Check wiring and termination: the master hears worse than this gateway does.",
+    "dpctl counters: is `late` 0? Else the machine answers too late.",
+});
+constexpr std::array kGoneSteps = std::to_array<std::string_view>({
+    "Look whether the adapter is plugged in and where it is now: ls -l /dev/serial/by-id",
+    "Name the port under [bus] by its stable path in /dev/serial/by-id.",
+    "journalctl -u dpslaved says when it went. It is opened again as soon as it returns.",
+});
+constexpr std::array kSilentSteps = std::to_array<std::string_view>({
+    "Check that the master is on and its bus is running.",
+    "Check the cable: A and B of the transceiver (D-sub 8 and 3) to the master; of the old board's terminals "
+    "B "
+    "was 3 and A was 4.",
+    "Check that the transceiver has power, and that [bus] port is the one that the cable is on.",
+});
+constexpr std::array kRateSteps = std::to_array<std::string_view>({
+    "Compare [bus] baud with the rate in the master's project; baud = \"auto\" finds it.",
+    "Swap the two wires at the transceiver if A and B are exchanged: A is D-sub 8, B is D-sub 3.",
+    "dpctl counters: which flaws grow? Bad characters only: the rate or the wires.",
+});
+constexpr std::array kOtherAddressSteps = std::to_array<std::string_view>({
+    "Compare the address of the station ([[station]] address) with the one in the master's project, and make "
+    "them the same.",
+    "If another device belongs to that address: it is switched off or not connected, and this station is "
+    "missing in the master's project.",
+});
+constexpr std::array kPortSteps = std::to_array<std::string_view>({
+    "Look at the port ([bus] port): journalctl -u dpslaved says what the system answered.",
+});
+constexpr std::array kDriverSteps = std::to_array<std::string_view>({
+    "Look whether the GPIO chip is there and no other program has the line (gpioinfo): gpio_chip and "
+    "gpio_line "
+    "under "
+    "[bus].",
+    "journalctl -u dpslaved says which ways of [bus] direction this port can do.",
+    "dpctl counters: do `driver_errors` and `driver_guarded` still grow?",
+});
+
+std::string seen_gone(const Facts& f)
+{
+    if (!f.bus.contains("port_open") || flag(f.bus, "port_open")) return {};
+    return text(f.bus, "port") + " is not there";
+}
+std::string seen_driver_gone(const Facts& f)
+{
+    if (!f.bus.contains("driver_works") || flag(f.bus, "driver_works")) return {};
+    return fmt::format("{} failed; nothing is sent until one works again",
+                       plural(counted(f.counters, "driver_errors").total, "edge"));
+}
+std::string seen_double(const Facts& f)
+{
+    const Count strange = counted(f.counters, "own_address");
+    if (strange.minute == 0) return {};
+    return fmt::format("{} of another device with one of our addresses as the sender {}",
+                       plural(strange.minute, "telegram"), lately(strange));
+}
+std::string seen_silent(const Facts& f)
+{
+    return bus_is_heard(f) ? std::string{} : silence(f);
+}
+std::string seen_rate(const Facts& f)
+{
+    if (!bus_is_heard(f) || telegrams_are_heard(f)) return {};
+    if (f.bus.contains("port_open") && !flag(f.bus, "port_open")) return {};
+    const auto fixed = integer(f.bus, "configured_baud");
+    return silence(f) + (fixed ? fmt::format("; the rate is fixed at {} ([bus] baud)", rate(*fixed))
+                               : std::string{"; the rate is searched, and none gives telegrams"});
+}
+std::string seen_other_address(const Facts& f)
+{
+    constexpr double kNow = 10'000;
+    constexpr std::int64_t kEnough = 3; // a master that starts asks each of its slaves
+    if (!telegrams_are_heard(f)) return {};
+    bool is_bus = true;
+    for (const Json& group : list(f.replies.counters, "groups"))
+        if (!std::exchange(is_bus, false) && is_asked(group)) return {};
+    std::string asked;
+    for (const Json& one : list(f.bus, "unanswered"))
+        if (integer(one, "requests").value_or(0) >= kEnough && real(one, "age_ms").value_or(kNow) < kNow)
+            asked += fmt::format("{}master {} asks for address {} ({}) and gets no answer",
+                                 asked.empty() ? "" : "; ", number(one, "master"), number(one, "address"),
+                                 plural(integer(one, "requests").value_or(0), "time"));
+    if (asked.empty()) return {};
+    std::string ours;
+    for (const Json& station : list(f.replies.status, "stations"))
+        ours += (ours.empty() ? "" : ", ") + number(station, "address");
+    return asked + "; no master asks for ours: " + ours;
+}
+std::string seen_late(const Facts& f)
+{
+    const Count late = counted(f.counters, "late"), written_late = counted(f.counters, "too_late"),
+                overtaken = counted(f.counters, "overtaken");
+    const std::int64_t all = late.minute + written_late.minute + overtaken.minute;
+    if (all < 10 || all * kOften < counted(f.counters, "requests").minute) return {};
+    const Count& longest = late.minute > 0 ? late : written_late.minute > 0 ? written_late : overtaken;
+    return fmt::format("{} suppressed because MaxTsdr had passed, {} begun in time and written too late, {} "
+                       "dropped because something followed them, {}",
+                       late.minute == 1 ? "1 reply was" : fmt::format("{} replies were", late.minute),
+                       written_late.minute, plural(overtaken.minute, "request"), lately(longest));
+}
+std::string seen_flaws(const Facts& f)
+{
+    const Count bad = flaws(f), good = counted(f.counters, "telegrams");
+    if (bad.minute < kSomeFlaws || !telegrams_are_heard(f)) return {};
+    return fmt::format("{} (damaged telegrams, or octets that belong to none) beside {} {}",
+                       plural(bad.minute, "flaw"), plural(good.minute, "valid telegram"), lately(bad));
+}
+std::string seen_retries(const Facts& f)
+{
+    const Count retries = counted(f.counters, "retries"), requests = counted(f.counters, "requests");
+    if (retries.minute < kSomeFlaws || retries.minute * kOften < requests.minute) return {};
+    return fmt::format("the master asked again {} in {} {}", plural(retries.minute, "time"),
+                       plural(requests.minute, "request"), lately(retries));
+}
+std::string seen_port(const Facts& f)
+{
+    const Count errors = counted(f.counters, "write_errors");
+    if (errors.minute == 0) return {};
+    return fmt::format("the port did not take {} {}",
+                       errors.minute == 1 ? "1 reply" : fmt::format("{} replies", errors.minute),
+                       lately(errors));
+}
+std::string seen_driver(const Facts& f)
+{
+    const Count failed = counted(f.counters, "driver_errors"),
+                guarded = counted(f.counters, "driver_guarded");
+    if (failed.minute + guarded.minute == 0) return {};
+    return fmt::format("{} failed, and the guard let the driver go {} {}", plural(failed.minute, "edge"),
+                       plural(guarded.minute, "time"), lately(failed.minute > 0 ? failed : guarded));
+}
+
+constexpr std::array kRules = std::to_array<Rule>({
+    {"bus.gone", Scope::bus, Rank::gone, "the port of the bus has vanished",
+     "The port of the bus is gone: adapter pulled, or its driver failed", kGoneSteps, kGateway, seen_gone},
+    {"bus.driver_gone", Scope::bus, Rank::gone, "the driver enable cannot be switched",
+     "The transceiver cannot be switched to sending", kDriverSteps, kGateway, seen_driver_gone},
+    {"bus.double_address", Scope::bus, Rank::stands, "another device sends with one of our addresses",
+     "External communications fault: an address is used twice", kDoubleSteps, kBoard, seen_double},
+    {"bus.silent", Scope::bus, Rank::stands, "not one octet comes from the bus",
+     "Nothing is heard on the bus: cable, transceiver, or the master is off", kSilentSteps, kGateway,
+     seen_silent},
+    {"bus.rate", Scope::bus, Rank::stands, "octets come from the bus, but no telegram with a checksum",
+     "The rate is wrong, or the two wires of the bus are swapped", kRateSteps, kGateway, seen_rate},
+    {"bus.other_address", Scope::bus, Rank::stands,
+     "a master asks for an address where no station answers, and for none of ours",
+     "The address in the master's project is another one", kOtherAddressSteps, kGateway, seen_other_address},
+    {"bus.driver", Scope::bus, Rank::recent, "the driver enable cannot be switched, or is not let go in time",
+     "The transceiver is not switched as it should be", kDriverSteps, kGateway, seen_driver},
+    {"bus.port", Scope::bus, Rank::recent, "the port does not take replies", "The port of the bus fails",
+     kPortSteps, kGateway, seen_port},
+    {"bus.flaws", Scope::bus, Rank::recent,
+     "five flaws in a minute: damaged telegrams, or octets that belong to none",
+     "The line of the bus is disturbed", kLineSteps, kBox, seen_flaws},
+    {"bus.late", Scope::bus, Rank::recent,
+     "more than one reply in a thousand came too late, or its request was overtaken",
+     "This machine answers too late", kLateSteps, kGateway, seen_late},
+    {"bus.retries", Scope::bus, Rank::recent, "the master repeats more than one request in a thousand",
+     "The master does not hear the replies", kRetrySteps, kGateway, seen_retries},
+});
+
+} // namespace
+
+std::span<const Rule> bus_rules()
+{
+    return kRules;
+}
+
+} // namespace dpslave::dpctl

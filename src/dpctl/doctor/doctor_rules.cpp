@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// What rules of several tables look at, and all tables as one.
+#include "doctor_rules.hpp"
+
+#include "dpctl/cli/words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dpslave::dpctl {
+namespace {
+
+/// ms without an octet: the counters are looked at once a second.
+constexpr double kSilence = 3'000;
+/// ms without a telegram that has a checksum: masters talk all the time, a search tries rate after rate.
+constexpr double kNoTelegram = 5'000, kNoTelegramInSearch = 15'000;
+constexpr double kAsked = 10'000;
+
+} // namespace
+
+bool is_in(const Facts& f, std::string_view state)
+{
+    return text(f.station, "state") == state;
+}
+bool exchanges(const Facts& f)
+{
+    return is_in(f, "Data_Exch");
+}
+
+Count counted(const Json& group, std::string_view name)
+{
+    for (const Json& counter : list(group, "counters"))
+        if (text(counter, "name") == name)
+            return {.total = integer(counter, "value").value_or(0),
+                    .minute = integer(counter, "minute").value_or(0),
+                    .last_ms = real(counter, "last_age_ms"),
+                    .since_ms = real(counter, "since_age_ms")};
+    return {};
+}
+
+std::string lately(const Count& count)
+{
+    constexpr double kMinute = 60'000;
+    if (!count.since_ms || *count.since_ms <= kMinute) return "in the last minute";
+    return "in the last minute, since " + age(count.since_ms);
+}
+
+bool is_asked(const Json& station_counters)
+{
+    constexpr std::array kAsks = std::to_array<std::string_view>(
+        {"data_exchange", "slave_diag", "set_prm", "chk_cfg", "get_cfg", "rd_inp", "rd_outp"});
+    return std::any_of(kAsks.begin(), kAsks.end(),
+                       [&](std::string_view name) { return counted(station_counters, name).within(kAsked); });
+}
+
+bool bus_is_heard(const Facts& f)
+{
+    if (f.bus.contains("port_open") && !flag(f.bus, "port_open")) return true;
+    const Count octets = counted(f.counters, "octets");
+    return octets.within(kSilence) || static_cast<double>(f.uptime_ms) < kSilence;
+}
+
+bool telegrams_are_heard(const Facts& f)
+{
+    const double limit = text(f.bus, "baud_state") == "Baud_Search" ? kNoTelegramInSearch : kNoTelegram;
+    return counted(f.counters, "checked").within(limit) || static_cast<double>(f.uptime_ms) < limit;
+}
+
+std::string silence(const Facts& f)
+{
+    if (bus_is_heard(f) && telegrams_are_heard(f)) return {};
+    const Count octets = counted(f.counters, "octets"), checked = counted(f.counters, "checked");
+    if (!bus_is_heard(f))
+        return octets.last_ms ? "the last octet from the bus was received " + age(octets.last_ms) + " ago"
+                              : "not one octet has been received from the bus";
+    if (checked.last_ms)
+        return fmt::format("the last telegram with a checksum was heard {} ago; {} came in the last minute",
+                           age(checked.last_ms), plural(octets.minute, "octet"));
+    return fmt::format("{} came in the last minute, but never a telegram with a checksum",
+                       plural(octets.minute, "octet"));
+}
+
+std::string refusal(const Facts& f)
+{
+    const Json& r = part(f.diagnosis, "refusal");
+    if (r.empty()) return {};
+    const auto octet = integer(r, "octet");
+    const std::string expected = text(r, "expected", ""), got = text(r, "got", "");
+    return fmt::format("{} was refused{}: {}{}{}; {}", text(r, "telegram"),
+                       octet ? fmt::format(", octet {}", *octet) : "", text(r, "what"),
+                       expected.empty() ? "" : ", expected " + expected, got.empty() ? "" : ", got " + got,
+                       text(r, "advice"));
+}
+
+std::string tag_trouble(const Facts& f)
+{
+    std::string all;
+    for (const Json& item : list(f.diagnosis, "refused"))
+        if (item.is_object()) all += (all.empty() ? "" : "; ") + text(item, "text");
+    return all;
+}
+
+std::string drive_silence(const Facts& f)
+{
+    const Json& d = part(f.station, "drive");
+    if (text(d, "link") != "silent") return {};
+    return fmt::format("unit {} on {} ({}, {}) does not answer: {} unanswered", text(d, "unit"),
+                       text(d, "line"), text(d, "port"), text(d, "protocol"),
+                       plural(integer(d, "silences").value_or(0), "request"));
+}
+
+std::string restlessness(const Facts& f)
+{
+    const Count left = counted(f.station_counters, "left_data_exchange");
+    if (left.minute < 2) return {};
+    return fmt::format("Data_Exch was left {} {}, the last time: {}", plural(left.minute, "time"),
+                       lately(left), text(f.station, "left_because"));
+}
+
+std::string no_exchange(const Facts& f)
+{
+    if (std::string silent = silence(f); !silent.empty()) return silent;
+    const std::string address = number(f.station, "address");
+    if (is_in(f, "Wait_Cfg"))
+        return "the master has parameterised address " + address + " and sends no Chk_Cfg";
+    if (is_asked(f.station_counters))
+        return "a master asks address " + address + ", but does not parameterise it";
+    return not_asked(f);
+}
+
+std::string not_asked(const Facts& f)
+{
+    if (!counted(f.counters, "checked").last_ms)
+        return "no telegram has been heard yet; the daemon has run for " +
+               age(static_cast<double>(f.uptime_ms));
+    return "telegrams are heard, but no master asks address " + number(f.station, "address");
+}
+
+std::span<const Rule> rules()
+{
+    static const std::vector<Rule> all = [] {
+        std::vector<Rule> joined;
+        for (const auto table :
+             {bus_rules(), drive_rules(), station_rules(), board_rules(), box_rules(), controller_rules()})
+            joined.insert(joined.end(), table.begin(), table.end());
+        return joined;
+    }();
+    return all;
+}
+
+} // namespace dpslave::dpctl

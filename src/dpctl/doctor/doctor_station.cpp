@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: Apache-2.0
+// What may be wrong with a station of any family.
+#include "doctor_rules.hpp"
+#include "dpctl/cli/words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dpslave::dpctl {
+namespace {
+
+constexpr std::string_view kBox = "HA463561U002, Troubleshooting";
+constexpr std::string_view kGateway = "dpslaved";
+
+constexpr std::array kPrmSteps = std::to_array<std::string_view>({
+    "dpctl diag shows what came and what was expected, octet by octet.",
+    "dpctl decode --as prm OCTETS explains each octet.",
+    "Compare the slave in the master's project with the GSD that dpctl gsd make writes for this device.",
+});
+constexpr std::array kCfgSteps = std::to_array<std::string_view>({
+    "dpctl diag shows what came and what was expected, identifier by identifier.",
+    "Put the modules of the slave in the master's project in the order of the tags, one for each tag.",
+});
+constexpr std::array kNotAskedSteps = std::to_array<std::string_view>({
+    "Check that the slave is in the master's project, under this address, and that the project was loaded "
+    "into the master.",
+    "Check that the master is in operation and its bus is started.",
+});
+constexpr std::array kAskedOnlySteps = std::to_array<std::string_view>({
+    "Look whether the one who asks is a diagnostic tool (master class 2): it starts no slave.",
+    "Check that the slave is switched on in the master's project and the master is not in STOP.",
+});
+constexpr std::array kReadOnlySteps = std::to_array<std::string_view>({
+    "Put the modules in the master's project in the order of the tags: the first module belongs to the first "
+    "tag.",
+    "Take an input module for a tag that the drive only lets read: dpctl tag NUMBER says which.",
+});
+constexpr std::array kRangeSteps = std::to_array<std::string_view>({
+    "Let the master send a value within the limits of the tag: dpctl tag NUMBER has them.",
+    "Check the scaling in the master's program: 12.34 with two decimals goes over the bus as 1234.",
+});
+constexpr std::array kTagSteps = std::to_array<std::string_view>({
+    "Check the tag numbers in the master's project: dpctl tag NUMBER, dpctl io.",
+    "Check that the profile of the station is that of the drive: dpctl info.",
+});
+constexpr std::array kStateSteps = std::to_array<std::string_view>({
+    "Stop the drive, or put it into its configuration mode, as the tag wants it: dpctl tag NUMBER.",
+});
+constexpr std::array kRefusedSteps = std::to_array<std::string_view>({
+    "dpctl diag says what the drive answered.",
+    "dpctl tag NUMBER tells type, limits and access of the tag.",
+});
+constexpr std::array kClearSteps = std::to_array<std::string_view>({
+    "Put the master into RUN (Operate). Many masters go to Clear when the PLC is in STOP, or when one slave "
+    "of "
+    "the project is missing (Auto-Clear).",
+});
+constexpr std::array kWatchdogSteps = std::to_array<std::string_view>({
+    "Set the watchdog of this slave in the master's project to several times the bus cycle.",
+    "Look whether the master pauses: a download, a restart, a slave that is missing and is asked for again.",
+});
+constexpr std::array kRestlessSteps = std::to_array<std::string_view>({
+    "Check wiring: continuity of A and B to the master, the correct terminals, the integrity of the "
+    "screening.",
+    "Ensure that the maximum line length for the baud rate is not exceeded (below).",
+    "Ensure that the last unit on the line is terminated correctly.",
+    "Look at the master too: does it go to STOP, or is its watchdog time for this slave too short?",
+});
+constexpr std::array kRideSteps = std::to_array<std::string_view>({
+    "The outputs of the lost master still stand at the drive: keep clear of the machine.",
+    "dpctl tec set RIDE_THROUGH 0 ends it.",
+});
+constexpr std::array kStandsSteps = std::to_array<std::string_view>({
+    "The outputs of this master still stand at the drive: keep clear of the machine.",
+    "Switch the watchdog of this slave on in the master's project: then the outputs go to their safe state "
+    "when the "
+    "master is lost.",
+    "Look why the master is silent; systemctl stop dpslaved puts the outputs into their safe state.",
+});
+constexpr std::array kSyncSteps = std::to_array<std::string_view>({
+    "The master has sent Sync: new outputs count with its next Sync, or from Unsync on.",
+    "If that is not wanted: take this slave out of the group in the master's project.",
+});
+constexpr std::array kFreezeSteps = std::to_array<std::string_view>({
+    "The master has sent Freeze: inputs are read anew with its next Freeze, or from Unfreeze on.",
+    "If that is not wanted: take this slave out of the group in the master's project.",
+});
+constexpr std::array kScaleSteps = std::to_array<std::string_view>({
+    "dpctl io names each tag and what the drive has answered.",
+    "Give each tag a row with type and decimals, from the drive's product manual; where a survey made the "
+    "row, compare it "
+    "and set confirmed to yes.",
+    "Or set unlisted_decimals of the station, if all tags without a row have the same decimals.",
+    "dpctl reload",
+});
+constexpr std::array kNoTableSteps = std::to_array<std::string_view>({
+    "Make a tag table with dpctl survey and the drive's product manual, and name it with 'tags' in "
+    "[[station]]; then dpctl reload.",
+});
+constexpr std::array kNoTripSteps = std::to_array<std::string_view>({
+    "Set trip_tag in [station.tec] to the tag of the trip code, or to a bit that is set while the drive has "
+    "tripped "
+    "(\"272.3\").",
+});
+constexpr std::array kPendingSteps = std::to_array<std::string_view>({
+    "The changed address takes effect at the next start: systemctl restart dpslaved",
+});
+constexpr std::array kLowAddressSteps = std::to_array<std::string_view>({
+    "Addresses 0, 1 and 2 are usually those of masters: choose another one if you can.",
+});
+
+/// Has the master tried to start this station within the last minute?
+bool is_tried(const Facts& f)
+{
+    return counted(f.station_counters, "set_prm").minute > 0 ||
+           counted(f.station_counters, "chk_cfg").minute > 0;
+}
+
+std::string seen_refused(const Facts& f, std::string_view telegram)
+{
+    if (exchanges(f) || !is_tried(f) || text(part(f.diagnosis, "refusal"), "telegram") != telegram) return {};
+    return refusal(f);
+}
+std::string seen_prm(const Facts& f)
+{
+    return seen_refused(f, "Set_Prm");
+}
+std::string seen_cfg(const Facts& f)
+{
+    return seen_refused(f, "Chk_Cfg");
+}
+/// Telegrams come, but none for this station: what the bus has to say about it comes first.
+std::string seen_not_asked(const Facts& f)
+{
+    const bool waits = is_in(f, "Wait_Prm") || is_in(f, "Wait_Cfg");
+    if (!waits || !silence(f).empty() || is_asked(f.station_counters)) return {};
+    return not_asked(f);
+}
+std::string seen_asked_only(const Facts& f)
+{
+    if (!is_in(f, "Wait_Prm") || is_tried(f) || !is_asked(f.station_counters)) return {};
+    const Count diag = counted(f.station_counters, "slave_diag");
+    return fmt::format("{} for its diagnosis {} and no Set_Prm",
+                       diag.minute == 1 ? "1 question" : fmt::format("{} questions", diag.minute),
+                       lately(diag));
+}
+
+/// The request was spoilt on its way: that says nothing about the tag.
+bool was_spoilt(const Facts& f, const Json& word)
+{
+    const Json& refused = list(f.diagnosis, "refused");
+    return std::any_of(refused.begin(), refused.end(), [&](const Json& one) {
+        return text(one, "code") == "not_understood" && integer(one, "tag") == integer(word, "tag");
+    });
+}
+
+/// The words of `direction` that are in `state`, each with its tag and value.
+std::string words_that_are(const Facts& f, std::string_view direction, std::string_view state)
+{
+    std::string all;
+    for (const Json& word : list(f.io, "words")) {
+        if (text(word, "state") != state || (!direction.empty() && text(word, "direction") != direction))
+            continue;
+        if (was_spoilt(f, word)) continue;
+        const std::string name = text(word, "name", "");
+        all += fmt::format("{}tag {}{} = {} ({} octet {})", all.empty() ? "" : ", ", number(word, "tag"),
+                           name.empty() ? "" : " " + name, text(word, "value"), text(word, "direction"),
+                           number(word, "octet"));
+    }
+    return all;
+}
+
+/// What the drive said about tags for this reason.
+std::string said(const Facts& f, std::string_view code)
+{
+    std::string all;
+    for (const Json& one : list(f.diagnosis, "refused"))
+        if (text(one, "code") == code) all += (all.empty() ? "" : "; ") + text(one, "text");
+    return all;
+}
+
+/// The words that are so, else what was said for this reason (Demand Data has no words).
+std::string either(std::string words, std::string reasons)
+{
+    if (words.empty() || reasons.empty()) return words + reasons;
+    return words + "; " + reasons;
+}
+
+std::string seen_read_only(const Facts& f)
+{
+    return exchanges(f) ? either(words_that_are(f, "out", "read only"), said(f, "read_only")) : "";
+}
+std::string seen_range(const Facts& f)
+{
+    return exchanges(f) ? either(words_that_are(f, "out", "out of range"), said(f, "out_of_range")) : "";
+}
+std::string seen_invalid(const Facts& f)
+{
+    return exchanges(f) ? either(words_that_are(f, "", "invalid tag"), said(f, "invalid_tag")) : "";
+}
+std::string seen_not_now(const Facts& f)
+{
+    return exchanges(f) ? either(said(f, "not_stopped"), said(f, "not_config_mode")) : std::string{};
+}
+std::string seen_other_refusal(const Facts& f)
+{
+    if (!exchanges(f)) return {};
+    return either(words_that_are(f, "", "refused"),
+                  either(said(f, "unsupported_type"), said(f, "value_not_encoded")));
+}
+std::string seen_clear(const Facts& f)
+{
+    if (!exchanges(f) || !flag(f.station, "clear")) return {};
+    return fmt::format("master {} is in Clear: 0 goes to every output of the drive",
+                       number(f.station, "master"));
+}
+std::string seen_watchdog(const Facts& f)
+{
+    const Count expired = counted(f.station_counters, "watchdog_expired");
+    if (expired.minute < 2 || counted(f.station_counters, "set_prm").minute < 2) return {};
+    return fmt::format("it expired {} {}, and each time the master came back{}",
+                       plural(expired.minute, "time"), lately(expired),
+                       integer(f.station, "watchdog_ms")
+                           ? fmt::format("; it is {} ms", number(f.station, "watchdog_ms"))
+                           : std::string{});
+}
+/// No telegram comes, and without a watchdog nothing ends the exchange.
+std::string seen_stands(const Facts& f)
+{
+    if (!exchanges(f) || integer(f.station, "watchdog_ms") || is_asked(f.station_counters)) return {};
+    const auto last = counted(f.station_counters, "data_exchange").last_ms;
+    return fmt::format("its watchdog is off, and the last Data_Exchange was {}",
+                       last ? age(last) + " ago" : std::string{"never"});
+}
+std::string seen_sync(const Facts& f)
+{
+    return exchanges(f) && flag(f.station, "sync") ? "Sync is on" : std::string{};
+}
+std::string seen_freeze(const Facts& f)
+{
+    return exchanges(f) && flag(f.station, "freeze") ? "Freeze is on" : std::string{};
+}
+std::string seen_restless(const Facts& f)
+{
+    return f.family == Family::controller || !seen_watchdog(f).empty() ? std::string{} : restlessness(f);
+}
+std::string seen_ride(const Facts& f)
+{
+    const Json& ride = part(f.station, "ride");
+    if (ride.empty()) return {};
+    const auto ends = real(ride, "ends_in_ms");
+    return ends ? "the outputs stand for " + age(ends) + " more" : "the outputs stand until it returns";
+}
+std::string seen_unscaled(const Facts& f)
+{
+    std::string tags;
+    for (const Json& one : list(f.diagnosis, "unscaled"))
+        tags += fmt::format("{}tag {} answers '{}'{}", tags.empty() ? "" : ", ", number(one, "tag"),
+                            text(one, "answer"),
+                            flag(one, "contradicted") ? ", more decimals than its row has" : "");
+    if (tags.empty()) return {};
+    tags += "; the table is " + text(f.info, "tag_table");
+    return flag(f.diagnosis, "held") ? tags + "; the master is held at the start" : tags;
+}
+std::string seen_no_table(const Facts& f)
+{
+    const auto rows = integer(f.info, "tags_in_table");
+    return rows && *rows == 0 ? text(f.info, "tag_table") + " holds no row" : std::string{};
+}
+std::string seen_no_trip(const Facts& f)
+{
+    return text(f.tec, "trip", "").starts_with("not known") ? "trip: " + text(f.tec, "trip") : std::string{};
+}
+std::string seen_pending(const Facts& f)
+{
+    const auto active = integer(f.info, "address_active"), pending = integer(f.info, "address_pending");
+    if (!pending || pending == active) return {};
+    return fmt::format("address {} is active, the configuration file has {}", active.value_or(-1), *pending);
+}
+std::string seen_low_address(const Facts& f)
+{
+    const auto address = integer(f.station, "address");
+    return f.family != Family::technology_box && address && *address <= 2
+               ? fmt::format("the address is {}", *address)
+               : std::string{};
+}
+
+constexpr std::array kRules = std::to_array<Rule>({
+    {"station.prm_refused", Scope::station, Rank::stands, "the master's Set_Prm is refused",
+     "The master's project does not fit this device: parameters", kPrmSteps, kGateway, seen_prm},
+    {"station.cfg_refused", Scope::station, Rank::stands, "the master's Chk_Cfg is refused",
+     "The master's project does not fit this device: modules", kCfgSteps, kGateway, seen_cfg},
+    {"station.not_asked", Scope::station, Rank::stands,
+     "telegrams are heard, and no master asks this address",
+     "No master has this address in its project, or the master is not running", kNotAskedSteps, kGateway,
+     seen_not_asked},
+    {"station.asked_only", Scope::station, Rank::stands, "the diagnosis is read, and no Set_Prm comes",
+     "The master asks, but does not start this slave", kAskedOnlySteps, kGateway, seen_asked_only},
+    {"station.clear", Scope::station, Rank::stands, "Data_Exch, and the last Global_Control was Clear_Data",
+     "The master is in Clear (STOP): the drive gets 0", kClearSteps, kGateway, seen_clear},
+    {"station.stands", Scope::station, Rank::stands,
+     "Data_Exch without watchdog, and no telegram for ten seconds",
+     "The master is gone and its outputs stand: the watchdog is off", kStandsSteps, kGateway, seen_stands},
+    {"station.ride_through", Scope::station, Rank::stands, "the master is lost and the outputs stand",
+     "RIDE THROUGH is running", kRideSteps, "HA463561U002, MMI parameter descriptions", seen_ride},
+    {"station.watchdog", Scope::station, Rank::stands, "the watchdog expires and the master starts again",
+     "The watchdog of this slave is shorter than the master's cycle, or the master pauses", kWatchdogSteps,
+     kGateway, seen_watchdog},
+    {"station.read_only", Scope::station, Rank::stands, "an output word belongs to a tag that is read only",
+     "Modules in the wrong order, or an output where the drive has only something to read", kReadOnlySteps,
+     kGateway, seen_read_only},
+    {"station.range", Scope::station, Rank::stands, "an output word is outside the limits of its tag",
+     "The master sends a value outside the limits", kRangeSteps, kGateway, seen_range},
+    {"station.tags", Scope::station, Rank::stands, "the drive does not know a tag", "A tag number is wrong",
+     kTagSteps, kGateway, seen_invalid},
+    {"station.unscaled", Scope::station, Rank::stands,
+     "a chosen tag answers with a number whose scale is not known",
+     "The tag table does not say the decimals of a tag, or says too few", kScaleSteps, kGateway,
+     seen_unscaled},
+    {"station.sync", Scope::station, Rank::note, "the master has sent Sync", "The outputs are held by Sync",
+     kSyncSteps, kGateway, seen_sync},
+    {"station.freeze", Scope::station, Rank::note, "the master has sent Freeze",
+     "The inputs are held by Freeze", kFreezeSteps, kGateway, seen_freeze},
+    {"station.no_table", Scope::station, Rank::note, "the station has no tag table",
+     "The scale of the drive's numbers is not known", kNoTableSteps, kGateway, seen_no_table},
+    {"station.no_trip", Scope::station, Rank::note, "no tag tells the trip of the drive",
+     "Trips are not known: the diagnosis says no trip whatever the drive does", kNoTripSteps,
+     "HA463561U002, PROFIBUS Diagnostics", seen_no_trip},
+    {"station.not_now", Scope::station, Rank::stands, "a tag cannot be written in this state of the drive",
+     "The drive takes this parameter only stopped, or in configuration mode", kStateSteps, kGateway,
+     seen_not_now},
+    {"station.refused", Scope::station, Rank::stands, "the drive refuses a tag for another reason",
+     "The drive refuses a parameter", kRefusedSteps, kGateway, seen_other_refusal},
+    {"station.restless", Scope::station, Rank::recent, "data exchange is left more than once in a minute",
+     "Intermittent failure", kRestlessSteps, kBox, seen_restless},
+    {"station.address_pending", Scope::station, Rank::note,
+     "the address was changed in the configuration file", "A changed address waits for the next start",
+     kPendingSteps, "HA389815 chapter 5", seen_pending},
+    {"station.low_address", Scope::station, Rank::note, "the address is 0, 1 or 2",
+     "The address may be that of a master", kLowAddressSteps, "HA463561U002, MMI parameter descriptions",
+     seen_low_address},
+});
+
+} // namespace
+
+std::span<const Rule> station_rules()
+{
+    return kRules;
+}
+
+} // namespace dpslave::dpctl

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dpctl/cli/ask.hpp"
+#include "dpctl/cli/render.hpp"
+#include "dpctl/cli/subcommands.hpp"
+#include "dpctl/cli/words.hpp"
+
+namespace dpslave::dpctl {
+
+int do_read(const Options& options, Terminal& terminal)
+{
+    Json parameters = station_parameter(options);
+    parameters["tag"] = options.tag;
+    return show(options, terminal, "ReadTag", parameters,
+                [](const Json& reply) { return render_tag(reply, "is"); });
+}
+
+int do_write(const Options& options, Terminal& terminal)
+{
+    Json parameters = station_parameter(options);
+    parameters["tag"] = options.tag;
+    parameters["value"] = options.value;
+    return show(options, terminal, "WriteTag", parameters,
+                [](const Json& reply) { return render_tag(reply, "is now"); });
+}
+
+int do_tec(const Options& options, Terminal& terminal)
+{
+    Json parameters = station_parameter(options);
+    if (options.set) {
+        parameters["parameter"] = options.parameter;
+        parameters["value"] = options.value;
+        if (options.yes) parameters["yes"] = true;
+    }
+    return show(options, terminal, options.set ? "SetTec" : "GetTec", parameters,
+                [&](const Json& reply) { return render_tec(reply, terminal.look()); });
+}
+
+/// Says first what it is going to do. Refused is not fine, though the daemon has answered.
+int do_reload(const Options& options, Terminal& terminal)
+{
+    std::string said;
+    Json warned; ///< nothing with --json, which prints one reply
+    if (options.dry_run || !options.json) {
+        const auto plan = ask(options, terminal, "Reload", Json::object({{"dry_run", true}}));
+        if (!plan) return plan.error();
+        const bool faulty = !plan->value("faults", Json::array()).empty();
+        said = options.json ? json_text(*plan) + '\n' : render_reload(*plan, options.dry_run);
+        (faulty && !options.json ? terminal.err : terminal.out) << said << std::flush;
+        if (options.dry_run) return faulty ? kNo : kFine;
+        warned = plan->value("warnings", Json::array());
+    }
+    auto reply = ask(options, terminal, "Reload", Json::object());
+    if (!reply) return reply.error();
+    const bool applied = reply->value("applied", false);
+    if (!options.json && render_reload(*reply, false) == said) return applied ? kFine : kNo;
+    if (!applied && reply->value("warnings", Json::array()) == warned) reply->erase("warnings"); // just said
+    (applied || options.json ? terminal.out : terminal.err)
+        << (options.json ? json_text(*reply) + '\n' : render_reload(*reply, false)) << std::flush;
+    return applied ? kFine : kNo;
+}
+
+} // namespace dpslave::dpctl

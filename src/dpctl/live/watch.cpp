@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dpctl/cli/ask.hpp"
+#include "dpctl/cli/end_signals.hpp"
+#include "dpctl/cli/render.hpp"
+#include "dpctl/cli/subcommands.hpp"
+#include "dpctl/cli/words.hpp"
+
+#include "dpslave/base/printable.hpp"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <string>
+
+namespace dpslave::dpctl {
+namespace {
+
+/// Draws over the last picture: from the top, line by line, without wrapping, no more than there are rows.
+void redraw(const std::string& picture, std::ostream& out)
+{
+    winsize size{};
+    const bool known = ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_row > 1;
+    int rows = known ? size.ws_row - 1 : 10'000;
+    out << "\033[H\033[?7l";
+    for (std::size_t at = 0; at < picture.size() && rows-- > 0;) {
+        const std::size_t end = std::min(picture.find('\n', at), picture.size());
+        out << picture.substr(at, end - at) << "\033[K\r\n";
+        at = end + 1;
+    }
+    out << "\033[J\033[?7h" << std::flush;
+}
+
+void show_one(const Json& before, const Json& now, const Options& options, Terminal& terminal)
+{
+    if (options.json)
+        terminal.out << printable_json(now.dump(-1, ' ', false, Json::error_handler_t::replace)) << '\n';
+    else if (terminal.tty)
+        redraw(render_watch(now, terminal.look()), terminal.out);
+    else
+        for (const std::string& line : changes(before, now)) terminal.out << line << '\n';
+    terminal.out << std::flush;
+}
+
+/// The daemon was there and has gone.
+int tell_gone(const control::ClientError& error, Terminal& terminal)
+{
+    const int code = tell(error, terminal);
+    return error.kind == control::ClientError::Kind::ended ? kNoDaemon : code;
+}
+
+} // namespace
+
+int do_watch(const Options& options, Terminal& terminal)
+{
+    const EndSignals end;
+    auto client = control::Client::connect(options.socket, options.timeout());
+    if (!client) return tell(client.error(), terminal);
+    if (const auto failed = client->start("Watch", station_parameter(options)))
+        return tell(*failed, terminal);
+    if (terminal.tty && !options.json) terminal.out << "\033[2J";
+    Json before = Json::object();
+    while (terminal.out) {
+        auto reply = client->next(end.fd());
+        if (!reply) return tell_gone(reply.error(), terminal);
+        if (!*reply) return kFine; // Ctrl-C
+        if (!(*reply)->error.empty()) return tell(**reply, options, terminal);
+        if (!options.json) (*reply)->parameters = printable_texts(std::move((*reply)->parameters));
+        show_one(before, (*reply)->parameters, options, terminal);
+        if (!(*reply)->continues) return kFine;
+        before = std::move((*reply)->parameters);
+    }
+    return kNo; // nobody takes what we print
+}
+
+} // namespace dpslave::dpctl

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "survey.hpp"
+
+#include "dpctl/cli/ask.hpp"
+#include "dpctl/cli/end_signals.hpp"
+#include "dpctl/cli/subcommands.hpp"
+#include "dpctl/cli/words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dpslave::dpctl {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+using profile::SurveyAnswer;
+
+constexpr auto kSaveEvery = 5s;     ///< what a loss of power may cost
+constexpr auto kDrawEvery = 200ms;  ///< of the bar on a terminal
+constexpr auto kSayEvery = 10s;     ///< of the lines elsewhere
+constexpr auto kLongestRound = 60s; ///< a survey read waits for a round of the line
+constexpr auto kGiveUpAfter = 30s;  ///< without a drive, or behind another survey
+constexpr int kWaitForDrive_ms = 1000, kWaitForOther_ms = 200;
+
+struct Scope {
+    std::string station, protocol, tag_table;
+    std::vector<profile::TagSpan> tags;
+};
+
+Scope read_scope(const Json& reply)
+{
+    Scope scope{text(reply, "station"), text(reply, "protocol"), text(reply, "tag_table", ""), {}};
+    for (const Json& span : list(reply, "tags"))
+        scope.tags.push_back({static_cast<std::uint16_t>(integer(span, "first").value_or(0)),
+                              static_cast<std::uint16_t>(integer(span, "last").value_or(0))});
+    return scope;
+}
+
+/// How a survey came to its end.
+enum class End {
+    done,
+    time_is_over,
+    interrupted,
+    no_drive, ///< it did not answer at all for long
+    other,    ///< another survey of this station is under way
+    failed,   ///< told already
+};
+
+/// One survey, from its first read to its last.
+class Run {
+public:
+    Run(const Options& options, Terminal& terminal, Scope scope, SurveyFiles files)
+        : options_(options),
+          terminal_(terminal),
+          scope_(std::move(scope)),
+          files_(std::move(files)),
+          plan_(scope_.tags, options.duration.empty() ? options.passes : 0),
+          time_(profile::parse_duration(options.duration))
+    {}
+
+    int go(const EndSignals& end);
+
+private:
+    End read_all(control::Client& client, const EndSignals& end);
+    std::optional<End> read_one(control::Client& client, const EndSignals& end, std::uint16_t tag);
+    std::optional<End> wait_for(bool for_drive, const EndSignals& end);
+    bool take(const Json& reply, std::uint16_t tag);
+    profile::Survey seen_in_scope() const;
+    SurveyProgress progress() const;
+    void say_progress(bool last);
+    void save_now_and_then();
+    int report(End end);
+
+    const Options& options_;
+    Terminal& terminal_;
+    Scope scope_;
+    SurveyFiles files_;
+    profile::SurveyPlan plan_;
+    profile::SurveyPace pace_;
+    std::optional<std::chrono::seconds> time_; ///< --for
+    Clock::time_point began_ = Clock::now(), saved_ = began_, said_ = began_;
+    std::optional<Clock::time_point> waits_since_; ///< for the drive, or for another survey
+    bool waits_for_drive_ = false;
+    std::string not_saved_; ///< why not, the last time
+};
+
+int Run::go(const EndSignals& end)
+{
+    if (!options_.json) {
+        terminal_.out << fmt::format(
+            "{}: {} to ask; rows go to {}, the record to {}. Ctrl-C ends, --resume goes on.\n",
+            scope_.station, plural(static_cast<std::int64_t>(plan_.tags()), "tag"), files_.table(),
+            files_.record());
+        if (files_.rows_taken_over() > 0)
+            terminal_.out << fmt::format("{} begins with the {} of {}.\n", files_.table(),
+                                         plural(static_cast<std::int64_t>(files_.rows_taken_over()), "tag"),
+                                         scope_.tag_table);
+        if (!files_.not_taken_over().empty())
+            terminal_.out << fmt::format("{} begins without the rows of the table in force: {}\n",
+                                         files_.table(), files_.not_taken_over());
+        if (scope_.protocol == "modbus-rtu")
+            terminal_.out << "Modbus shows 16 bits of each tag and no text: every row will be a WORD; type "
+                             "and decimals "
+                             "are in the manual only.\n";
+        terminal_.out << std::flush;
+    }
+    auto client = control::Client::connect(
+        options_.socket, std::max<std::chrono::milliseconds>(options_.timeout(), kLongestRound));
+    if (!client) return tell(client.error(), terminal_);
+    return report(read_all(*client, end));
+}
+
+End Run::read_all(control::Client& client, const EndSignals& end)
+{
+    for (;;) {
+        if (time_ && Clock::now() >= began_ + *time_) return End::time_is_over;
+        const auto tag = plan_.next(files_.seen);
+        if (!tag) return End::done;
+        if (const auto ended = read_one(client, end, *tag)) return *ended;
+        save_now_and_then();
+        say_progress(false);
+    }
+}
+
+/// Asks until there is an answer for this tag; nothing: there is.
+std::optional<End> Run::read_one(control::Client& client, const EndSignals& end, std::uint16_t tag)
+{
+    for (;;) {
+        const auto asked_at = Clock::now();
+        if (const auto failed = client.start("Survey", {{"station", scope_.station}, {"tag", tag}})) {
+            tell(*failed, terminal_);
+            return End::failed;
+        }
+        const auto reply = client.next(end.fd());
+        if (!reply) {
+            tell(reply.error(), terminal_);
+            return End::failed;
+        }
+        if (!*reply) return End::interrupted;
+        const bool is_busy = (*reply)->error == "org.dpslaved.Control.Busy";
+        if (!(*reply)->error.empty() && !is_busy) {
+            tell(**reply, options_, terminal_);
+            return End::failed;
+        }
+        if (!is_busy && take((*reply)->parameters, tag)) {
+            pace_.took(Clock::now() - asked_at);
+            waits_since_.reset();
+            waits_for_drive_ = false;
+            return std::nullopt;
+        }
+        if (const auto ended = wait_for(!is_busy, end)) return ended;
+    }
+}
+
+std::optional<End> Run::wait_for(bool for_drive, const EndSignals& end)
+{
+    const auto now = Clock::now();
+    if (!waits_since_) waits_since_ = now;
+    waits_for_drive_ = for_drive;
+    say_progress(false);
+    if (time_ && now >= began_ + *time_) return for_drive ? End::no_drive : End::time_is_over;
+    // Who has said how long it is to go on is not left before.
+    const bool gives_up = now >= *waits_since_ + kGiveUpAfter && !(time_ && for_drive);
+    if (gives_up) return for_drive ? End::no_drive : End::other;
+    if (end.within(for_drive ? kWaitForDrive_ms : kWaitForOther_ms)) return End::interrupted;
+    return std::nullopt;
+}
+
+/// False: the drive does not answer at all, so nothing was learnt of this tag.
+bool Run::take(const Json& reply, std::uint16_t tag)
+{
+    const std::string outcome = text(reply, "outcome", "");
+    if (outcome == "lost") return false;
+    SurveyAnswer answer;
+    if (outcome == "value") {
+        const auto raw = integer(reply, "raw");
+        answer.kind = raw ? SurveyAnswer::Kind::word : SurveyAnswer::Kind::text;
+        answer.word = static_cast<std::uint16_t>(raw.value_or(0));
+        answer.text = text(reply, "text", "");
+    } else if (outcome == "denied") {
+        answer.kind = SurveyAnswer::Kind::denied;
+        answer.text = text(reply, "reason", "refused");
+    }
+    profile::Sighting& one = files_.seen[tag];
+    one.mnemonic = text(reply, "mnemonic", "");
+    one.add(answer);
+    return true;
+}
+
+/// A record that is resumed may have others.
+profile::Survey Run::seen_in_scope() const
+{
+    profile::Survey seen;
+    for (const profile::TagSpan span : scope_.tags)
+        seen.insert(files_.seen.lower_bound(span.first), files_.seen.upper_bound(span.last));
+    return seen;
+}
+
+SurveyProgress Run::progress() const
+{
+    SurveyProgress progress;
+    const profile::Survey seen = seen_in_scope();
+    progress.tags = plan_.tags();
+    progress.visited = seen.size();
+    progress.waits_for_drive = waits_for_drive_;
+    std::size_t reads = 0;
+    for (const auto& [tag, one] : seen) {
+        reads += one.asked();
+        ++(one.answers > 0 ? progress.answering : one.denials > 0 ? progress.denied : progress.silent);
+    }
+    if (time_) {
+        const auto passed = Clock::now() - began_;
+        progress.is_time_given = true;
+        progress.left =
+            std::chrono::ceil<std::chrono::seconds>(std::max<Clock::duration>(*time_ - passed, 0s));
+        progress.share = std::chrono::duration<double>(passed) / std::chrono::duration<double>(*time_);
+        return progress;
+    }
+    const std::size_t left = plan_.left(files_.seen);
+    progress.left = pace_.time_for(left);
+    progress.share = reads + left > 0 ? static_cast<double>(reads) / static_cast<double>(reads + left) : 1.0;
+    return progress;
+}
+
+/// A bar on a terminal, elsewhere a line now and then.
+void Run::say_progress(bool last)
+{
+    if (options_.json) return;
+    const auto now = Clock::now();
+    const auto pause = terminal_.tty ? Clock::duration{kDrawEvery} : Clock::duration{kSayEvery};
+    if (last ? !terminal_.tty : now < said_ + pause) return;
+    said_ = now;
+    if (last)
+        terminal_.out << "\r\033[K";
+    else if (terminal_.tty)
+        terminal_.out << "\r\033[?7l" << progress_bar(progress()) << "\033[K\033[?7h";
+    else
+        terminal_.out << progress_line(progress()) << '\n';
+    terminal_.out << std::flush;
+}
+
+/// What fails is tried again: a person saves the table, or makes room on the disk.
+void Run::save_now_and_then()
+{
+    if (Clock::now() < saved_ + kSaveEvery) return;
+    const std::string failed = files_.save().value_or("");
+    saved_ = Clock::now();
+    if (!failed.empty() && failed != not_saved_)
+        terminal_.err << (terminal_.tty ? "\r\033[K" : "")
+                      << fmt::format("dpctl: {}\nThe survey goes on and tries again.\n", failed)
+                      << std::flush;
+    not_saved_ = failed;
+}
+
+int Run::report(End end)
+{
+    say_progress(true);
+    if (const auto failed = files_.save()) {
+        terminal_.err << fmt::format(
+            "dpctl: {}\nRemove the cause, then go on with the same command and --resume: "
+            "what {} does not have is asked again.\n",
+            *failed, files_.record());
+        return kNo;
+    }
+    SurveyReport report{scope_.station, files_.table(), files_.record(), plan_.tags(), false, {},
+                        files_.joined()};
+    report.seen = seen_in_scope();
+    const bool is_time_over = end == End::time_is_over || (end == End::no_drive && time_);
+    report.complete = end == End::done || (is_time_over && report.seen.size() == report.tags);
+    terminal_.out << (options_.json ? json_text(survey_json(report)) + '\n' : render_survey(report))
+                  << std::flush;
+    if (end == End::no_drive)
+        terminal_.err << fmt::format("dpctl: the drive of {} does not answer; see: dpctl doctor {}\n",
+                                     scope_.station, scope_.station);
+    if (end == End::other)
+        terminal_.err << fmt::format("dpctl: another survey of {} is under way: wait for its end\n",
+                                     scope_.station);
+    if (!report.complete)
+        terminal_.err << "dpctl: not every tag was asked; go on with the same command and --resume\n";
+    return report.complete && report.joined.contradictions.empty() ? kFine : kNo;
+}
+
+/// A station may be called as no file can be.
+std::string file_name(std::string station)
+{
+    std::replace(station.begin(), station.end(), '/', '_');
+    return station + ".csv";
+}
+
+} // namespace
+
+int do_survey(const Options& options, Terminal& terminal)
+{
+    const EndSignals end;
+    const auto reply = ask(options, terminal, "GetSurveyScope", station_parameter(options));
+    if (!reply) return reply.error();
+    Scope scope = read_scope(*reply);
+    if (!options.only.empty())
+        scope.tags = *profile::parse_tag_spans(options.only); // the command line was judged
+    if (scope.tags.empty()) {
+        terminal.err << fmt::format(
+            "dpctl: no rule of {} gives tags a mnemonic, and no row of {} has one: add rows with "
+            "tag and mnemonic, or say --only\n",
+            scope.station, scope.tag_table);
+        return kNo;
+    }
+    auto files = SurveyFiles::open(options.table.empty() ? file_name(scope.station) : options.table,
+                                   scope.tag_table, options.resume);
+    if (!files) {
+        terminal.err << "dpctl: " << files.error() << '\n';
+        return kNo;
+    }
+    return Run{options, terminal, std::move(scope), *std::move(files)}.go(end);
+}
+
+} // namespace dpslave::dpctl

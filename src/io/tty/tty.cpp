@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dpslave/io/tty.hpp"
+
+#include "io/loop/timespec.hpp"
+#include "tty_settings.hpp"
+#include "uart.hpp"
+
+#include "dpslave/io/clock.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/file.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <thread>
+
+namespace dpslave::io {
+namespace {
+
+std::error_code last_error()
+{
+    return {errno, std::system_category()};
+}
+
+/// Waits for `events` or a hang-up.
+bool wait_for(int fd, short events, std::chrono::nanoseconds timeout)
+{
+    const timespec limit = to_timespec(timeout);
+    pollfd waiting{.fd = fd, .events = events, .revents = 0};
+    return ::ppoll(&waiting, 1, &limit, nullptr) > 0;
+}
+
+std::string why_not_opened(const std::string& path, int error)
+{
+    switch (error) {
+        case ENOENT:
+        case ENOTDIR:
+            return path + " is not there: check `port` in the configuration, and the cable of a USB adapter";
+        case EACCES:
+        case EPERM:
+            return path + ": this user may not open it: add the user to the group that owns the device "
+                          "(dialout on Debian)";
+        case EBUSY:
+        case EWOULDBLOCK:
+            return path + " is used by another program: stop that one first (`fuser " + path +
+                   "` shows which it is)";
+        case ENXIO:
+        case ENODEV:
+        case EIO:
+            return path + ": there is no device behind it: check `port` in the configuration, and that the "
+                          "UART is there";
+        default:
+            return path + " cannot be opened (" + std::system_category().message(error) +
+                   "): check `port` in the configuration";
+    }
+}
+
+std::string no_serial_port(const std::string& path)
+{
+    return path + " is no serial port (no tty): check `port` in the configuration";
+}
+
+} // namespace
+
+std::optional<std::string> port_trouble(const std::string& path)
+{
+    struct stat what {};
+    if (::stat(path.c_str(), &what) < 0) return why_not_opened(path, errno);
+    if (S_ISREG(what.st_mode)) return no_serial_port(path);
+    if (::access(path.c_str(), R_OK | W_OK) < 0) return why_not_opened(path, errno);
+    return std::nullopt;
+}
+
+namespace {
+
+/// Nobody else reads our octets or writes between them. The lock ends with its owner, however that ends. The
+/// exclusive mode of the tty keeps out those who do not ask for locks, but root ignores it, and on a pty it
+/// outlives its owner as long as the other end stays open: there the lock alone has to do.
+int claim(int fd, bool pty)
+{
+    if (::flock(fd, LOCK_EX | LOCK_NB) < 0) return errno;
+    if (pty) return 0;
+    int exclusive = 0;
+    if (::ioctl(fd, TIOCGEXCL, &exclusive) == 0 && exclusive != 0) return EBUSY;
+    return ::ioctl(fd, TIOCEXCL) < 0 ? errno : 0;
+}
+
+} // namespace
+
+struct Tty::Marked {
+    std::array<std::uint8_t, 1024> raw{};
+    std::size_t begin = 0;
+    std::size_t end = 0;
+    ParityMarks marks;
+};
+
+Tty::Tty(Fd fd, const TtySettings& settings, std::unique_ptr<Uart> uart)
+    : fd_(std::move(fd)),
+      settings_(settings),
+      uart_(std::move(uart)),
+      character_(character_time(settings)),
+      marked_(settings.mark_errors ? std::make_unique<Marked>() : nullptr)
+{}
+
+Tty::Tty(Tty&&) noexcept = default;
+Tty& Tty::operator=(Tty&&) noexcept = default;
+Tty::~Tty() = default;
+
+Result<Tty, std::string> Tty::open(const std::string& path, const TtySettings& settings,
+                                   const std::filesystem::path& sysfs)
+{
+    Fd fd{::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)};
+    if (!fd) return Failure{why_not_opened(path, errno)};
+    if (::isatty(fd.get()) == 0) return Failure{no_serial_port(path)};
+    auto uart = std::make_unique<Uart>(look_at(fd.get(), sysfs));
+    if (const int error = claim(fd.get(), uart->pty); error != 0) return Failure{why_not_opened(path, error)};
+    if (const std::string trouble = apply(fd.get(), settings, *uart); !trouble.empty())
+        return Failure{path + ": " + trouble};
+    Tty tty{std::move(fd), settings, std::move(uart)};
+    if (settings.prompt) tty.warnings_ = hand_on_at_once(*tty.uart_);
+    return tty;
+}
+
+std::chrono::nanoseconds Tty::hold_back() const
+{
+    return io::hold_back(*uart_, std::chrono::nanoseconds{std::nano::den / std::max(settings_.baud, 1U)});
+}
+
+std::optional<std::string> Tty::set_baud(std::uint32_t baud)
+{
+    if (std::string trouble = change_rate(fd(), baud, *uart_); !trouble.empty()) return trouble;
+    settings_.baud = baud;
+    character_ = character_time(settings_);
+    std::this_thread::sleep_for(2 * character_);
+    static_cast<void>(discard_input()); // a port that has gone meanwhile says so when it is read
+    return std::nullopt;
+}
+
+TtyBauds Tty::bauds()
+{
+    TtyBauds found;
+    std::string missing;
+    for (const Baud baud : kBauds) {
+        const auto rate = static_cast<std::uint32_t>(baud);
+        if (change_rate(fd(), rate, *uart_).empty())
+            found.can.set(index_of(baud));
+        else if (baud != Baud::k45_45)
+            missing += (missing.empty() ? "" : ", ") + std::to_string(rate);
+    }
+    static_cast<void>(change_rate(fd(), settings_.baud, *uart_)); // it was possible before
+    static_cast<void>(discard_input());
+    if (!missing.empty())
+        found.why_not =
+            "this UART cannot do " + missing + " bit/s, which are not searched: " + rate_remedy(*uart_);
+    return found;
+}
+
+/// How many octets came. Reading with VMIN 0 gives 0 when nothing is there, and of a line that was hung up as
+/// well.
+Result<std::size_t, std::error_code> Tty::fetch(std::span<std::uint8_t> out)
+{
+    const ssize_t got = ::read(fd(), out.data(), out.size());
+    if (got > 0) return static_cast<std::size_t>(got);
+    if (got < 0 && errno != EAGAIN && errno != EINTR) return Failure{last_error()};
+    if (got == 0 && hung_up()) return Failure{std::make_error_code(std::errc::io_error)};
+    return std::size_t{0};
+}
+
+Result<Chunk, std::error_code> Tty::read(std::span<std::uint8_t> out)
+{
+    if (marked_) return read_marked(out);
+    const auto got = fetch(out);
+    if (!got) return Failure{got.error()};
+    return Chunk{.octets = out.first(*got), .more = *got == out.size()};
+}
+
+Result<Chunk, std::error_code> Tty::read_marked(std::span<std::uint8_t> out)
+{
+    Marked& m = *marked_;
+    bool filled = false;
+    if (m.begin == m.end) {
+        const auto got = fetch(m.raw);
+        if (!got) return Failure{got.error()};
+        if (*got == 0) return Chunk{};
+        m.begin = 0;
+        m.end = *got;
+        filled = m.end == m.raw.size();
+    }
+    const auto step = m.marks.undo(Bytes{m.raw}.subspan(m.begin, m.end - m.begin), out);
+    m.begin += step.used;
+    return Chunk{.octets = out.first(step.octets),
+                 .bad_character = step.bad_character,
+                 .more = filled || m.begin != m.end};
+}
+
+std::error_code Tty::write(Bytes octets)
+{
+    const auto limit =
+        2 * character_ * static_cast<std::int64_t>(octets.size()) + std::chrono::milliseconds{20};
+    std::optional<Instant>
+        give_up; // asked for only when the driver does not take all at once, which it nearly always does
+    while (!octets.empty()) {
+        const ssize_t taken = ::write(fd(), octets.data(), octets.size());
+        if (taken < 0 && errno != EAGAIN && errno != EINTR) return last_error();
+        if (taken > 0) octets = octets.subspan(static_cast<std::size_t>(taken));
+        if (octets.empty()) break;
+
+        const Instant now = monotonic_now();
+        if (!give_up) give_up = now + limit;
+        if (now >= *give_up) return std::make_error_code(std::errc::timed_out);
+        wait_for(fd(), POLLOUT, *give_up - now);
+    }
+    return {};
+}
+
+std::error_code Tty::send(Bytes telegram)
+{
+    const ssize_t taken = ::write(fd(), telegram.data(), telegram.size());
+    if (taken == static_cast<ssize_t>(telegram.size())) return {};
+    if (taken < 0 && errno != EAGAIN && errno != EINTR) return last_error();
+    flush_output(fd());
+    return std::make_error_code(std::errc::no_buffer_space);
+}
+
+std::error_code Tty::discard_input()
+{
+    if (marked_) {
+        marked_->begin = marked_->end = 0;
+        marked_->marks.reset();
+    }
+    return flush_input(fd()) ? std::error_code{} : last_error();
+}
+
+bool Tty::wait_readable(std::chrono::nanoseconds timeout)
+{
+    if (marked_ && marked_->begin != marked_->end) return true;
+    return wait_for(fd(), POLLIN, timeout);
+}
+
+std::optional<bool> Tty::transmitter_empty() const
+{
+    if (!tells_empty_) return std::nullopt;
+    const auto empty = io::transmitter_empty(fd());
+    if (!empty) tells_empty_ = errno != ENOTTY && errno != EINVAL && errno != EOPNOTSUPP;
+    return empty;
+}
+
+bool Tty::hung_up() const
+{
+    pollfd asked{.fd = fd(), .events = 0, .revents = 0};
+    return ::poll(&asked, 1, 0) > 0;
+}
+
+} // namespace dpslave::io

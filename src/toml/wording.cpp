@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dpslave/toml/wording.hpp"
+
+#include "dpslave/base/printable.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace dpslave::toml {
+
+std::string in_quotes(std::string_view text)
+{
+    return '"' + std::string{text} + '"';
+}
+
+bool has_control_characters(std::string_view text)
+{
+    while (!text.empty()) {
+        const std::size_t length =
+            std::max<std::size_t>(1, character_length(text)); // what is no UTF-8 was refused when it was read
+        if (is_control(text.substr(0, length))) return true;
+        text.remove_prefix(length);
+    }
+    return false;
+}
+
+std::string_view nearest(std::string_view wrong, std::span<const std::string> legal)
+{
+    return nearest(wrong, legal, std::max<std::size_t>(2, wrong.size() / 3));
+}
+
+std::string_view nearest(std::string_view wrong, std::span<const std::string> legal, std::size_t most)
+{
+    constexpr std::size_t longest = 64; // no key and no name of ours has so many octets
+    if (wrong.size() > longest) return {};
+    std::string_view best;
+    std::size_t best_distance = most + 1;
+    for (const std::string& candidate : legal) {
+        // Levenshtein's distance, row by row.
+        std::vector<std::size_t> row(candidate.size() + 1);
+        std::iota(row.begin(), row.end(), std::size_t{0});
+        for (std::size_t i = 0; i < wrong.size(); ++i) {
+            std::size_t diagonal = std::exchange(row[0], i + 1);
+            for (std::size_t j = 0; j < candidate.size(); ++j) {
+                const std::size_t replaced = diagonal + (wrong[i] == candidate[j] ? 0U : 1U);
+                diagonal = row[j + 1];
+                row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+            }
+        }
+        // Something of the word must be kept, or "ab" would be near to every key of two letters.
+        if (row.back() < best_distance && row.back() < std::max(wrong.size(), candidate.size())) {
+            best = candidate;
+            best_distance = row.back();
+        }
+    }
+    return best;
+}
+
+std::string listed(std::span<const std::string> legal)
+{
+    std::string out;
+    for (std::size_t i = 0; i < legal.size(); ++i) {
+        if (i > 0) out += i + 1 == legal.size() ? " or " : ", ";
+        out += in_quotes(legal[i]);
+    }
+    return out;
+}
+
+} // namespace dpslave::toml

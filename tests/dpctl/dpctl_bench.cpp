@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dpctl_bench.hpp"
+
+#include "control/fixtures.hpp"
+
+#include <fcntl.h>
+#include <grp.h>
+#include <poll.h>
+#include <pty.h>
+#include <sys/eventfd.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <utmp.h>
+
+#include <array>
+#include <csignal>
+#include <cstdlib>
+#include <stdexcept>
+
+namespace dpslave::test {
+namespace {
+
+constexpr int kPatience = 20'000; ///< ms
+constexpr uid_t kNobody = 65534;
+
+using control::Done;
+using control::Error;
+using control::Reply;
+
+} // namespace
+
+// ---------------------------------------------------------------- the daemon
+
+namespace {
+
+Json with_behind_each_text(Json value, const std::string& added)
+{
+    if (value.is_string()) return value.get<std::string>() + added;
+    if (value.is_structured())
+        for (Json& item : value) item = with_behind_each_text(std::move(item), added);
+    return value;
+}
+
+} // namespace
+
+Json FixtureDaemon::reply(const std::string& method) const
+{
+    return with_behind_each_text(fixture(method), behind_each_text_);
+}
+
+FixtureDaemon::FixtureDaemon(std::string behind_each_text)
+    : behind_each_text_(std::move(behind_each_text)), stop_(::eventfd(0, EFD_CLOEXEC))
+{
+    control::ServerSettings settings;
+    settings.socket = socket_;
+    settings.operator_group_name = "dpslaved";
+    auto server = control::Server::open(settings, handlers());
+    if (!server) throw std::runtime_error(server.error());
+    thread_ = std::thread([this, own = *std::move(server)]() mutable {
+        std::array<pollfd, 2> ready{{{own.fd(), POLLIN, 0}, {stop_, POLLIN, 0}}};
+        while (::poll(ready.data(), ready.size(), -1) > 0 && ready[1].revents == 0) {
+            own.on_ready();
+            for (const auto& [token, reply] : std::exchange(answers_, {})) own.complete(token, reply);
+            if (std::exchange(second_picture_due_, false)) {
+                Json picture = reply("Watch");
+                picture["stations"][0]["state"] = "Wait_Prm";
+                for (const std::uint64_t stream : own.streams()) own.push(stream, picture);
+            }
+        }
+    });
+}
+
+FixtureDaemon::~FixtureDaemon()
+{
+    ::eventfd_write(stop_, 1);
+    thread_.join();
+    ::close(stop_);
+}
+
+control::Handlers FixtureDaemon::handlers()
+{
+    control::Handlers all;
+    for (const auto& method : control::kMethods) {
+        const std::string name{method.name};
+        all[name] = [this, name](const Json& parameters, const control::Caller&) -> Reply {
+            const std::string station = parameters.value("station", "unwinder");
+            if (station == "unwinder" || station == "rewinder" || station == "5" || station == "16")
+                return Done{reply(name)};
+            const Json known = Json::array({"unwinder", "rewinder"});
+            return Error{"NoSuchStation", Json::object({{"station", station}, {"known", known}})};
+        };
+    }
+    all["ReadTag"] = [this](const Json& parameters, const control::Caller&) { return tag(parameters); };
+    all["WriteTag"] = [this](const Json& parameters, const control::Caller&) {
+        {
+            const std::lock_guard lock(mutex_);
+            written_ = parameters;
+        }
+        return tag(parameters);
+    };
+    all["Survey"] = [this](const Json& parameters, const control::Caller&) { return survey(parameters); };
+    all["SetTec"] = [this](const Json& parameters, const control::Caller&) -> Reply {
+        if (parameters.at("parameter") == "FAULT")
+            return Error{
+                "BadTecValue",
+                Json::object({{"parameter", "FAULT"}, {"value", "1"}, {"reason", "it is an output"}})};
+        const std::lock_guard lock(mutex_);
+        written_ = parameters;
+        return Done{reply("SetTec")};
+    };
+    all["Watch"] = [this](const Json&, const control::Caller&) {
+        second_picture_due_ = true;
+        return control::Stream{++last_number_, reply("Watch")};
+    };
+    return all;
+}
+
+Reply FixtureDaemon::survey(const Json& parameters)
+{
+    const int tag = parameters.at("tag").get<int>();
+    ++surveyed_[tag];
+    if (tag == 5 && surveyed_[tag] == 1) return Error{"Busy", Json::object()};
+    const std::map<int, const char*> texts{{1, "12.5"}, {4, ">1B0B"}, {5, "30."}, {9, "7."}};
+    const auto found = texts.find(tag);
+    const bool lost = tag == 5 && surveyed_[tag] == 2;
+    Json reply = {{"station", "unwinder"},
+                  {"tag", tag},
+                  {"mnemonic", "a" + std::to_string(tag)},
+                  {"outcome", lost                   ? "lost"
+                              : found != texts.end() ? "value"
+                              : tag == 3             ? "silence"
+                                                     : "denied"},
+                  {"text", nullptr},
+                  {"raw", nullptr},
+                  {"reason", nullptr}};
+    if (found != texts.end() && !lost) reply["text"] = found->second;
+    if (reply["outcome"] == "denied") reply["reason"] = "invalid tag";
+    return Done{reply};
+}
+
+Reply FixtureDaemon::tag(const Json& parameters)
+{
+    const auto number = parameters.at("tag").get<int>();
+    if (!parameters.contains("station"))
+        return Error{"StationRequired", Json::object({{"known", Json::array({"unwinder", "rewinder"})}})};
+    const std::uint64_t token = ++last_number_;
+    if (number == 1)
+        answers_.emplace_back(
+            token,
+            Error{"DriveRefused",
+                  Json::object({{"tag", 1}, {"reason", "read only" + behind_each_text_}, {"code", 1}})});
+    else if (number != 2)
+        answers_.emplace_back(token, Done{reply(parameters.contains("value") ? "WriteTag" : "ReadTag")});
+    return control::Later{token};
+}
+
+// ---------------------------------------------------------------- the program
+
+Dpctl::Dpctl(std::vector<std::string> arguments, As user, bool terminal)
+{
+    arguments.insert(arguments.begin(), DPCTL_PROGRAM);
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    std::array<int, 2> out{}, err{};
+    if (::pipe2(err.data(), O_CLOEXEC) != 0) throw std::runtime_error("pipe");
+    if (terminal ? ::openpty(&out[0], &out[1], nullptr, nullptr, nullptr) != 0
+                 : ::pipe2(out.data(), O_CLOEXEC) != 0)
+        throw std::runtime_error("output");
+    if (terminal) ::fcntl(out[0], F_SETFD, FD_CLOEXEC);
+
+    pid_ = ::fork();
+    if (pid_ == 0) {
+        if (terminal) ::login_tty(out[1]); // standard input and output, and the signals of its keys
+        if (!terminal) ::dup2(out[1], STDOUT_FILENO);
+        ::dup2(err[1], STDERR_FILENO);
+        if (user == As::nobody &&
+            (::setgroups(0, nullptr) != 0 || ::setgid(kNobody) != 0 || ::setuid(kNobody) != 0))
+            ::_exit(126);
+        ::execv(argv[0], argv.data());
+        ::_exit(127);
+    }
+    ::close(out[1]);
+    ::close(err[1]);
+    out_ = out[0];
+    err_ = err[0];
+}
+
+Dpctl::~Dpctl()
+{
+    if (pid_ > 0) {
+        ::kill(pid_, SIGKILL);
+        ::waitpid(pid_, nullptr, 0);
+    }
+    ::close(out_);
+    ::close(err_);
+}
+
+/// False: both outputs have ended, or nothing came for long.
+bool Dpctl::read_some()
+{
+    std::array<pollfd, 2> ready{{{out_, POLLIN, 0}, {err_, POLLIN, 0}}};
+    if (::poll(ready.data(), ready.size(), kPatience) <= 0) return false;
+    std::array<char, 4096> chunk;
+    bool more = false;
+    for (std::size_t i = 0; i < ready.size(); ++i) {
+        if (ready[i].revents == 0) continue;
+        const auto n = ::read(ready[i].fd, chunk.data(), chunk.size());
+        if (n > 0) (i == 0 ? ran_.out : ran_.err).append(chunk.data(), static_cast<std::size_t>(n));
+        if (n <= 0) { // ended; a pty says EIO
+            ::close(ready[i].fd);
+            (i == 0 ? out_ : err_) = -1;
+        }
+        more = true;
+    }
+    return more && (out_ >= 0 || err_ >= 0);
+}
+
+bool Dpctl::prints(const std::string& text)
+{
+    while (ran_.out.find(text) == std::string::npos)
+        if (!read_some()) return ran_.out.find(text) != std::string::npos;
+    return true;
+}
+
+void Dpctl::type(std::string_view keys)
+{
+    if (::write(out_, keys.data(), keys.size()) < 0) throw std::runtime_error("type");
+}
+void Dpctl::signal(int number)
+{
+    ::kill(pid_, number);
+}
+
+Ran Dpctl::wait()
+{
+    while (read_some()) {
+    }
+    int status = 0;
+    ::waitpid(std::exchange(pid_, -1), &status, 0);
+    ran_.exit = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    return ran_;
+}
+
+Ran dpctl(std::vector<std::string> arguments, Dpctl::As user)
+{
+    return Dpctl{std::move(arguments), user}.wait();
+}
+
+} // namespace dpslave::test

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A daemon of fixtures in a thread of this process, and the real program dpctl in a process of its own.
+#pragma once
+
+#include "control/bench.hpp"
+
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace dpslave::test {
+
+/// Serves the fixtures. Stations "unwinder" and "rewinder"; tags are answered later, as a drive does: tag 1
+/// is read only, tag 2 never gets an answer. FAULT of
+/// TEC OPTION cannot be set. A survey of tags 1 to 5 and 9 finds 12.5, no such tag, silence, >1B0B, 30.
+/// and 7.; tag 5 is Busy and then lost before it answers. Watch gives a first picture at once and a second
+/// one, in which the unwinder has left Data_Exch, as soon as somebody watches.
+class FixtureDaemon {
+public:
+    /// `behind_each_text`: is added to each text of each reply.
+    explicit FixtureDaemon(std::string behind_each_text = {});
+    FixtureDaemon(const FixtureDaemon&) = delete;
+    FixtureDaemon& operator=(const FixtureDaemon&) = delete;
+    ~FixtureDaemon();
+
+    std::string socket() const { return socket_.string(); }
+    /// The parameters of the last WriteTag or SetTec.
+    Json written() const
+    {
+        const std::lock_guard lock(mutex_);
+        return written_;
+    }
+
+private:
+    control::Handlers handlers();
+    control::Reply tag(const Json& parameters);
+    Json reply(const std::string& method) const;
+    control::Reply survey(const Json& parameters);
+
+    std::string behind_each_text_;
+    TempFolder folder_;
+    std::filesystem::path socket_ = folder_.path() / "control.sock";
+    std::vector<std::pair<std::uint64_t, control::Reply>> answers_;
+    bool second_picture_due_ = false;
+    std::uint64_t last_number_ = 0;
+    std::map<int, int> surveyed_; ///< by tag, how often; only the thread's
+    mutable std::mutex mutex_;
+    Json written_;
+    int stop_;
+    std::thread thread_;
+};
+
+/// What a dpctl printed and how it ended.
+struct Ran {
+    int exit = -1;
+    std::string out, err;
+};
+
+/// A running dpctl.
+class Dpctl {
+public:
+    enum class As { this_user, nobody };
+    /// `terminal`: its output and input are a pty.
+    Dpctl(std::vector<std::string> arguments, As user = As::this_user, bool terminal = false);
+    Dpctl(const Dpctl&) = delete;
+    Dpctl& operator=(const Dpctl&) = delete;
+    ~Dpctl();
+
+    /// Reads its output until `text` has come. False: it ended before, or nothing came for long.
+    bool prints(const std::string& text);
+    void type(std::string_view keys);
+    void signal(int number);
+    Ran wait();
+
+private:
+    bool read_some();
+    int pid_ = -1;
+    int out_ = -1, err_ = -1;
+    Ran ran_;
+};
+
+/// Runs dpctl with `arguments` to its end.
+Ran dpctl(std::vector<std::string> arguments, Dpctl::As user = Dpctl::As::this_user);
+
+} // namespace dpslave::test

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: Apache-2.0
+// `dpctl gsd` as a person calls it: exit codes, what is printed, files whole or not at all.
+#include "dpctl/cli/cli.hpp"
+#include "dpctl/gsd/gsd.hpp"
+#include "gsd/second_hand.hpp"
+
+#include <CLI/CLI.hpp>
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace dpslave {
+namespace {
+
+using test::content_of;
+using test::kSource;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+struct Ran {
+    int exit = -1;
+    std::string out, err;
+};
+
+Ran gsd_command(std::vector<std::string> arguments)
+{
+    CLI::App app{"test"};
+    dpctl::Action chosen;
+    dpctl::add_gsd(app, chosen);
+    arguments.insert(arguments.begin(), "gsd");
+    std::ostringstream out, err;
+    dpctl::Terminal terminal{out, err};
+    int exit = dpctl::kUsage;
+    try {
+        app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+        exit = chosen(dpctl::Options{}, terminal);
+    } catch (const CLI::ParseError& error) {
+        exit = app.exit(error, out, err) == 0 ? dpctl::kFine : dpctl::kUsage;
+    }
+    return {exit, out.str(), err.str()};
+}
+
+/// `gsd make` with the profiles of this tree.
+Ran make(std::vector<std::string> arguments)
+{
+    arguments.insert(arguments.begin(), {"make", "--profiles", (kSource / "config/profiles").string()});
+    return gsd_command(std::move(arguments));
+}
+
+std::vector<std::string> names_in(const std::filesystem::path& folder)
+{
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator{folder})
+        names.push_back(entry.path().filename());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+TEST(GsdCheckCommand, PrintsFindingsAsCompilersDoAndEndsWithASummary)
+{
+    const std::string file = kSource / "gsd/manual/620/EURO0533.GSD";
+    const Ran ran = gsd_command({"check", file});
+    EXPECT_EQ(ran.exit, dpctl::kFine) << "warnings alone are no refusal";
+    EXPECT_THAT(ran.out,
+                AllOf(StartsWith(file + ": warning: GSD_Revision is missing"),
+                      HasSubstr(file + ":37: warning: Min_Slave_Intervall stands here a second time"),
+                      EndsWith(file + ": 0 errors, 3 warnings\n")));
+    EXPECT_EQ(gsd_command({"check", "--strict", file}).exit, dpctl::kNo);
+}
+
+TEST(GsdCheckCommand, IsContentWithAMadeFile)
+{
+    const std::string file = kSource / "gsd/605/605_1649.GSD";
+    const Ran ran = gsd_command({"check", "--strict", file});
+    EXPECT_EQ(ran.exit, dpctl::kFine);
+    EXPECT_EQ(ran.out, file + ": nothing to complain about\n");
+}
+
+TEST(GsdCheckCommand, RefusesWhatCannotBeReadOrIsTooLong)
+{
+    const test::Folder folder;
+    EXPECT_THAT(gsd_command({"check", folder.path() / "none.gsd"}).err, HasSubstr("none.gsd cannot be read"));
+    EXPECT_EQ(gsd_command({"check", folder.path() / "none.gsd"}).exit, dpctl::kNo);
+    EXPECT_EQ(gsd_command({"check", folder.path()}).exit, dpctl::kNo) << "a folder";
+    const auto large = folder.write("large.gsd", std::string(1024 * 1024 + 1, ' '));
+    EXPECT_THAT(gsd_command({"check", large}).err, HasSubstr("larger than 1 MiB"));
+}
+
+TEST(GsdCheckCommand, SaysOfAnotherKindOfFileOnlyThatItIsNoGsdFile)
+{
+    const Ran ran = gsd_command({"check", (kSource / "README.md").string()});
+    EXPECT_EQ(ran.exit, 1);
+    EXPECT_THAT(ran.out, HasSubstr("this is no GSD file"));
+    EXPECT_THAT(ran.out, testing::Not(HasSubstr("warning:")));
+}
+
+TEST(GsdCheckCommand, PrintsNoControlCharactersOfAFile)
+{
+    const test::Folder folder;
+    const auto file = folder.write("EXMP0001.GSD", "#Profibus_DP\r\nCol\x1B[31mour\xFC = 1\r\n");
+    const std::string out = gsd_command({"check", file}).out;
+    EXPECT_EQ(out.find('\x1B'), std::string::npos);
+    EXPECT_THAT(out, HasSubstr("\"Col\\x1B[31mour\xC3\xBC\"")) << "Latin-1 shown in UTF-8";
+}
+
+TEST(GsdMakeCommand, PrintsTheFileWithoutOutput)
+{
+    const Ran ran = make({"--profile", "590"});
+    EXPECT_EQ(ran.exit, dpctl::kFine);
+    EXPECT_EQ(ran.out, content_of(kSource / "gsd/590/590_0533.GSD"));
+    EXPECT_EQ(ran.err, "");
+}
+
+TEST(GsdMakeCommand, WritesAWholeFileAndNothingBesides)
+{
+    const test::Folder folder;
+    const auto file = folder.path() / "UNWI0533.GSD";
+    const Ran ran = make({"--profile", "590", "--in", "55,57", "--out", "56", "--demand", "--output", file});
+    EXPECT_EQ(ran.exit, dpctl::kFine) << ran.err;
+    EXPECT_EQ(ran.out + ran.err, "");
+    EXPECT_THAT(names_in(folder.path()), ElementsAre("UNWI0533.GSD"));
+    EXPECT_THAT(test::second_hand(content_of(file)).cfg(), ElementsAre(0x73, 0x50, 0x50, 0x60));
+    const mode_t mask = ::umask(0);
+    ::umask(mask);
+    struct stat found {};
+    ASSERT_EQ(::stat(file.c_str(), &found), 0);
+    EXPECT_EQ(found.st_mode & 0777, 0666 & ~mask) << "readable as any other file";
+}
+
+TEST(GsdMakeCommand, LeavesAFileAloneThatIsThereUnlessItIsForced)
+{
+    const test::Folder folder;
+    const auto file = folder.write("MINE0533.GSD", "mine");
+    const Ran refused = make({"--profile", "590", "--output", file});
+    EXPECT_EQ(refused.exit, dpctl::kNo);
+    EXPECT_THAT(refused.err,
+                HasSubstr("it is there already: choose another name, or replace it with --force"));
+    EXPECT_EQ(content_of(file), "mine");
+    EXPECT_EQ(make({"--profile", "590", "--force", "--output", file}).exit, dpctl::kFine);
+    EXPECT_EQ(content_of(file), content_of(kSource / "gsd/590/590_0533.GSD"));
+    EXPECT_THAT(names_in(folder.path()), ElementsAre("MINE0533.GSD"));
+}
+
+TEST(GsdMakeCommand, WritesNothingWhenItRefuses)
+{
+    const test::Folder folder;
+    const auto file = folder.path() / "X.GSD";
+    const Ran ran = make({"--profile", "590", "--in", "4000", "--output", file});
+    EXPECT_EQ(ran.exit, dpctl::kNo);
+    EXPECT_EQ(ran.err, "dpctl: tag 4000 is none: tags of the profile 590 go from 1 to 2047.\n");
+    EXPECT_THAT(names_in(folder.path()), IsEmpty());
+    EXPECT_EQ(make({"--profile", "590", "--output", folder.path() / "no folder" / "X.GSD"}).exit, dpctl::kNo);
+}
+
+TEST(GsdMakeCommand, WarnsOfLengthsThatSomeMastersCannotTake)
+{
+    const Ran ran = make({"--profile", "605", "--in", "1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17"});
+    EXPECT_EQ(ran.exit, dpctl::kFine);
+    EXPECT_THAT(ran.err, HasSubstr("warning: 34 input octets are more than 32 octets"));
+}
+
+TEST(GsdMakeCommand, WarnsOfAFileNameThatToolsDoNotFind)
+{
+    const test::Folder folder;
+    const Ran ran =
+        make({"--profile", "2408f", "--ident", "0x1234", "--output", folder.path() / "EURO2400.GSD"});
+    EXPECT_EQ(ran.exit, dpctl::kFine);
+    EXPECT_THAT(ran.err, HasSubstr("does not end in 1234, the Ident_Number"));
+}
+
+TEST(GsdMakeCommand, TakesAMappingFileAndLetsTheCommandLineGoBefore)
+{
+    const std::string mapping = kSource / "gsd/mappings/gain-scheduling.toml";
+    const auto file = test::second_hand(make({"--mapping", mapping, "--ident", "0x1234"}).out);
+    EXPECT_THAT(file.octets("User_Prm_Data"), ElementsAre(0, 1, 0, 6, 0, 8, 0, 9, 0, 18, 0, 17));
+    const auto other =
+        test::second_hand(make({"--mapping", mapping, "--ident", "4660", "--in", "0x5,75"}).out);
+    EXPECT_EQ(other.number("Ident_Number"), 0x1234);
+    EXPECT_THAT(other.octets("User_Prm_Data"), ElementsAre(0, 5, 0, 75, 0, 6, 0, 8, 0, 9, 0, 18, 0, 17));
+    const test::Folder folder;
+    const auto bad = folder.write("bad.toml", "profile = 5\n");
+    EXPECT_THAT(make({"--mapping", bad}).err, StartsWith(bad.string() + ":1:"));
+}
+
+TEST(GsdMakeCommand, MakesFilesForEveryProfileWhoseIdentTheSiteMustSay)
+{
+    for (const char* name : {"584sv", "590plus", "690plus", "2408f", "2404f"}) {
+        EXPECT_EQ(make({"--profile", name}).exit, dpctl::kNo) << name;
+        const Ran ran = make({"--profile", name, "--ident", "0x7EA5"});
+        EXPECT_EQ(ran.exit, dpctl::kFine) << name;
+        EXPECT_THAT(test::told(ran.out, gsd::Reading::strict, "SITE7EA5.GSD"), IsEmpty()) << name;
+    }
+}
+
+TEST(GsdMakeCommand, NamesTheProfilesThatThereAre)
+{
+    const Ran ran = make({"--profile", "591"});
+    EXPECT_EQ(ran.exit, dpctl::kNo);
+    EXPECT_THAT(ran.err, HasSubstr("the profiles there: 2404f, 2408f, 584s, 584sv, 590,"));
+    EXPECT_EQ(make({"--profile", "../profiles/590"}).exit, dpctl::kNo);
+    EXPECT_EQ(make({}).exit, dpctl::kUsage);
+}
+
+/// A new device is data: a profile and a tag table in a folder of their own, and no line of C++.
+TEST(GsdMakeCommand, MakesTheFileOfADeviceThatSomebodyAdded)
+{
+    const test::Folder folder;
+    std::string profile = content_of(kSource / "config/profiles/605.toml");
+    profile = test::with(profile, "ident = 0x1649", "ident = 0x1D01");
+    profile = test::with(profile, "\"SSD Drives 605\"", "\"Line shaft 7\"");
+    profile = test::with(profile, "max_parameters         = 30", "max_parameters         = 4");
+    folder.write("profiles/mine.toml", profile);
+    std::filesystem::copy(kSource / "config/tags", folder.path() / "tags");
+    const Ran ran = gsd_command({"make", "--profiles", folder.path() / "profiles", "--profile", "mine"});
+    ASSERT_EQ(ran.exit, dpctl::kFine) << ran.err;
+    const auto file = test::second_hand(ran.out);
+    EXPECT_EQ(file.number("Ident_Number"), 0x1D01);
+    EXPECT_EQ(file.keys.at("Model_Name"), "\"Line shaft 7\"");
+    EXPECT_EQ(file.number("Max_Module"), 5);
+    EXPECT_THAT(test::told(ran.out, gsd::Reading::strict, "MINE1D01.GSD"), IsEmpty());
+}
+
+TEST(GsdMakeCommand, RefusesNumbersThatAreNone)
+{
+    for (const char* text : {"0", "x", "70000", "-1", "1.5", "0x", "5;6"})
+        EXPECT_EQ(make({"--profile", "590", std::string{"--in="} + text}).exit, dpctl::kUsage) << text;
+    EXPECT_EQ(make({"--profile", "590", "--ident", "0x10000"}).exit, dpctl::kUsage);
+    EXPECT_EQ(make({"--profile", "590", "--max-tsdr", "10"}).exit, dpctl::kUsage);
+}
+
+TEST(GsdShowCommand, PrintsTheMapWithNamesOctetsAndWords)
+{
+    const test::Folder folder;
+    const auto file = folder.write("SITE7EA5.GSD", make({"--profile", "2408f", "--ident", "0x7EA5"}).out);
+    const Ran ran =
+        gsd_command({"show", file, "--profile", "2408f", "--profiles", kSource / "config/profiles"});
+    EXPECT_EQ(ran.exit, dpctl::kFine) << ran.err;
+    EXPECT_EQ(ran.out,
+              "EUROTHERM CONTROLS, 2408f/2404f, Ident_Number 0x7EA5\n"
+              "Standard parameter mapping\n"
+              "\n"
+              "Inputs, from the slave to the master: 8 octets, 4 words\n"
+              "  octets    word    tag    value\n"
+              "  0-1       1       1      Process variable\n"
+              "  2-3       2       5      Working setpoint\n"
+              "  4-5       3       3      Output power %\n"
+              "  6-7       4       75     Summary output status word\n"
+              "\n"
+              "Outputs, from the master to the slave: 8 octets, 4 words\n"
+              "  octets    word    tag    value\n"
+              "  0-1       1       24     Setpoint 1\n"
+              "  2-3       2       25     Setpoint 2\n"
+              "  4-5       3       15     Select setpoint\n"
+              "  6-7       4       274    Acknowledge all alarms\n"
+              "\n"
+              "octets: places in the Data_Exchange telegram, counted from 0\n"
+              "word: counted from 1 behind Demand Data, as dpctl io and dpsim do; D1 to D4 are Demand "
+              "Data\n");
+}
+
+TEST(GsdShowCommand, OfADriveSpeaksOfNoExtendedTagsAndCountsDemandDataByItself)
+{
+    const test::Folder folder;
+    const auto file = folder.write("UNWI0533.GSD", make({"--profile", "590", "--in", "55", "--demand"}).out);
+    const Ran ran =
+        gsd_command({"show", file, "--profile", "590", "--profiles", kSource / "config/profiles"});
+    EXPECT_EQ(ran.out.find("extended tag"), std::string::npos) << ran.out;
+    EXPECT_THAT(ran.out, AllOf(HasSubstr("  0-1       D1      -      Demand Data: answer and tag"),
+                               HasSubstr("  2-3       D2      -      Demand Data: reserved"),
+                               HasSubstr("  8-9       1       55 ")));
+}
+
+TEST(GsdShowCommand, NamesTheParametersOfATableOfTheUser)
+{
+    const test::Folder folder;
+    const auto table = folder.write("mine.csv", "tag,name,type,decimals\n55,Dancer position,INT,2\n");
+    const Ran made = make({"--profile", "590", "--table", table, "--in", "55"});
+    EXPECT_EQ(made.exit, dpctl::kFine) << made.err;
+    const auto file = folder.write("UNWI0533.GSD", made.out);
+    EXPECT_THAT(gsd_command({"show", file, "--table", table}).out, HasSubstr("Dancer position"));
+    EXPECT_EQ(gsd_command({"show", file, "--table", kSource / "none.csv"}).exit, dpctl::kNo);
+}
+
+TEST(GsdShowCommand, ListsTheModulesWhereThereIsNoMapYet)
+{
+    const Ran ran = gsd_command({"show", kSource / "gsd/manual/584s-590/EURO0533.GSD"});
+    EXPECT_EQ(ran.exit, dpctl::kFine);
+    EXPECT_THAT(ran.out, AllOf(HasSubstr("13 at most"),
+                               HasSubstr("Process-Data-Input                 2 octets in   0 out")));
+}
+
+TEST(GsdShowCommand, RefusesWhatIsNoGsd)
+{
+    EXPECT_EQ(gsd_command({"show", kSource / "README.md"}).exit, dpctl::kNo);
+}
+
+TEST(GsdTypesCommand, WritesAllFiveOrNone)
+{
+    const test::Folder folder;
+    EXPECT_EQ(gsd_command({"types", "--output", folder.path()}).exit, dpctl::kFine);
+    EXPECT_THAT(names_in(folder.path()),
+                ElementsAre("EU0533TD.200", "EU0533TE.200", "EU0533TF.200", "EU0533TI.200", "EU0533TS.200"));
+    EXPECT_EQ(content_of(folder.path() / "EU0533TD.200"), content_of(kSource / "gsd/et200/EU0533TD.200"));
+
+    std::filesystem::remove(folder.path() / "EU0533TE.200");
+    const Ran again = gsd_command({"types", "--brief", "--output", folder.path()});
+    EXPECT_EQ(again.exit, dpctl::kNo);
+    EXPECT_THAT(again.err, HasSubstr("so none is written"));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "EU0533TE.200"));
+
+    EXPECT_EQ(gsd_command({"types", "--brief", "--force", "--output", folder.path()}).exit, dpctl::kFine);
+    EXPECT_THAT(content_of(folder.path() / "EU0533TF.200"), HasSubstr("\r\nEURO 584/590/620 ;\r\n"));
+    EXPECT_EQ(gsd_command({"types", "--output", folder.path() / "none"}).exit, dpctl::kNo);
+}
+
+TEST(GsdCommand, HasNoJsonAndSaysSo)
+{
+    std::ostringstream out, err;
+    dpctl::Terminal terminal{out, err};
+    const std::string file = kSource / "gsd/590/590_0533.GSD";
+    EXPECT_EQ(dpctl::run({"--json", "gsd", "check", file}, terminal), dpctl::kUsage);
+    EXPECT_EQ(err.str(), "dpctl gsd prints text only: leave --json out\n");
+    EXPECT_THAT(out.str(), IsEmpty());
+}
+
+TEST(GsdCommand, NeedsASubcommandAndHelpsWithEach)
+{
+    EXPECT_EQ(gsd_command({}).exit, dpctl::kUsage);
+    for (const char* command : {"check", "show", "make", "types"}) {
+        const Ran help = gsd_command({command, "--help"});
+        EXPECT_EQ(help.exit, dpctl::kFine) << command;
+        EXPECT_THAT(help.out, HasSubstr("Exit codes: 0 fine, 1 faulty or refused, 2 usage")) << command;
+    }
+}
+
+} // namespace
+} // namespace dpslave

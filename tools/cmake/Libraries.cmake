@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+# One static library for each folder of src/. 
+
+add_library(dpslave_flags INTERFACE)
+target_compile_options(dpslave_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wcast-align
+  -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion -Wformat=2 -Wimplicit-fallthrough
+  $<$<BOOL:${DPSLAVE_WARNINGS_AS_ERRORS}>:-Werror>)
+if(DPSLAVE_SANITIZE)
+  target_compile_options(dpslave_flags INTERFACE
+    -fsanitize=${DPSLAVE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>) # g++ guesses wrong in code that it has instrumented
+  target_link_options(dpslave_flags INTERFACE -fsanitize=${DPSLAVE_SANITIZE})
+endif()
+
+include(Hardening)
+target_link_libraries(dpslave_flags INTERFACE dpslave_hardening)
+
+# CMAKE_UNITY_BUILD compiles several files of a library at once, which more than halves the time. ALONE names those that
+# share the name of something local with a neighbour.
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 6)
+function(dpslave_alone)
+  if(ARGN)
+    set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endif()
+endfunction()
+
+# The table says which libraries there are and what each may open.
+set(libraries_table ${PROJECT_SOURCE_DIR}/src/libraries.txt)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${libraries_table})
+file(STRINGS ${libraries_table} rows REGEX "^[a-z]")
+set(DPSLAVE_LIBRARIES)
+foreach(row ${rows})
+  string(REGEX REPLACE " *\\| *" ";" columns "${row} ")
+  list(GET columns 0 name)
+  list(GET columns 2 opened)
+  list(GET columns 4 outside)
+  list(APPEND DPSLAVE_LIBRARIES ${name})
+  string(REGEX REPLACE "/[a-z_]+\\.hpp" "" opened "${opened}") # a library, whichever of its headers
+  string(REGEX REPLACE "([a-z]+)" "dpslave_\\1" opened "${opened}")
+  separate_arguments(opened)
+  separate_arguments(outside)
+  list(REMOVE_DUPLICATES opened)
+  set(dpslave_${name}_opens ${opened})
+  set(dpslave_${name}_outside ${outside})
+endforeach()
+
+# dpslave_library(NAME SOURCES ... ALONE ...) makes dpslave_NAME, which links what the table lets it open.
+function(dpslave_library name)
+  cmake_parse_arguments(arg "" "" "SOURCES;ALONE" ${ARGN})
+  dpslave_alone(${arg_ALONE})
+  add_library(dpslave_${name} STATIC ${arg_SOURCES})
+  target_include_directories(dpslave_${name} PUBLIC ${PROJECT_SOURCE_DIR}/include PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  target_compile_options(dpslave_${name} PRIVATE ${DPSLAVE_FORTIFY})
+  target_link_libraries(dpslave_${name} PUBLIC ${dpslave_${name}_opens} PRIVATE dpslave_flags ${dpslave_${name}_outside})
+endfunction()
+
+# dpslave_program(NAME SOURCES ... LINKS ...): LINKS is its library, if it has one, and what the table says.
+function(dpslave_program name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINKS" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  target_compile_options(${name} PRIVATE ${DPSLAVE_FORTIFY})
+  target_link_libraries(${name} PRIVATE dpslave_flags ${arg_LINKS})
+  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endfunction()
+
+# dpslave_test(NAME SOURCES ... LINKS ... ALONE ...) makes the program test_<name> and its ctest entries.
+# What is judged is optimised, its judge is not: that would cost more time than it saves.
+function(dpslave_test name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINKS;ALONE" ${ARGN})
+  dpslave_alone(${arg_ALONE})
+  add_executable(test_${name} ${arg_SOURCES})
+  target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests ${PROJECT_SOURCE_DIR}/src)
+  target_link_libraries(test_${name} PRIVATE dpslave_flags ${arg_LINKS} GTest::gmock GTest::gtest_main)
+  set_target_properties(test_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+  target_compile_options(test_${name} PRIVATE -O0 -g1)
+  target_compile_definitions(test_${name} PRIVATE DPSLAVE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  gtest_discover_tests(test_${name} TEST_PREFIX "${name}." NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 120)
+endfunction()
