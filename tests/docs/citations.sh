@@ -7,16 +7,16 @@
 #   C-19; TEST(X, C19_…)                             a line of its section 10
 #   EI-ASCII reference, section 3                    a section of docs/reference/drive-protocols.md
 #   (also "EI-ASCII and Modbus reference" and "Modbus reference")
-#   A-084, B-029a, X-48; an instance A084            a row of docs/manual-coverage.md
+#   A-084, B-029a, X-48; an instance A084            a row of docs/reference/manual-coverage.md
 #   HA389815                                         a manual that one of the three pages names
-#   docs/wiring.md, [text](wiring.md)                a page, by as much of its path as is cited
+#   docs/guide/wiring.md, [text](wiring.md)          a page, by as much of its path as is cited
 set -eu
 root=$1
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 wire=docs/reference/profibus-dp.md
 drive=docs/reference/drive-protocols.md
-rows=docs/manual-coverage.md
+rows=docs/reference/manual-coverage.md
 
 # ---- what there is: "kind name", one a line
 
@@ -156,8 +156,8 @@ faults_of() ( # ROOT
 
 # ---- would it notice?
 
-mkdir -p "$scratch/tree/src" "$scratch/tree/docs/reference"
-(cd "$scratch/tree" && mkdir include tests config && touch README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md docs/wiring.md)
+mkdir -p "$scratch/tree/src" "$scratch/tree/docs/reference" "$scratch/tree/docs/guide"
+(cd "$scratch/tree" && mkdir include tests config && touch README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md docs/guide/wiring.md)
 cat > "$scratch/tree/$wire" <<'END'
 ## 1. Physical layer
 ### 1.5 What a receiver tolerates (1.5), (see 1.9)
@@ -190,7 +190,7 @@ cat > "$scratch/tree/src/right.cpp" <<'END'
 /// reference 6.4, C2 and Wire reference, section 4.10.
 // EI-ASCII and Modbus reference, sections 1 to 3; EI-ASCII
 // reference, section 3. Section 4.10. On a wire 3.5 characters; HA389815 ch. 6; C-19, C-019, X-48, B-029a.
-TEST(Rows, P11_Is) TEST_F(Rows, C19_Is) INSTANTIATE_TEST_SUITE_P(A084, ...) docs/wiring.md, http://a.b/c.md
+TEST(Rows, P11_Is) TEST_F(Rows, C19_Is) INSTANTIATE_TEST_SUITE_P(A084, ...) docs/guide/wiring.md, http://a.b/c.md
 END
 cat > "$scratch/tree/src/wrong.cpp" <<'END'
 /// wire reference 4.13

@@ -1,15 +1,15 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# libraries.sh ROOT: docs/architecture.md says of each library what the table says that it may open, in the same order.
+# libraries.sh ROOT: docs/internals/architecture.md says of each library what the table says that it may open, in the same order.
 set -eu
 cd "$1"
 row() { sed -E 's/ *\| */|/g; s/ +$//'; }
 
-told=$(sed -n '/^| library |/,/^$/p' docs/architecture.md | sed '1,2d;$d' | row | sed 's/^|//' | cut -d'|' -f1,2)
+told=$(sed -n '/^| library |/,/^$/p' docs/internals/architecture.md | sed '1,2d;$d' | row | sed 's/^|//' | cut -d'|' -f1,2)
 ruled=$(grep '^[a-z]' src/libraries.txt | row | cut -d'|' -f1,3)
-[ -n "$told" ] || { echo "docs/architecture.md has no table of the libraries" >&2; exit 1; }
+[ -n "$told" ] || { echo "docs/internals/architecture.md has no table of the libraries" >&2; exit 1; }
 if [ "$told" != "$ruled" ]; then
-    printf 'docs/architecture.md says:\n%s\n\nsrc/libraries.txt says:\n%s\n' "$told" "$ruled" >&2
+    printf 'docs/internals/architecture.md says:\n%s\n\nsrc/libraries.txt says:\n%s\n' "$told" "$ruled" >&2
     exit 1
 fi
 for folder in src/*/; do

@@ -1,10 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# manual_coverage.sh ROOT: fails if a row of docs/manual-coverage.md is missing, doubled or without a proof, or if a
+# manual_coverage.sh ROOT: fails if a row of docs/reference/manual-coverage.md is missing, doubled or without a proof, or if a
 # proof names a test or a file that does not exist. It first makes sure that it would notice.
 set -eu
 cd "$1"
-table=docs/manual-coverage.md
+table=docs/reference/manual-coverage.md
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
@@ -119,7 +119,7 @@ A-054: there is neither a test nor a file dp.OptionBoard.No
 A-053: there is neither a test nor a file fdl.OptionBoard.RefusesFewerIdentifiersThanTags
 A-084: there is neither a test nor a file led.HA389815Chapter9/OptionBoardLeds.ShowTheRowOfTheManual/No
 A-010: there is neither a test nor a file led.No/OptionBoardLeds.ShowTheRowOfTheManual/*
-A-012: there is neither a test nor a file docs/wire.md
+A-012: there is neither a test nor a file docs/guide/wire.md
 END
 sed -E -f "$scratch/damages" "$table" > "$scratch/damaged.md"
 faults_of "$scratch/damaged.md" > "$scratch/noticed"

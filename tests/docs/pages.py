@@ -16,8 +16,9 @@ import sys
 LONGEST = 33  # words of a sentence
 # Written for people who install, operate and repair. The reference and the table of promises are for those who change the code.
 PAGES = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md", "debian/README.md", "gsd/README.md",
-         "config/tags/README.md", "docs/*.md", "docs/devices/*.md", "docs/man/*.scd"]
-NOT_SENTENCES = ["docs/manual-coverage.md", "docs/architecture.md", "docs/drive-answers.md", "docs/devices/tag-table.md"]
+         "config/tags/README.md", "docs/**/*.md", "docs/man/*.scd"]
+NOT_SENTENCES = ["docs/reference/manual-coverage.md", "docs/reference/profibus-dp.md", "docs/reference/drive-protocols.md",
+                 "docs/internals/architecture.md", "docs/internals/drive-answers.md", "docs/devices/tag-table.md"]
 
 
 def pages(root):

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Which answer belongs to which question: the one judgement of both protocols. A question whose answer has
 /// not come is owed by its drive, and an answer is taken only where it can belong to no other one.
-/// Pure: it is told questions and answers with their times. docs/drive-answers.md argues the rules.
+/// Pure: it is told questions and answers with their times. docs/internals/drive-answers.md argues the rules.
 #pragma once
 
 #include "dpslave/base/bytes.hpp"
