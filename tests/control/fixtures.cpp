@@ -15,7 +15,7 @@ const char* const kBus =
 
 const char* const kStations = R"([
   {"name":"unwinder","address":5,"profile":"590","device":"590 with PROFIBUS-DP option board","state":"Data_Exch","master":2,
-   "watchdog_ms":100,"min_tsdr":11,"groups":129,"sync":false,"freeze":true,"clear":false,"held":false,"ride":null,"silent_because":null,"stat_diag":false,"diag_pending":false,"parameters":2,
+   "watchdog_ms":100,"min_tsdr":11,"groups":129,"sync":false,"freeze":false,"clear":false,"held":false,"ride":null,"silent_because":null,"stat_diag":false,"diag_pending":false,"parameters":2,
    "demand_data":true,"left_count":1,"left_because":"watchdog expired","left_code":"watchdog",
    "drive":{"line":"p3","port":"/dev/ttyS2","protocol":"ei-ascii","unit":"00","link":"answers","port_open":true,"ever_answered":true,"baud":9600,"format":"7E1","timeout_ms":200,"cycle_ms":123.4,"reads":4000,
             "writes":1,"silences":3,"refusals":0,"losses":1,"last_trouble":null}},
@@ -81,9 +81,9 @@ std::map<std::string, json> all()
     json watched_words = json::array();
     watched_words.push_back({{"name", "unwinder"}, {"words", words}});
     json io = json::parse(
-        R"({"stations":[{"name":"unwinder","address":5,"state":"Data_Exch","may_write":true,"clear":false,
+        R"({"stations":[{"name":"unwinder","address":5,"state":"Data_Exch","may_write":true,"clear":false,"sync":false,"freeze":false,
         "demand":{"request":[0,0,4096,7],"reply":[0,5000,4096,7],"words":"reads tag 7: answered"}},
-       {"name":"rewinder","address":16,"state":"Wait_Prm","may_write":false,"clear":false,"words":[],"demand":null}]})");
+       {"name":"rewinder","address":16,"state":"Wait_Prm","may_write":false,"clear":false,"sync":false,"freeze":false,"words":[],"demand":null}]})");
     io["stations"][0]["words"] = words;
     const json tag =
         json::parse(R"({"station":"unwinder","tag":7,"name":"SPEED FEEDBACK","raw":5000,"value":"50.00"})");

@@ -59,16 +59,19 @@ TEST(DpctlStatus, NamesWhatLooksNormalAndIsNot)
     reply["bus"]["port_open"] = false;
     Json& station = reply["stations"][0];
     station["clear"] = true;
+    station["sync"] = station["freeze"] = true;
     station["ride"] = Json::parse(R"({"ends_in_ms":4200.0})");
     station["silent_because"] = "FAULT is PARAMETER, the station is silent on the bus.";
     station["drive"]["port_open"] = false;
 
     const std::string picture = render_status(reply, Look{false, 120});
-    for (const char* said : {"/dev/ttyS1 has vanished", "Data_Exch in Clear, RIDE THROUGH", "port gone",
-                             "unwinder: the master is in Clear: 0 goes to every output of the drive",
-                             "its outputs stand for 4.2 s more",
-                             "unwinder: FAULT is PARAMETER, the station is silent on the bus.",
-                             "the port of the drive line, /dev/ttyS2, is gone or cannot be opened"})
+    for (const char* said :
+         {"/dev/ttyS1 has vanished", "Data_Exch in Clear, Sync, Freeze, RIDE THROUGH", "port gone",
+          "unwinder: Sync holds the outputs", "unwinder: Freeze holds the inputs",
+          "unwinder: the master is in Clear: 0 goes to every output of the drive",
+          "its outputs stand for 4.2 s more",
+          "unwinder: FAULT is PARAMETER, the station is silent on the bus.",
+          "the port of the drive line, /dev/ttyS2, is gone or cannot be opened"})
         EXPECT_NE(picture.find(said), std::string::npos) << said << '\n' << picture;
 }
 
@@ -90,6 +93,15 @@ TEST(DpctlIo, DoesNotSayOfAMasterInClearThatItsOutputsGoToTheDrive)
 
     EXPECT_EQ(render_io(reply, false).find("outputs go to the drive"), std::string::npos);
     EXPECT_NE(render_io(reply, false).find("the master is in Clear, 0 goes to every output"),
+              std::string::npos);
+}
+
+TEST(DpctlIo, SaysWhichWordsSyncAndFreezeHold)
+{
+    Json reply = fixture("GetIo");
+    reply["stations"][0]["sync"] = reply["stations"][0]["freeze"] = true;
+
+    EXPECT_NE(render_io(reply, false).find("Sync holds the outputs; Freeze holds the inputs"),
               std::string::npos);
 }
 
@@ -138,7 +150,7 @@ unwinder, address 5
   watchdog        100 ms
   min T_SDR       11 T_bit
   groups          1, 8
-  Sync, Freeze    off, on
+  Sync, Freeze    off, off
   diagnosis       nothing new
   parameters      2 and Demand Data
   left Data_Exch  1 time, the last time: watchdog expired

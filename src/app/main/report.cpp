@@ -342,6 +342,8 @@ json io_json(const StationView& station, Instant now)
             {"state", dp::text(bus.state)},
             {"may_write", bus.may_write},
             {"clear", bus.clear},
+            {"sync", bus.sync},
+            {"freeze", bus.freeze},
             {"words", words_json(station, now)},
             {"demand", demand}};
 }

@@ -22,8 +22,11 @@ std::string hex_words(const Json& words)
 
 std::string outputs_text(const Json& s)
 {
+    std::string out = "outputs go to the drive";
     if (!flag(s, "may_write")) return "nothing is written to the drive";
-    return flag(s, "clear") ? "the master is in Clear, 0 goes to every output" : "outputs go to the drive";
+    if (flag(s, "sync")) out = "Sync holds the outputs";
+    if (flag(s, "clear")) out = "the master is in Clear, 0 goes to every output";
+    return flag(s, "freeze") ? out + "; Freeze holds the inputs" : out;
 }
 
 std::string demand_lines(const Json& demand, Look look)

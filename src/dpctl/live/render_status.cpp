@@ -55,6 +55,8 @@ std::string state_text(const Json& s)
     std::string result = text(s, "state");
     if (flag(s, "held")) result += ", held";
     if (flag(s, "clear")) result += " in Clear";
+    if (flag(s, "sync")) result += ", Sync";
+    if (flag(s, "freeze")) result += ", Freeze";
     if (!part(s, "ride").empty()) result += ", RIDE THROUGH";
     return result;
 }
@@ -81,6 +83,9 @@ std::string remarks(const Json& s, Look look)
     if (flag(s, "held"))
         add("held at the start: the scale of a tag is not known; dpctl diag names tag and answer");
     if (flag(s, "clear")) add("the master is in Clear: 0 goes to every output of the drive");
+    if (flag(s, "sync")) add("Sync holds the outputs: new values wait for the next Sync or Unsync");
+    if (flag(s, "freeze"))
+        add("Freeze holds the inputs: the master gets old values until the next Freeze or Unfreeze");
     if (!part(s, "ride").empty()) add("RIDE THROUGH: " + ride_text(s));
     if (const std::string why = text(s, "silent_because", ""); !why.empty()) add(why);
     const Json& d = part(s, "drive");
