@@ -102,7 +102,10 @@ Judgement Slave::judge_set_prm(const fdl::Indication& request)
 {
     ++counters_.set_prm;
     if (request.data.size() < kPrmHeader) return {Trigger::prm_short};
-    if (machine_.is_foreign(request.sa)) return {Trigger::prm_foreign};
+    if (machine_.is_foreign(request.sa)) {
+        ++counters_.foreign_prm;
+        return {Trigger::prm_foreign};
+    }
     prm_seen_.assign(request.data);
     switch (lock_of(request.data)) {
         case Lock::neither: return {Trigger::prm_min_tsdr};

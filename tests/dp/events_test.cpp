@@ -76,6 +76,7 @@ TEST_F(Events, AForeignSetPrmIsTold)
     ASSERT_EQ(told.size(), 1u);
     EXPECT_EQ(told[0].kind, Kind::foreign_set_prm);
     EXPECT_EQ(told[0].master, 9);
+    EXPECT_EQ(seen().counters.foreign_prm, 1u);
 }
 
 TEST_F(Events, AMasterWithoutWatchdogIsWarnedOf)

@@ -369,10 +369,11 @@ TEST(DpctlWithoutDaemon, EndsWith3AndSaysWhatToDo)
         const Ran ran = dpctl(all);
         EXPECT_EQ(ran.exit, 3) << arguments[0];
         EXPECT_EQ(ran.out, "") << arguments[0];
-        EXPECT_EQ(
-            ran.err,
-            "dpctl: nothing answers on /nonexistent/control.sock (No such file or directory)\n"
-            "Is dpslaved running? Ask: systemctl status dpslaved, or start it: dpslaved --config FILE\n")
+        EXPECT_EQ(ran.err,
+                  "dpctl: nothing answers on /nonexistent/control.sock (No such file or directory)\n"
+                  "Is dpslaved running? Ask: systemctl status dpslaved, or start it: dpslaved --config FILE\n"
+                  "journalctl -u dpslaved says why it does not start.\n"
+                  "Without dpslaved no station is on the bus: the lamps are off, as without power.\n")
             << arguments[0];
     }
 }

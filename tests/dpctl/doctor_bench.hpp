@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <optional>
 
 namespace dpslave::dpctl {
@@ -27,7 +28,6 @@ protected:
     {
         replies.status = fixture("GetStatus");
         replies.status["stations"].erase(1);
-        station()["freeze"] = false;
         station()["left_count"] = 0;
         station()["left_because"] = nullptr;
         replies.info = fixture("GetInfo");
@@ -64,24 +64,27 @@ protected:
         Json& counters = replies.counters["groups"][group]["counters"];
         for (std::size_t i = 0; i < counters.size(); ++i)
             if (counters[i].at("name") == name) counters.erase(i--);
-        counters.push_back({{"name", name},
-                            {"value", value},
-                            {"meaning", ""},
-                            {"minute", minute},
-                            {"last_age_ms", age ? Json(*age) : Json(nullptr)},
-                            {"since_age_ms", minute > 0 ? Json(age.value_or(0)) : Json(nullptr)}});
+        counters.push_back(
+            {{"name", name},
+             {"value", value},
+             {"meaning", ""},
+             {"minute", minute},
+             {"last_age_ms", age ? Json(*age) : Json(nullptr)},
+             {"since_age_ms", minute > 0 ? Json(std::max(age.value_or(0), 30'000.0)) : Json(nullptr)}});
     }
     /// No telegram of the master came for `ms`.
     void hears_nothing_for(double ms)
     {
         for (const char* name : {"octets", "telegrams", "checked", "requests"})
             set_count(0, name, 50'000, 100, ms);
+        bus()["last_telegram_age_ms"] = ms;
         is_not_asked();
     }
     void is_not_asked() { set_count(1, "data_exchange", 50'000, 0, 300'000.0); }
     void never_heard_anything()
     {
         replies.counters["groups"][0]["counters"].clear();
+        bus()["last_telegram_age_ms"] = nullptr;
         is_not_asked();
     }
     void drive_was_never_heard()

@@ -65,7 +65,7 @@ unwinder        5  Data_Exch  silent  red off, green flashing 2 Hz: data
      unit since.
    - dpctl read TAG asks the drive at once.
 
-2. Internal communications fault (HA389815 chapter 9)
+the manual's list: Internal communications fault (HA389815 chapter 9)
    unwinder: unit 00 on p3 (/dev/ttyS2, ei-ascii) does not answer: 3 requests
              unanswered
    - Check that PROTOCOL of the drive is what the gateway's port needs (for the
@@ -80,6 +80,18 @@ line length of a segment at 187.5 kbit/s: cable A 1000 m, cable B 600 m
 termination: at both ends of the segment and nowhere else, 390 ohm to +5 V, 220
 ohm between B and A, 390 ohm to 0 V
 )"));
+}
+
+TEST_F(Doctor, DoesNotRepeatTheFirstCauseInTheManualsList)
+{
+    station()["state"] = "Wait_Prm";
+    never_heard_anything();
+
+    const std::string said =
+        render_doctor(replies, diagnose(replies, ""), earlier_troubles(replies, ""), "", Look{false, 200});
+    EXPECT_THAT(said, HasSubstr("\nthe manual's list: External communications fault (HA389815 chapter 9)\n"
+                                "   - Check the terminal connections"));
+    EXPECT_EQ(said.find("not one octet"), said.rfind("not one octet")) << said;
 }
 
 TEST_F(Doctor, SaysThatAllIsWell)
@@ -105,8 +117,6 @@ TEST_F(Doctor, AsksOnlyForTheStationThatIsMeant)
 {
     replies.status = fixture("GetStatus");
     replies.status["stations"][0]["left_count"] = 0;
-
-    replies.status["stations"][0]["freeze"] = false;
     EXPECT_THAT(diagnose(replies, "unwinder"), IsEmpty());
     EXPECT_EQ(diagnose(replies, "16").size(), 3u); // the drive, and the lists for its lamps
 }

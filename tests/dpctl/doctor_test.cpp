@@ -52,6 +52,7 @@ TEST_F(Doctor, TellsAWrongRateFromSilenceAndSaysWhichOneIsConfigured)
     bus()["configured_baud"] = 500'000;
     set_count(0, "octets", 9'000, 600, 500.0);
     set_count(0, "checked", 0, 0, std::nullopt);
+    bus()["last_telegram_age_ms"] = nullptr;
 
     EXPECT_THAT(found(), ElementsAre("bus.rate", "board.external"));
     EXPECT_EQ(evidence("bus.rate"),
@@ -60,6 +61,68 @@ TEST_F(Doctor, TellsAWrongRateFromSilenceAndSaysWhichOneIsConfigured)
 
     set_count(0, "checked", 40, 0, 300'000.0);
     EXPECT_THAT(evidence("bus.rate"), HasSubstr("the last telegram with a checksum was heard 5 min ago"));
+}
+
+TEST_F(Doctor, SaysWhichRateTheSearchLeavesOut)
+{
+    station()["state"] = "Wait_Prm";
+    never_heard_anything();
+    bus()["configured_baud"] = nullptr;
+    bus()["baud_state"] = "Baud_Search";
+    set_count(0, "octets", 9'000, 600, 500.0);
+
+    EXPECT_EQ(found().front(), "bus.rate");
+    EXPECT_THAT(evidence("bus.rate"), HasSubstr("all but 45.45 kbit/s"));
+    EXPECT_THAT(steps("bus.rate"), HasSubstr("baud = 45450"));
+}
+
+TEST_F(Doctor, BlamesNothingBeforeAMasterCanHaveAsked)
+{
+    station()["state"] = "Wait_Prm";
+    is_not_asked();
+    replies.status["uptime_ms"] = 1'500;
+    EXPECT_THAT(found(), ElementsAre("station.just_started"));
+    EXPECT_EQ(evidence("station.just_started"),
+              "no master has asked address 5 yet; dpslaved has run for 1.5 s");
+
+    never_heard_anything();
+    EXPECT_THAT(found(), ElementsAre("station.just_started")) << "not a telegram was heard either";
+
+    is_technology_box(0, "NONE", 4);
+    EXPECT_THAT(found(), ElementsAre("station.just_started")) << "NETWORK STATE is BAUD SEARCH";
+
+    replies.tec["stations"].clear();
+    is_controller();
+    EXPECT_THAT(found(), ElementsAre("station.just_started"));
+
+    replies.status["uptime_ms"] = 20'000;
+    EXPECT_EQ(found().front(), "bus.silent");
+}
+
+TEST_F(Doctor, BelievesATelegramThatTheCountersDoNotHaveYet)
+{
+    hears_nothing_for(20'000);
+    bus()["last_telegram_age_ms"] = 5.0;
+    station()["watchdog_ms"] = 100;
+
+    EXPECT_THAT(found(), IsEmpty()) << "the master has just come back";
+}
+
+TEST_F(Doctor, DoesNotSayThatOutputsOfAnExchangeThatHasJustBegunStand)
+{
+    station()["watchdog_ms"] = nullptr;
+    set_count(1, "data_exchange", 0, 0, std::nullopt);
+
+    EXPECT_THAT(found(), IsEmpty());
+}
+
+TEST_F(Doctor, NamesTwoMastersThatWantTheSameSlave)
+{
+    count_of_station("foreign_prm", 3);
+
+    EXPECT_THAT(found(), ElementsAre("station.two_masters"));
+    EXPECT_EQ(evidence("station.two_masters"),
+              "master 2 has this slave, and another master sent 3 Set_Prm in the last minute");
 }
 
 TEST_F(Doctor, NamesTheAddressThatTheMasterAsksForInThePlaceOfOurs)
@@ -83,10 +146,6 @@ TEST_F(Doctor, NamesAStationThatNoMasterAsks)
     is_not_asked();
     EXPECT_THAT(found(), ElementsAre("station.not_asked", "board.external"));
     EXPECT_EQ(evidence("board.external"), "telegrams are heard, but no master asks address 5");
-
-    set_count(0, "checked", 0, 0, std::nullopt);
-    replies.status["uptime_ms"] = 1'500;
-    EXPECT_EQ(evidence("board.external"), "no telegram has been heard yet; the daemon has run for 1.5 s");
 
     station()["state"] = "Wait_Cfg";
     EXPECT_EQ(evidence("board.external"), "the master has parameterised address 5 and sends no Chk_Cfg");
@@ -162,6 +221,28 @@ TEST_F(Doctor, FindsAnAddressThatIsUsedTwice)
     EXPECT_THAT(found(), ElementsAre("bus.double_address"));
     EXPECT_EQ(evidence("bus.double_address"),
               "2 telegrams of another device with one of our addresses as the sender in the last minute");
+}
+
+TEST_F(Doctor, TellsATransceiverThatHearsItselfFromAnAddressThatIsUsedTwice)
+{
+    count("replies", 400);
+    count("own_address", 398);
+    EXPECT_THAT(found(), ElementsAre("bus.echo"));
+    EXPECT_EQ(evidence("bus.echo"),
+              "398 of 400 replies came back to the gateway in the last minute, and the master goes on");
+    EXPECT_THAT(steps("bus.echo"), HasSubstr("echo = \"on\" under [bus]"));
+
+    count("retries", 200);
+    EXPECT_EQ(found().front(), "bus.double_address") << "another device spoils the replies";
+}
+
+TEST_F(Doctor, NamesAnEchoThatDoesNotComeAndNotTheFlawsThatFollowFromIt)
+{
+    count("echo_missing", 700);
+    count("flaw: start delimiter", 650);
+
+    EXPECT_THAT(found(), ElementsAre("bus.no_echo"));
+    EXPECT_EQ(evidence("bus.no_echo"), "the echo of 700 replies did not come in the last minute");
 }
 
 // ---------------------------------------------------------------- HA463561U002, Troubleshooting
@@ -379,6 +460,16 @@ TEST_F(Doctor, NoiseThatGoesOnIsNotLostAmongGoodTelegramsAndSaysSinceWhen)
                                      "30000 valid telegrams in the last minute, since 12 min");
 }
 
+TEST_F(Doctor, OneBurstOfFlawsIsAPlugOrASwitchAndNoDisturbedLine)
+{
+    set_count(0, "flaw: start delimiter", 60, 60, 20'000.0);
+    replies.counters["groups"][0]["counters"].back()["since_age_ms"] = 21'000.0;
+    EXPECT_THAT(found(), IsEmpty());
+
+    replies.counters["groups"][0]["counters"].back()["since_age_ms"] = 22'000.0;
+    EXPECT_THAT(found(), ElementsAre("bus.flaws"));
+}
+
 TEST_F(Doctor, WhatIsOverIsOneLineWithCountAndAge)
 {
     set_count(0, "flaw: checksum", 400, 0, 300'000.0);
@@ -394,9 +485,24 @@ TEST_F(Doctor, WhatIsOverIsOneLineWithCountAndAge)
     EXPECT_EQ(earlier[2].age_ms, 1'200'000.0);
 }
 
+TEST_F(Doctor, AnExchangeThatTheMasterEndsByItselfIsNoFaultOfTheCable)
+{
+    count_of_station("left_data_exchange", 6);
+    for (const char* const code : {"unlock", "new_parameters"}) {
+        station()["left_code"] = code;
+        EXPECT_THAT(found(), ElementsAre("station.restarts")) << code;
+    }
+    station()["left_code"] = "output_length";
+    EXPECT_THAT(found(), ElementsAre("station.output_length"));
+
+    is_controller();
+    EXPECT_THAT(found(), ElementsAre("station.output_length"));
+}
+
 TEST_F(Doctor, AStationThatLeavesMoreThanOnceInAMinuteIsRestless)
 {
-    station()["left_because"] = "the master released the slave";
+    station()["left_because"] = "the watchdog expired";
+    station()["left_code"] = "watchdog";
     count_of_station("left_data_exchange", 1);
     EXPECT_THAT(found(), IsEmpty());
 
@@ -465,6 +571,29 @@ INSTANTIATE_TEST_SUITE_P(
                     RefusedTag{"OnlyInConfiguration", "", "not_config_mode", "station.not_now"},
                     RefusedTag{"Refused", "refused", "unsupported_type", "station.refused"}),
     [](const auto& row) { return row.param.name; });
+
+TEST_F(Doctor, ADriveThatKnowsNoneOfTheTagsIsAnotherOne)
+{
+    word_is(0, "invalid tag");
+    EXPECT_THAT(found(), ElementsAre("station.tags")) << "one tag alone may be a wrong number";
+
+    drive_refuses(75, "invalid_tag", "tag 75: exception 2 (illegal data address)");
+    EXPECT_THAT(found(), ElementsAre("station.other_device"));
+    EXPECT_THAT(steps("station.other_device"), AllOf(HasSubstr("profile"), HasSubstr("tag table")));
+
+    word_is(0, "good");
+    EXPECT_THAT(found(), ElementsAre("station.tags"));
+}
+
+TEST_F(Doctor, AnAnswerThatDoesNotFitItsRowIsAFaultOfTheTable)
+{
+    word_is(0, "refused");
+    replies.io["stations"][0]["words"][0]["answer"] = "12.5";
+
+    EXPECT_THAT(found(), ElementsAre("station.other_type"));
+    EXPECT_THAT(evidence("station.other_type"),
+                AllOf(HasSubstr("answers '12.5'"), HasSubstr("the table is 590.csv")));
+}
 
 // ---------------------------------------------------------------- the line of the drive
 
@@ -547,6 +676,33 @@ TEST_F(Doctor, ADriveThatWasLateAWhileAgoMayBeSilentNow)
     set_count(1, "drive_late", 23, 23, 40'000.0);
 
     EXPECT_EQ(found().front(), "drive.silent");
+}
+
+TEST_F(Doctor, ADriveThatComesAndGoesIsOneCauseWhetherItAnswersNowOrNot)
+{
+    set_count(1, "drive_losses", 4, 4, 6'000.0);
+    count_of_station("drive_silences", 200);
+    EXPECT_THAT(found(), ElementsAre("drive.unsteady"));
+    EXPECT_THAT(evidence("drive.unsteady"), HasSubstr("it was lost 4 times in the last minute"));
+
+    station()["drive"]["link"] = "silent";
+    EXPECT_THAT(found(), ElementsAre("drive.unsteady", "board.internal"));
+
+    set_count(1, "drive_losses", 4, 4, 40'000.0);
+    EXPECT_EQ(found().front(), "drive.silent") << "it did not come back";
+}
+
+TEST_F(Doctor, NamesTheOnlyTagThatADriveDoesNotAnswer)
+{
+    set_count(1, "drive_losses", 4, 4, 6'000.0);
+    Json& words = replies.io["stations"][0]["words"];
+    const Json once_more = words[0];
+    words.push_back(once_more);
+    words.back()["tag"] = 57;
+    words.back()["age_ms"] = 14'600.0;
+    words[0]["age_ms"] = 40.0;
+
+    EXPECT_THAT(evidence("drive.unsteady"), HasSubstr("; tag 57 was not read for 14.6 s"));
 }
 
 TEST_F(Doctor, ARequestThatWasSpoiltOnItsWaySaysNothingAboutItsTag)

@@ -69,6 +69,7 @@ private:
 TEST(DoctorOfTheBus, NamesSilenceACutCableAndAPortThatVanishes)
 {
     Gateway gateway;
+    EXPECT_EQ(first_cause(gateway), "station.just_started") << "no cause before one can be known";
     EXPECT_TRUE(first_cause_is(gateway, "bus.silent")) << "no master at all";
     EXPECT_THAT(evidence(gateway), HasSubstr("not one octet"));
 
@@ -167,6 +168,30 @@ TEST(DoctorOfTheMaster, NamesClear)
 
     ASSERT_TRUE(master.does("operate"));
     EXPECT_TRUE(first_cause_is(gateway, "well"));
+}
+
+TEST(DoctorOfTheMaster, NamesASecondMasterThatHasThisSlaveInItsProject)
+{
+    Gateway gateway;
+    Master master{gateway, {"--tags", "55,56w"}};
+    ASSERT_TRUE(master.does("start 30s"));
+    EXPECT_TRUE(first_cause_is(gateway, "well"));
+
+    EXPECT_TRUE(master.does("send 68 0C 0C 68 85 83 6D 3D 3E B8 02 0A 0B 05 33 00 F7 16"));
+    EXPECT_TRUE(first_cause_is(gateway, "station.two_masters"));
+    EXPECT_THAT(evidence(gateway), HasSubstr("master 2 has this slave"));
+}
+
+TEST(DoctorOfTheMaster, SaysOfOutputsOfAWrongLengthThatTheyAreThat)
+{
+    Gateway gateway;
+    Master master{gateway, {"--tags", "55,56w"}};
+    for (int i = 0; i < 2; ++i) {
+        ASSERT_TRUE(master.does("start 30s"));
+        EXPECT_TRUE(master.does("try send 68 04 04 68 05 02 6D 01 75 16"));
+        EXPECT_TRUE(gateway.daemon().says("Data_Exchange of a wrong length"));
+    }
+    EXPECT_TRUE(first_cause_is(gateway, "station.output_length"));
 }
 
 TEST(DoctorOfTheMaster, NamesAWatchdogThatIsShorterThanItsCycle)
@@ -346,6 +371,38 @@ TEST_F(SickDrive, WhosePortVanishesIsNamedAndWellAgainWhenItReturns)
 
     gateway->plug_drive();
     EXPECT_TRUE(is("well"));
+}
+
+TEST_F(SickDrive, WithALoosePlugComesAndGoes)
+{
+    begins();
+    gateway->drive().tell("lose 1/2");
+
+    EXPECT_TRUE(is("drive.unsteady"));
+    EXPECT_THAT(steps(), HasSubstr("plugs at both ends"));
+}
+
+TEST(DoctorOfTheDrive, ThatKnowsNoneOfTheTagsIsOfAnotherType)
+{
+    Gateway gateway;
+    Master master{gateway, {"--tags", "1201,1202"}};
+    ASSERT_TRUE(master.does("start 30s"));
+
+    EXPECT_TRUE(first_cause_is(gateway, "station.other_device"));
+}
+
+TEST(DoctorOfTheDrive, NamesATableThatGivesAnotherTypeThanTheDrive)
+{
+    Misconfigured wrong{"tags = ", "# tags = "};
+    Gateway& gateway = *wrong;
+    write_file(gateway.folder("word.csv"), "tag,type\n55,WORD\n");
+    write_file(gateway.config(), gateway.config_text().replace(gateway.config_text().find("tags = "), 6,
+                                                               "tags = \"word.csv\" #"));
+    EXPECT_EQ(gateway.dpctl({"reload"}).status, 0);
+    Master master{gateway, {"--tags", "55"}};
+    ASSERT_TRUE(master.does("start 30s"));
+
+    EXPECT_TRUE(first_cause_is(gateway, "station.other_type"));
 }
 
 TEST(DoctorOfTheDrive, NamesOneThatFellSilent)

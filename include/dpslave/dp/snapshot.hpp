@@ -20,6 +20,7 @@ struct Counters {
     std::uint64_t data_exchange = 0; ///< carried out; the others: received
     std::uint64_t slave_diag = 0;
     std::uint64_t set_prm = 0;
+    std::uint64_t foreign_prm = 0; ///< those of them that another master sent than the owner
     std::uint64_t chk_cfg = 0;
     std::uint64_t get_cfg = 0;
     std::uint64_t rd_inp = 0;

@@ -72,6 +72,7 @@ Group station_counters(const StationView& station)
     add(c, "data_exchange", dp.data_exchange, "Data_Exchange telegrams carried out");
     add(c, "slave_diag", dp.slave_diag, "");
     add(c, "set_prm", dp.set_prm, "");
+    add(c, "foreign_prm", dp.foreign_prm, "those of them of another master than the one that has this slave");
     add(c, "chk_cfg", dp.chk_cfg, "");
     add(c, "get_cfg", dp.get_cfg, "");
     add(c, "rd_inp", dp.rd_inp, "");

@@ -41,6 +41,11 @@ std::string plural(std::int64_t count, const char* one)
     return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
 }
 
+std::string plural(std::int64_t count, const char* one, const char* many)
+{
+    return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
 std::string json_text(const Json& value)
 {
     return printable_json(value.dump(2, ' ', false, Json::error_handler_t::replace));

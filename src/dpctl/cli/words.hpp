@@ -14,8 +14,9 @@ std::string
 age(std::optional<double> milliseconds); ///< "12 ms", "3.4 s", "5 min", "2 h 5 min"; "-" without one
 std::string word(std::optional<std::int64_t> raw); ///< "1250 (0x04E2)"
 std::string yes_no(bool yes);
-std::string plural(std::int64_t count, const char* one); ///< "1 read", "2 reads"
-std::string json_text(const Json& value);                ///< indented, printable; never fails
-Json printable_texts(Json value);                        ///< each text and each name in it printable()
+std::string plural(std::int64_t count, const char* one);                   ///< "1 read", "2 reads"
+std::string plural(std::int64_t count, const char* one, const char* many); ///< "2 replies"
+std::string json_text(const Json& value); ///< indented, printable; never fails
+Json printable_texts(Json value);         ///< each text and each name in it printable()
 
 } // namespace dpslave::dpctl

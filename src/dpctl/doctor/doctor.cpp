@@ -190,12 +190,7 @@ int do_doctor(const Options& options, Terminal& terminal)
                                                                      {"GetIo", &replies.io}}};
     for (const auto& [method, reply] : questions) {
         auto answer = ask(options, terminal, method, Json::object());
-        if (!answer) {
-            if (answer.error() == kNoDaemon)
-                terminal.err
-                    << "Without dpslaved no station is on the bus: the lamps are off, as without power.\n";
-            return answer.error();
-        }
+        if (!answer) return answer.error();
         *reply = *std::move(answer);
     }
     if (!is_known(replies.status, options.station)) {

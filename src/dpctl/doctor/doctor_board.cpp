@@ -42,7 +42,8 @@ bool is_board(const Facts& f)
 std::string seen_external(const Facts& f)
 {
     const bool waits = is_in(f, "Wait_Prm") || is_in(f, "Wait_Cfg");
-    return is_board(f) && waits && refusal(f).empty() ? no_exchange(f) : std::string{};
+    return is_board(f) && waits && refusal(f).empty() && !has_just_started(f) ? no_exchange(f)
+                                                                              : std::string{};
 }
 std::string seen_configuration(const Facts& f)
 {

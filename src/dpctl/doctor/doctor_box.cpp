@@ -118,6 +118,7 @@ std::string seen_parameter(const Facts& f)
 }
 std::string seen_box_silent(const Facts& f)
 {
+    if (has_just_started(f)) return {};
     if (network_is(f, NetworkState::wait_param)) return silence(f);
     if (!network_is(f, NetworkState::baud_search) && !network_is(f, NetworkState::disabled)) return {};
     const std::string silent = silence(f);
@@ -125,8 +126,8 @@ std::string seen_box_silent(const Facts& f)
 }
 std::string seen_wait_prm(const Facts& f)
 {
-    return network_is(f, NetworkState::wait_param) && silence(f).empty() ? with_refusal(f, "WAIT PARAM")
-                                                                         : std::string{};
+    const bool waits = network_is(f, NetworkState::wait_param) && silence(f).empty();
+    return waits && !has_just_started(f) ? with_refusal(f, "WAIT PARAM") : std::string{};
 }
 std::string seen_wait_cfg(const Facts& f)
 {

@@ -15,6 +15,7 @@ constexpr std::string_view kBox = "HA463561U002, Troubleshooting";
 constexpr std::string_view kGateway = "dpslaved";
 
 constexpr std::int64_t kOften = 1000;  ///< one in so many is more than a sound machine has
+constexpr double kBurst = 2'000;       ///< ms: a plug or a switch makes flaws for less than that, once
 constexpr std::int64_t kSomeFlaws = 5; ///< in a minute: a sound line has none
 
 /// All kinds of them as one count.
@@ -27,7 +28,8 @@ Count flaws(const Facts& f)
         sum.total += one.total;
         sum.minute += one.minute;
         if (one.last_ms && (!sum.last_ms || *one.last_ms < *sum.last_ms)) sum.last_ms = one.last_ms;
-        if (one.since_ms && (!sum.since_ms || *one.since_ms > *sum.since_ms)) sum.since_ms = one.since_ms;
+        if (one.minute > 0 && one.since_ms && (!sum.since_ms || *one.since_ms > *sum.since_ms))
+            sum.since_ms = one.since_ms;
     }
     return sum;
 }
@@ -43,6 +45,16 @@ constexpr std::array kLateSteps = std::to_array<std::string_view>({
 constexpr std::array kDoubleSteps = std::to_array<std::string_view>({
     "Check that no other PROFIBUS-DP slave or master has the same address.",
     "Give this station another address, in the configuration and in the master's project.",
+});
+constexpr std::array kEchoSteps = std::to_array<std::string_view>({
+    "Set echo = \"on\" under [bus]. Then restart the service: systemctl restart dpslaved",
+    "Or switch the echo off at the transceiver: its receiver is to be off while it sends.",
+    "If echo is on already: another device has the address of a station. Find it.",
+});
+constexpr std::array kNoEchoSteps = std::to_array<std::string_view>({
+    "If the transceiver has no echo: set echo = \"off\" under [bus]. Then restart the service: systemctl "
+    "restart dpslaved",
+    "If it has one: it does not send. Check its power and its driver enable ([bus] direction).",
 });
 constexpr std::array kLineSteps = std::to_array<std::string_view>({
     "Check wiring, paying particular attention to the screening.",
@@ -69,7 +81,8 @@ constexpr std::array kSilentSteps = std::to_array<std::string_view>({
     "Check that the transceiver has power, and that [bus] port is the one that the cable is on.",
 });
 constexpr std::array kRateSteps = std::to_array<std::string_view>({
-    "Compare [bus] baud with the rate in the master's project; baud = \"auto\" finds it.",
+    "Compare [bus] baud with the rate in the master's project.",
+    "baud = \"auto\" finds each rate but 45.45 kbit/s. For that one set baud = 45450.",
     "Swap the two wires at the transceiver if A and B are exchanged: A is D-sub 8, B is D-sub 3.",
     "dpctl counters: which flaws grow? Bad characters only: the rate or the wires.",
 });
@@ -102,10 +115,37 @@ std::string seen_driver_gone(const Facts& f)
     return fmt::format("{} failed; nothing is sent until one works again",
                        plural(counted(f.counters, "driver_errors").total, "edge"));
 }
+/// Does each of our replies come back, and the master hears them all the same? A second device with our
+/// address would spoil them.
+bool is_echo(const Facts& f)
+{
+    const Count own = counted(f.counters, "own_address");
+    const std::int64_t replies = counted(f.counters, "replies").minute;
+    const std::int64_t retries = counted(f.counters, "retries").minute;
+    return replies >= kSomeFlaws && own.minute * 10 >= replies * 9 && retries * 10 < replies;
+}
+std::string seen_echo(const Facts& f)
+{
+    if (!is_echo(f)) return {};
+    const Count own = counted(f.counters, "own_address");
+    return fmt::format("{} of {} came back to the gateway {}, and the master goes on", own.minute,
+                       plural(counted(f.counters, "replies").minute, "reply", "replies"), lately(own));
+}
+bool is_without_echo(const Facts& f)
+{
+    return counted(f.counters, "echo_missing").minute >= kSomeFlaws;
+}
+std::string seen_no_echo(const Facts& f)
+{
+    if (!is_without_echo(f)) return {};
+    const Count missing = counted(f.counters, "echo_missing");
+    return fmt::format("the echo of {} did not come {}", plural(missing.minute, "reply", "replies"),
+                       lately(missing));
+}
 std::string seen_double(const Facts& f)
 {
     const Count strange = counted(f.counters, "own_address");
-    if (strange.minute == 0) return {};
+    if (strange.minute == 0 || is_echo(f)) return {};
     return fmt::format("{} of another device with one of our addresses as the sender {}",
                        plural(strange.minute, "telegram"), lately(strange));
 }
@@ -118,8 +158,9 @@ std::string seen_rate(const Facts& f)
     if (!bus_is_heard(f) || telegrams_are_heard(f)) return {};
     if (f.bus.contains("port_open") && !flag(f.bus, "port_open")) return {};
     const auto fixed = integer(f.bus, "configured_baud");
-    return silence(f) + (fixed ? fmt::format("; the rate is fixed at {} ([bus] baud)", rate(*fixed))
-                               : std::string{"; the rate is searched, and none gives telegrams"});
+    return silence(f) +
+           (fixed ? fmt::format("; the rate is fixed at {} ([bus] baud)", rate(*fixed))
+                  : std::string{"; the rate is searched (all but 45.45 kbit/s), and none gives telegrams"});
 }
 std::string seen_other_address(const Facts& f)
 {
@@ -156,7 +197,8 @@ std::string seen_late(const Facts& f)
 std::string seen_flaws(const Facts& f)
 {
     const Count bad = flaws(f), good = counted(f.counters, "telegrams");
-    if (bad.minute < kSomeFlaws || !telegrams_are_heard(f)) return {};
+    if (bad.minute < kSomeFlaws || !telegrams_are_heard(f) || is_without_echo(f)) return {};
+    if (bad.since_ms.value_or(0) - bad.last_ms.value_or(0) < kBurst) return {};
     return fmt::format("{} (damaged telegrams, or octets that belong to none) beside {} {}",
                        plural(bad.minute, "flaw"), plural(good.minute, "valid telegram"), lately(bad));
 }
@@ -189,6 +231,10 @@ constexpr std::array kRules = std::to_array<Rule>({
      "The port of the bus is gone: adapter pulled, or its driver failed", kGoneSteps, kGateway, seen_gone},
     {"bus.driver_gone", Scope::bus, Rank::gone, "the driver enable cannot be switched",
      "The transceiver cannot be switched to sending", kDriverSteps, kGateway, seen_driver_gone},
+    {"bus.echo", Scope::bus, Rank::stands, "each reply of the gateway comes back to it",
+     "The transceiver hears what it sends, and [bus] echo is off", kEchoSteps, kGateway, seen_echo},
+    {"bus.no_echo", Scope::bus, Rank::stands, "[bus] echo is on, and replies do not come back",
+     "No echo comes: the transceiver has none, or it does not send", kNoEchoSteps, kGateway, seen_no_echo},
     {"bus.double_address", Scope::bus, Rank::stands, "another device sends with one of our addresses",
      "External communications fault: an address is used twice", kDoubleSteps, kBoard, seen_double},
     {"bus.silent", Scope::bus, Rank::stands, "not one octet comes from the bus",

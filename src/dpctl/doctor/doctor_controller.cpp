@@ -48,13 +48,13 @@ bool is_controller(const Facts& f)
 }
 std::string seen_controller_silent(const Facts& f)
 {
-    if (!is_controller(f) || exchanges(f)) return {};
+    if (!is_controller(f) || exchanges(f) || has_just_started(f)) return {};
     const std::string why = refusal(f);
     return why.empty() ? no_exchange(f) : why;
 }
 std::string seen_intermittent(const Facts& f)
 {
-    return is_controller(f) ? restlessness(f) : std::string{};
+    return is_controller(f) && !master_left(f) ? restlessness(f) : std::string{};
 }
 std::string seen_jammed(const Facts& f)
 {

@@ -13,6 +13,7 @@ constexpr std::string_view kGateway = "dpslaved";
 constexpr std::int64_t kSome = 3;         ///< in a minute: a sound line has none
 constexpr std::int64_t kShare = 100;      ///< one in so many transactions
 constexpr double kFirstQuestions = 5'000; ///< ms: a drive that was not asked yet is not silent
+constexpr double kComesBack = 30'000;     ///< ms: a drive that comes and goes is lost again within that
 constexpr double kOfNow = 15'000;         ///< ms: a lost drive is asked every few seconds
 
 constexpr std::array kGoneSteps = std::to_array<std::string_view>({
@@ -21,7 +22,9 @@ constexpr std::array kGoneSteps = std::to_array<std::string_view>({
     "journalctl -u dpslaved says what the system answered. It is tried again every second.",
 });
 constexpr std::array kNeverSteps = std::to_array<std::string_view>({
-    "Check the cable and its plug, and that the drive has power.",
+    "Check the cable and its plug, and that the drive has power. If there are several lines: check that "
+    "their "
+    "cables are not swapped.",
     "Check at the drive: the port is set to the protocol of the line, and group and unit, rate and format "
     "are "
     "those of the configuration.",
@@ -42,6 +45,12 @@ constexpr std::array kNoiseSteps = std::to_array<std::string_view>({
     "RS-485: check A and B, the bias, and a terminator at both ends of a long cable.",
     "A lower rate of drive and [[line]] is less sensitive.",
     "dpctl counters: do drive_silences and drive_damaged still grow?",
+});
+constexpr std::array kUnsteadySteps = std::to_array<std::string_view>({
+    "Check the plugs at both ends, and the supply of the drive and of a converter between.",
+    "Check the cable: screen, routing away from motor cables, the common of the port (0 V).",
+    "If one tag alone is not answered: take it out of the master's project and look whether the rest is "
+    "steady.",
 });
 constexpr std::array kEchoSteps = std::to_array<std::string_view>({
     "Set echo = \"on\" in the [[line]] of this drive, then dpctl reload.",
@@ -145,10 +154,40 @@ std::string seen_never(const Facts& f)
     return fmt::format("{}; {} and never an answer", settings_of(d),
                        plural(integer(d, "silences").value_or(0), "request"));
 }
+/// Was it lost more than once, and not for a reason that has a rule of its own?
+bool is_unsteady(const Facts& f)
+{
+    const Count lost = counted(f.station_counters, "drive_losses");
+    return !is_gone(part(f.station, "drive")) && lost.minute >= 2 && lost.within(kComesBack) && !is_late(f) &&
+           !is_unreadable(f) && !is_echo(f);
+}
+/// "; tag 57 was not read for 14.6 s": where others were.
+std::string unread(const Facts& f)
+{
+    constexpr double kOld = 10'000, kNew = 5'000;
+    std::string old;
+    bool is_one_new = false;
+    for (const Json& word : list(f.io, "words")) {
+        const auto ms = real(word, "age_ms");
+        if (text(word, "direction") != "in" || !ms) continue;
+        if (*ms > kOld) old += fmt::format("; tag {} was not read for {}", number(word, "tag"), age(ms));
+        is_one_new = is_one_new || *ms < kNew;
+    }
+    return is_one_new ? old : std::string{};
+}
+std::string seen_unsteady(const Facts& f)
+{
+    if (!is_unsteady(f)) return {};
+    const Count lost = counted(f.station_counters, "drive_losses");
+    return fmt::format("{}; it was lost {} {}{}", settings_of(part(f.station, "drive")),
+                       plural(lost.minute, "time"), lately(lost), unread(f));
+}
 std::string seen_silent(const Facts& f)
 {
     const Json& d = part(f.station, "drive");
-    if (!is_silent(f) || !flag(d, "ever_answered") || is_late(f) || is_unreadable(f) || is_echo(f)) return {};
+    if (is_unsteady(f) || !is_silent(f) || !flag(d, "ever_answered") || is_late(f) || is_unreadable(f) ||
+        is_echo(f))
+        return {};
     const Count lost = counted(f.station_counters, "drive_losses");
     return fmt::format("{}; it does not answer{}", settings_of(d),
                        lost.last_ms ? " since " + age(lost.last_ms) : std::string{});
@@ -205,7 +244,8 @@ std::string seen_noise(const Facts& f)
     const std::int64_t all = silences.minute + counted(f.station_counters, "drive_reads").minute +
                              counted(f.station_counters, "drive_writes").minute;
     const bool is_told = counted(f.station_counters, "drive_late").minute >= kSome ||
-                         counted(f.station_counters, "drive_damaged").minute >= kSome || is_echo(f);
+                         counted(f.station_counters, "drive_damaged").minute >= kSome || is_echo(f) ||
+                         is_unsteady(f);
     if (is_told || silences.minute < kSome || silences.minute * kShare < all) return {};
     return fmt::format("{} of {} were not answered {}", silences.minute, plural(all, "request"),
                        lately(silences));
@@ -231,6 +271,9 @@ constexpr std::array kRules = std::to_array<Rule>({
      "The drive was never heard: cable, unit, rate or format", kNeverSteps, kGateway, seen_never},
     {"drive.late", Scope::station, Rank::stands, "answers of the drive come after timeout_ms",
      "The drive answers later than timeout_ms allows", kLateSteps, kGateway, seen_late},
+    {"drive.unsteady", Scope::station, Rank::stands, "the drive is lost and answers again, more than once",
+     "The drive comes and goes: a loose plug, its power, or a disturbed cable", kUnsteadySteps, kGateway,
+     seen_unsteady},
     {"drive.silent", Scope::station, Rank::stands, "the drive answered and does not any more",
      "The drive has fallen silent: power, cable, or its port was set otherwise", kSilentSteps, kGateway,
      seen_silent},

@@ -54,17 +54,38 @@ bool is_asked(const Json& station_counters)
                        [&](std::string_view name) { return counted(station_counters, name).within(kAsked); });
 }
 
+namespace {
+
+/// As of now, where the counters may be a second old.
+bool is_telegram_within(const Facts& f, double ms)
+{
+    const auto last = real(f.bus, "last_telegram_age_ms");
+    return last && *last <= ms;
+}
+
+} // namespace
+
 bool bus_is_heard(const Facts& f)
 {
     if (f.bus.contains("port_open") && !flag(f.bus, "port_open")) return true;
     const Count octets = counted(f.counters, "octets");
-    return octets.within(kSilence) || static_cast<double>(f.uptime_ms) < kSilence;
+    return octets.within(kSilence) || is_telegram_within(f, kSilence) ||
+           static_cast<double>(f.uptime_ms) < kSilence;
 }
 
 bool telegrams_are_heard(const Facts& f)
 {
     const double limit = text(f.bus, "baud_state") == "Baud_Search" ? kNoTelegramInSearch : kNoTelegram;
-    return counted(f.counters, "checked").within(limit) || static_cast<double>(f.uptime_ms) < limit;
+    return counted(f.counters, "checked").within(limit) || is_telegram_within(f, limit) ||
+           static_cast<double>(f.uptime_ms) < limit;
+}
+
+bool has_just_started(const Facts& f)
+{
+    if (!is_in(f, "Wait_Prm") && !is_in(f, "Wait_Cfg")) return false;
+    if (is_asked(f.station_counters) || !silence(f).empty()) return false;
+    const bool is_heard = counted(f.counters, "checked").last_ms || real(f.bus, "last_telegram_age_ms");
+    return !is_heard || static_cast<double>(f.uptime_ms) < kAsked;
 }
 
 std::string silence(const Facts& f)
@@ -110,6 +131,12 @@ std::string drive_silence(const Facts& f)
                        plural(integer(d, "silences").value_or(0), "request"));
 }
 
+bool master_left(const Facts& f)
+{
+    const std::string code = text(f.station, "left_code", "");
+    return code == "output_length" || code == "unlock" || code == "new_parameters";
+}
+
 std::string restlessness(const Facts& f)
 {
     const Count left = counted(f.station_counters, "left_data_exchange");
@@ -131,9 +158,6 @@ std::string no_exchange(const Facts& f)
 
 std::string not_asked(const Facts& f)
 {
-    if (!counted(f.counters, "checked").last_ms)
-        return "no telegram has been heard yet; the daemon has run for " +
-               age(static_cast<double>(f.uptime_ms));
     return "telegrams are heard, but no master asks address " + number(f.station, "address");
 }
 

@@ -39,6 +39,9 @@ bool is_asked(const Json& station_counters);
 bool bus_is_heard(const Facts& f);
 /// Telegrams with a checksum come from the bus.
 bool telegrams_are_heard(const Facts& f);
+/// The station waits for a master, and too little time has passed since the start to say why. The counters
+/// are looked at once a second.
+bool has_just_started(const Facts& f);
 
 // Each of these says what it sees in words, or nothing.
 /// Nothing, or nothing that has a checksum, is heard on the bus.
@@ -53,5 +56,7 @@ std::string tag_trouble(const Facts& f);
 std::string drive_silence(const Facts& f);
 /// How often Data_Exch was left, where that is more than once in the last minute.
 std::string restlessness(const Facts& f);
+/// Does the last way out of Data_Exch have a rule of its own?
+bool master_left(const Facts& f);
 
 } // namespace dpslave::dpctl

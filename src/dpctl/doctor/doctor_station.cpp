@@ -22,13 +22,40 @@ constexpr std::array kCfgSteps = std::to_array<std::string_view>({
     "dpctl diag shows what came and what was expected, identifier by identifier.",
     "Put the modules of the slave in the master's project in the order of the tags, one for each tag.",
 });
+constexpr std::array kStartedSteps = std::to_array<std::string_view>({
+    "Wait 15 seconds, then ask again: dpctl doctor",
+});
+constexpr std::array kTwoMastersSteps = std::to_array<std::string_view>({
+    "journalctl -u dpslaved names the other master.",
+    "Take this slave out of the project of one of the two masters, or give it another address there.",
+});
+constexpr std::array kLengthSteps = std::to_array<std::string_view>({
+    "Compare the modules of the slave in the master's project with those that dpctl io shows.",
+    "Load the project into the master again: its configuration and its program may be of two versions.",
+});
+constexpr std::array kRestartsSteps = std::to_array<std::string_view>({
+    "Look at the diagnosis buffer of the PLC: it says why the master stops the exchange.",
+    "Look for a download, for a change between STOP and RUN, and for a second master with this slave.",
+});
+constexpr std::array kOtherDeviceSteps = std::to_array<std::string_view>({
+    "Compare the type of the drive with the profile of the station: dpctl info.",
+    "Check that the unit and the line are those of this drive, and not of another one.",
+    "Check that the tag table is the one of this type of drive.",
+});
+constexpr std::array kOtherTypeSteps = std::to_array<std::string_view>({
+    "Correct type and decimals of the tag in the tag table, from the drive's product manual. Then: dpctl "
+    "reload",
+    "Check that the drive is of the type that the table is for: dpctl info.",
+});
 constexpr std::array kNotAskedSteps = std::to_array<std::string_view>({
     "Check that the slave is in the master's project, under this address, and that the project was loaded "
     "into the master.",
     "Check that the master is in operation and its bus is started.",
 });
 constexpr std::array kAskedOnlySteps = std::to_array<std::string_view>({
-    "Look whether the one who asks is a diagnostic tool (master class 2): it starts no slave.",
+    "Check that the replies reach the master: the driver enable ([bus] direction), power of the transceiver, "
+    "both wires, termination.",
+    "Look whether a diagnosis tool asks (master class 2): it starts no slave.",
     "Check that the slave is switched on in the master's project and the master is not in STOP.",
 });
 constexpr std::array kReadOnlySteps = std::to_array<std::string_view>({
@@ -41,7 +68,8 @@ constexpr std::array kRangeSteps = std::to_array<std::string_view>({
     "Check the scaling in the master's program: 12.34 with two decimals goes over the bus as 1234.",
 });
 constexpr std::array kTagSteps = std::to_array<std::string_view>({
-    "Check the tag numbers in the master's project: dpctl tag NUMBER, dpctl io.",
+    "Check the tag numbers in the master's project, and those of Demand Data in the PLC program: dpctl tag "
+    "NUMBER, dpctl io.",
     "Check that the profile of the station is that of the drive: dpctl info.",
 });
 constexpr std::array kStateSteps = std::to_array<std::string_view>({
@@ -130,12 +158,33 @@ std::string seen_cfg(const Facts& f)
 {
     return seen_refused(f, "Chk_Cfg");
 }
+std::string seen_just_started(const Facts& f)
+{
+    if (!has_just_started(f)) return {};
+    return fmt::format("no master has asked address {} yet; dpslaved has run for {}",
+                       number(f.station, "address"), age(static_cast<double>(f.uptime_ms)));
+}
 /// Telegrams come, but none for this station: what the bus has to say about it comes first.
 std::string seen_not_asked(const Facts& f)
 {
     const bool waits = is_in(f, "Wait_Prm") || is_in(f, "Wait_Cfg");
-    if (!waits || !silence(f).empty() || is_asked(f.station_counters)) return {};
+    if (!waits || !silence(f).empty() || is_asked(f.station_counters) || has_just_started(f)) return {};
     return not_asked(f);
+}
+std::string seen_two_masters(const Facts& f)
+{
+    const Count foreign = counted(f.station_counters, "foreign_prm");
+    if (foreign.minute == 0 || !integer(f.station, "master")) return {};
+    return fmt::format("master {} has this slave, and another master sent {} Set_Prm {}",
+                       number(f.station, "master"), foreign.minute, lately(foreign));
+}
+std::string seen_length(const Facts& f)
+{
+    return text(f.station, "left_code", "") == "output_length" ? restlessness(f) : std::string{};
+}
+std::string seen_restarts(const Facts& f)
+{
+    return master_left(f) && seen_length(f).empty() ? restlessness(f) : std::string{};
 }
 std::string seen_asked_only(const Facts& f)
 {
@@ -195,17 +244,48 @@ std::string seen_range(const Facts& f)
 {
     return exchanges(f) ? either(words_that_are(f, "out", "out of range"), said(f, "out_of_range")) : "";
 }
+/// Two tags or more are denied, and not one that can be read is known.
+bool is_other_device(const Facts& f)
+{
+    std::int64_t denied = 0, inputs = 0;
+    for (const Json& word : list(f.io, "words")) {
+        if (text(word, "direction") != "in") continue;
+        ++inputs;
+        denied += text(word, "state") == "invalid tag";
+    }
+    if (inputs == 0 || denied < inputs) return false;
+    for (const Json& one : list(f.diagnosis, "refused")) denied += text(one, "code") == "invalid_tag";
+    return denied >= 2 && inputs + static_cast<std::int64_t>(list(f.diagnosis, "refused").size()) >= 2;
+}
+std::string seen_other_device(const Facts& f)
+{
+    if (!exchanges(f) || !is_other_device(f)) return {};
+    return either(words_that_are(f, "", "invalid tag"), said(f, "invalid_tag"));
+}
 std::string seen_invalid(const Facts& f)
 {
-    return exchanges(f) ? either(words_that_are(f, "", "invalid tag"), said(f, "invalid_tag")) : "";
+    return exchanges(f) && !is_other_device(f)
+               ? either(words_that_are(f, "", "invalid tag"), said(f, "invalid_tag"))
+               : "";
 }
 std::string seen_not_now(const Facts& f)
 {
     return exchanges(f) ? either(said(f, "not_stopped"), said(f, "not_config_mode")) : std::string{};
 }
+/// The drive has answered, and the row of the tag does not fit the answer.
+std::string seen_other_type(const Facts& f)
+{
+    std::string all;
+    for (const Json& word : list(f.io, "words"))
+        if (text(word, "state") == "refused" && !text(word, "answer", "").empty())
+            all += fmt::format("{}tag {} answers '{}'", all.empty() ? "" : ", ", number(word, "tag"),
+                               text(word, "answer"));
+    if (!exchanges(f) || all.empty()) return {};
+    return either(all, said(f, "unsupported_type")) + "; the table is " + text(f.info, "tag_table");
+}
 std::string seen_other_refusal(const Facts& f)
 {
-    if (!exchanges(f)) return {};
+    if (!exchanges(f) || !seen_other_type(f).empty()) return {};
     return either(words_that_are(f, "", "refused"),
                   either(said(f, "unsupported_type"), said(f, "value_not_encoded")));
 }
@@ -230,8 +310,8 @@ std::string seen_stands(const Facts& f)
 {
     if (!exchanges(f) || integer(f.station, "watchdog_ms") || is_asked(f.station_counters)) return {};
     const auto last = counted(f.station_counters, "data_exchange").last_ms;
-    return fmt::format("its watchdog is off, and the last Data_Exchange was {}",
-                       last ? age(last) + " ago" : std::string{"never"});
+    if (!last) return {}; // it has just begun
+    return fmt::format("its watchdog is off, and the last Data_Exchange was {} ago", age(last));
 }
 std::string seen_sync(const Facts& f)
 {
@@ -243,7 +323,8 @@ std::string seen_freeze(const Facts& f)
 }
 std::string seen_restless(const Facts& f)
 {
-    return f.family == Family::controller || !seen_watchdog(f).empty() ? std::string{} : restlessness(f);
+    const bool is_told = !seen_watchdog(f).empty() || master_left(f);
+    return f.family == Family::controller || is_told ? std::string{} : restlessness(f);
 }
 std::string seen_ride(const Facts& f)
 {
@@ -291,12 +372,24 @@ constexpr std::array kRules = std::to_array<Rule>({
      "The master's project does not fit this device: parameters", kPrmSteps, kGateway, seen_prm},
     {"station.cfg_refused", Scope::station, Rank::stands, "the master's Chk_Cfg is refused",
      "The master's project does not fit this device: modules", kCfgSteps, kGateway, seen_cfg},
+    {"station.just_started", Scope::station, Rank::stands,
+     "the station waits for its master, and dpslaved has just started",
+     "dpslaved has just started: wait for the master", kStartedSteps, kGateway, seen_just_started},
     {"station.not_asked", Scope::station, Rank::stands,
      "telegrams are heard, and no master asks this address",
      "No master has this address in its project, or the master is not running", kNotAskedSteps, kGateway,
      seen_not_asked},
     {"station.asked_only", Scope::station, Rank::stands, "the diagnosis is read, and no Set_Prm comes",
-     "The master asks, but does not start this slave", kAskedOnlySteps, kGateway, seen_asked_only},
+     "The master asks, but does not start this slave: it does not hear the replies, or it is a tool",
+     kAskedOnlySteps, kGateway, seen_asked_only},
+    {"station.two_masters", Scope::station, Rank::stands, "a second master sends Set_Prm to this slave",
+     "Two masters have this slave in their projects", kTwoMastersSteps, kGateway, seen_two_masters},
+    {"station.output_length", Scope::station, Rank::stands,
+     "Data_Exch is left more than once in a minute, for outputs of a wrong length",
+     "The master sends outputs of a wrong length", kLengthSteps, kGateway, seen_length},
+    {"station.restarts", Scope::station, Rank::stands,
+     "the master ends the exchange more than once in a minute, and starts again",
+     "The master ends the exchange by itself and starts again", kRestartsSteps, kGateway, seen_restarts},
     {"station.clear", Scope::station, Rank::stands, "Data_Exch, and the last Global_Control was Clear_Data",
      "The master is in Clear (STOP): the drive gets 0", kClearSteps, kGateway, seen_clear},
     {"station.stands", Scope::station, Rank::stands,
@@ -312,6 +405,12 @@ constexpr std::array kRules = std::to_array<Rule>({
      kGateway, seen_read_only},
     {"station.range", Scope::station, Rank::stands, "an output word is outside the limits of its tag",
      "The master sends a value outside the limits", kRangeSteps, kGateway, seen_range},
+    {"station.other_device", Scope::station, Rank::stands, "the drive knows none of the chosen tags",
+     "The drive is of another type than the station: profile, tag table or unit is wrong", kOtherDeviceSteps,
+     kGateway, seen_other_device},
+    {"station.other_type", Scope::station, Rank::stands,
+     "the drive answers in another form than its row says", "The tag table gives another type than the drive",
+     kOtherTypeSteps, kGateway, seen_other_type},
     {"station.tags", Scope::station, Rank::stands, "the drive does not know a tag", "A tag number is wrong",
      kTagSteps, kGateway, seen_invalid},
     {"station.unscaled", Scope::station, Rank::stands,

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace dpslave::dpctl {
 namespace {
 
@@ -76,24 +78,44 @@ std::string steps(const Rule& rule, Look look)
     return out;
 }
 
-/// The findings of one kind; those of one rule under one head, with the evidence of each station.
-std::string paragraphs(const std::vector<Finding>& findings, bool notes, Look look)
+enum class Kind : std::uint8_t { cause, checklist, note };
+Kind kind_of(const Rule& rule)
 {
+    if (rule.rank == Rank::note) return Kind::note;
+    return rule.rank == Rank::checklist ? Kind::checklist : Kind::cause;
+}
+
+std::string head_of(Kind kind, int count)
+{
+    if (kind == Kind::cause) return fmt::format("{}. ", count);
+    return kind == Kind::note ? "note: " : "the manual's list: ";
+}
+
+/// The findings of one kind; those of one rule under one head, with the evidence of each station. What a
+/// cause has said already is not said again.
+std::string paragraphs(const std::vector<Finding>& findings, Kind kind, Look look)
+{
+    const auto is_said = [&](const Finding& one) {
+        return std::any_of(findings.begin(), findings.end(), [&](const Finding& other) {
+            return kind_of(*other.rule) == Kind::cause && other.evidence == one.evidence;
+        });
+    };
     std::string out;
     int count = 0;
     for (std::size_t i = 0; i < findings.size();) {
         const Rule& rule = *findings[i].rule;
         std::string seen;
         for (; i < findings.size() && findings[i].rule == &rule; ++i)
-            seen +=
-                paragraph(fmt::format("   {}: ", findings[i].station.empty() ? "bus" : findings[i].station),
-                          findings[i].evidence, look.width);
-        if ((rule.rank == Rank::note) != notes) continue;
-        const std::string number = notes ? std::string{"note: "} : fmt::format("{}. ", ++count);
+            if (kind != Kind::checklist || !is_said(findings[i]))
+                seen += paragraph(
+                    fmt::format("   {}: ", findings[i].station.empty() ? "bus" : findings[i].station),
+                    findings[i].evidence, look.width);
+        if (kind_of(rule) != kind) continue;
+        const std::string head = head_of(kind, ++count);
         for (const std::string& line :
-             wrapped(fmt::format("{}{} ({})", number, rule.cause, rule.source), look.width))
-            out += (line.starts_with(number) ? "\n" : "   ") +
-                   painted(line, notes ? Tone::strong : Tone::bad, look) + '\n';
+             wrapped(fmt::format("{}{} ({})", head, rule.cause, rule.source), look.width))
+            out += (line.starts_with(head) ? "\n" : "   ") +
+                   painted(line, kind == Kind::cause ? Tone::bad : Tone::strong, look) + '\n';
         out += seen + steps(rule, look);
     }
     return out;
@@ -151,9 +173,10 @@ std::string render_doctor(const Replies& replies, const std::vector<Finding>& fi
                           const std::vector<Earlier>& earlier, const std::string& station, Look look)
 {
     std::string out = picture(replies, station, look);
-    const std::string found = paragraphs(findings, false, look);
+    const std::string found =
+        paragraphs(findings, Kind::cause, look) + paragraphs(findings, Kind::checklist, look);
     out += found.empty() ? '\n' + painted("all is well", Tone::good, look) + '\n' : found;
-    return out + earlier_lines(earlier, look) + paragraphs(findings, true, look) + '\n' +
+    return out + earlier_lines(earlier, look) + paragraphs(findings, Kind::note, look) + '\n' +
            line_words(part(replies.status, "bus"), look);
 }
 
