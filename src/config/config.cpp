@@ -52,7 +52,7 @@ std::shared_ptr<const profile::Profile> Shelf::profile(const std::string& name)
 {
     const auto [entry, is_new] = profiles_.try_emplace(name);
     if (!is_new) return entry->second;
-    auto loaded = profile::load_profile(folder_, name);
+    auto loaded = profile::load_profile(io::read_regular_file, folder_.string(), name);
     if (loaded)
         entry->second = std::make_shared<const profile::Profile>(*std::move(loaded));
     else
@@ -64,7 +64,7 @@ std::shared_ptr<const drive::TagTable> Shelf::tags(const std::filesystem::path& 
 {
     const auto [entry, is_new] = tables_.try_emplace(file);
     if (!is_new || !has_room_for(file)) return entry->second;
-    auto loaded = profile::load_tags(file);
+    auto loaded = profile::load_tags(io::read_regular_file, file.string());
     if (loaded)
         entry->second = std::make_shared<const drive::TagTable>(*std::move(loaded));
     else
@@ -79,7 +79,7 @@ bool Shelf::has_room_for(const std::filesystem::path& table)
     const bool had_room = size_of_tables_ <= kMaxTablesTogether;
     std::error_code unreadable;
     if (const auto size = std::filesystem::file_size(table, unreadable);
-        !unreadable && size <= toml::kMaxFileSize)
+        !unreadable && size <= io::kMaxFileSize)
         size_of_tables_ += size;
     if (size_of_tables_ <= kMaxTablesTogether) return true;
     if (had_room)
@@ -120,7 +120,7 @@ std::optional<gid_t> operator_group_of(const ControlConfig& control)
 
 Result<Config, Faults> load_config(const std::filesystem::path& file, const std::filesystem::path& profiles)
 {
-    Document document{file};
+    Document document{io::read_regular_file, file.string()};
     if (!document.readable()) return Failure{document.faults()};
 
     Config config;

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "dpslave/config/config.hpp"
+#include "dpslave/io/file.hpp"
 #include "dpslave/toml/document.hpp"
-#include "dpslave/toml/text_file.hpp"
 
 #include <cstdint>
 #include <map>
@@ -25,13 +25,13 @@ struct ReadLine {
 
 /// In octets, of the tag tables that stations name, all together: a reload reads them on the main thread, and
 /// the service's watchdog allows 5 s. The largest table that is shipped has 160 KiB.
-inline constexpr std::uintmax_t kMaxTablesTogether = 2 * toml::kMaxFileSize;
+inline constexpr std::uintmax_t kMaxTablesTogether = 2 * io::kMaxFileSize;
 
 /// Profiles and tag tables, each file read and judged once however many stations use it.
 class Shelf {
 public:
     explicit Shelf(std::filesystem::path folder)
-        : folder_(std::move(folder)), names_(profile::profile_names(folder_))
+        : folder_(std::move(folder)), names_(io::names_in(folder_, ".toml"))
     {}
 
     const std::filesystem::path& folder() const { return folder_; }

@@ -133,7 +133,7 @@ void read_tag_keys(Document& document, Table& table, StationConfig& station, She
         station.tag_file = file.lexically_normal().string();
         station.tags = shelf.tags(file.lexically_normal());
     } else if (station.profile) {
-        station.tag_file = station.profile->tag_file.string();
+        station.tag_file = station.profile->tag_file;
         station.tags = {station.profile, &station.profile->tags};
     }
     if (const auto decimals = table.integer("unlisted_decimals", 0, 4))

@@ -6,7 +6,6 @@
 #include "dpslave/gsd/device.hpp"
 
 #include <algorithm>
-#include <filesystem>
 
 namespace dpslave::profile {
 namespace {
@@ -82,8 +81,7 @@ private:
     {
         facts_.file = table_.text("file").value_or("");
         if (facts_.file.empty()) return;
-        if (std::filesystem::path{facts_.file}.filename() != facts_.file || facts_.file == "." ||
-            facts_.file == "..")
+        if (!is_name_of_a_file(facts_.file))
             table_.refuse("file", "'file' must be the name of a file, without a folder.");
     }
 

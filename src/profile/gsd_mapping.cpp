@@ -15,9 +15,9 @@ std::vector<std::uint16_t> tags_of(toml::Table& table, std::string_view key)
 
 } // namespace
 
-Result<Mapping, toml::Faults> load_mapping(const std::filesystem::path& file)
+Result<Mapping, toml::Faults> load_mapping(const toml::TextSource& source, const std::string& file)
 {
-    toml::Document document{file};
+    toml::Document document{source, file};
     Mapping mapping;
     if (document.readable()) {
         toml::Table root = document.root();

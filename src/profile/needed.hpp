@@ -10,6 +10,12 @@
 
 namespace dpslave::profile {
 
+/// A file of the folder that is meant: no path, no folder.
+inline bool is_name_of_a_file(std::string_view text)
+{
+    return !text.empty() && text.find('/') == text.npos && text != "." && text != "..";
+}
+
 /// Empty where the key is missing or wrong.
 inline std::string needed_text(toml::Table& table, std::string_view key, std::string_view example)
 {

@@ -8,9 +8,6 @@
 
 #include "dpslave/toml/document.hpp"
 
-#include <algorithm>
-#include <system_error>
-
 namespace dpslave::profile {
 namespace {
 
@@ -19,8 +16,8 @@ constexpr std::size_t kDiagHeader = 6, kBlockHeader = 1;
 
 class ProfileReader {
 public:
-    ProfileReader(const std::filesystem::path& folder, const std::string& name)
-        : folder_(folder), document_(folder / (name + ".toml"))
+    ProfileReader(const toml::TextSource& source, const std::string& folder, const std::string& name)
+        : source_(source), folder_(folder), document_(source, folder + '/' + name + ".toml")
     {
         profile_.name = name;
     }
@@ -39,7 +36,7 @@ public:
         }
         toml::Faults faults = document_.faults();
         if (!profile_.tag_file.empty()) {
-            auto tags = load_tags(profile_.tag_file);
+            auto tags = load_tags(source_, profile_.tag_file);
             if (tags)
                 profile_.tags = *std::move(tags);
             else
@@ -87,12 +84,12 @@ private:
             root_.choice<bool>("unlisted_tags", {{"ask", false}, {"refuse", true}}).value_or(false);
         const std::string file = needed_text(root_, "tag_table", R"(tag_table = "FILE.csv")");
         if (file.empty()) return;
-        if (std::filesystem::path{file}.filename() != file || file == "." || file == "..")
+        if (!is_name_of_a_file(file))
             root_.refuse("tag_table",
                          "'tag_table' must be the name of a file in the folder tags beside the folder "
                          "profiles, without a folder of its own.");
         else
-            profile_.tag_file = (folder_ / ".." / "tags" / file).lexically_normal();
+            profile_.tag_file = toml::beside(folder_, "tags/" + file);
     }
 
     void addresses()
@@ -213,7 +210,8 @@ private:
                          "add the table [tec], or write another language.");
     }
 
-    std::filesystem::path folder_;
+    const toml::TextSource& source_;
+    std::string folder_;
     toml::Document document_;
     toml::Table root_ = document_.root();
     Profile profile_;
@@ -222,20 +220,10 @@ private:
 
 } // namespace
 
-Result<Profile, toml::Faults> load_profile(const std::filesystem::path& folder, const std::string& name)
+Result<Profile, toml::Faults> load_profile(const toml::TextSource& source, const std::string& folder,
+                                           const std::string& name)
 {
-    return ProfileReader{folder, name}.read();
-}
-
-std::vector<std::string> profile_names(const std::filesystem::path& folder)
-{
-    std::vector<std::string> names;
-    std::error_code error;
-    for (std::filesystem::directory_iterator entry{folder, error}, end; !error && entry != end;
-         entry.increment(error))
-        if (entry->path().extension() == ".toml") names.push_back(entry->path().stem().string());
-    std::sort(names.begin(), names.end());
-    return names;
+    return ProfileReader{source, folder, name}.read();
 }
 
 } // namespace dpslave::profile

@@ -5,7 +5,7 @@
 
 #include "dpslave/profile/profile.hpp"
 #include "dpslave/profile/survey.hpp"
-#include "dpslave/toml/text_file.hpp"
+#include "dpslave/toml/text_source.hpp"
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 
 #include "dpslave/base/printable.hpp"
 #include "dpslave/profile/profile.hpp"
-#include "dpslave/toml/text_file.hpp"
+#include "dpslave/toml/text_source.hpp"
 #include "dpslave/toml/wording.hpp"
 
 #include <algorithm>
@@ -180,11 +180,11 @@ private:
 
 } // namespace
 
-Result<drive::TagTable, toml::Faults> load_tags(const std::filesystem::path& file)
+Result<drive::TagTable, toml::Faults> load_tags(const toml::TextSource& source, const std::string& file)
 {
-    auto content = toml::read_text_file(file);
+    auto content = toml::read_text(source, file);
     if (!content) return Failure{toml::Faults{content.error()}};
-    return read_tags(*content, file.string());
+    return read_tags(*content, file);
 }
 
 Result<drive::TagTable, toml::Faults> read_tags(std::string_view content, const std::string& file)

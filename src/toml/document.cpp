@@ -5,14 +5,15 @@
 #include "nesting.hpp"
 
 #include "dpslave/base/printable.hpp"
-#include "dpslave/toml/text_file.hpp"
+#include "dpslave/toml/text_source.hpp"
 #include "dpslave/toml/wording.hpp"
 
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
-#include <sstream>
 #include <variant>
 
 namespace dpslave::toml {
@@ -100,9 +101,9 @@ Node convert(const ::toml::table& table, const std::string& path, bool of_array)
 
 std::string plain(double number)
 {
-    std::ostringstream out;
-    out << number;
-    return out.str();
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
+    return {text.data(), end};
 }
 
 /// As the file's author wrote it, or nearly so.
@@ -377,10 +378,11 @@ std::string what_is_wrong(std::string_view content, Place place, std::string_vie
 
 } // namespace
 
-Document::Document(const std::filesystem::path& file) : name_(file.string()), root_(std::make_unique<Node>())
+Document::Document(const TextSource& source, std::string name)
+    : name_(std::move(name)), root_(std::make_unique<Node>())
 {
     root_->title = "[]";
-    auto content = read_text_file(file);
+    auto content = read_text(source, name_);
     if (!content) {
         faults_.push_back(content.error());
         return;

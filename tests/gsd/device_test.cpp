@@ -3,6 +3,8 @@
 // C-042, C-043, C-046, C-048).
 #include "second_hand.hpp"
 
+#include "dpslave/io/file.hpp"
+
 #include <gmock/gmock.h>
 
 #include <numeric>
@@ -64,7 +66,8 @@ TEST(GsdOfTheControllers, IsOneForBothTypes)
 
 TEST(GsdOfTheGainSchedulingExample, HasThePidTermsAsOutputs)
 {
-    const auto mapping = profile::load_mapping(test::kSource / "gsd/mappings/gain-scheduling.toml");
+    const auto mapping =
+        profile::load_mapping(io::read_regular_file, test::kSource / "gsd/mappings/gain-scheduling.toml");
     ASSERT_TRUE(mapping);
     const auto gsd = second_hand(made(load(mapping->profile), mapping->selection));
     EXPECT_THAT(gsd.octets("User_Prm_Data"), ElementsAre(0, 1, 0, 6, 0, 8, 0, 9, 0, 18, 0, 17));

@@ -2,6 +2,8 @@
 // Mapping files: several for one instrument are a site's library (C-045).
 #include "second_hand.hpp"
 
+#include "dpslave/io/file.hpp"
+
 #include <gmock/gmock.h>
 
 namespace dpslave {
@@ -17,7 +19,8 @@ TEST(MappingFile, SaysAllThatTheCommandLineCan)
 {
     const Folder folder;
     const auto mapping =
-        load_mapping(folder.write("m.toml", "profile = \"605\"\nin = [1, 2]\nout = [3]\nin_out = [4]\n"
+        load_mapping(io::read_regular_file,
+                     folder.write("m.toml", "profile = \"605\"\nin = [1, 2]\nout = [3]\nin_out = [4]\n"
                                             "demand = true\nident = 0x1234\nmax_tsdr = 400\n"
                                             "description = \"d\"\nmodel = \"m\"\n"));
     ASSERT_TRUE(mapping);
@@ -35,7 +38,7 @@ TEST(MappingFile, SaysAllThatTheCommandLineCan)
 TEST(MappingFile, NeedsNothingButTheProfile)
 {
     const Folder folder;
-    const auto mapping = load_mapping(folder.write("m.toml", "profile = \"590\"\n"));
+    const auto mapping = load_mapping(io::read_regular_file, folder.write("m.toml", "profile = \"590\"\n"));
     ASSERT_TRUE(mapping);
     EXPECT_THAT(mapping->selection.in, IsEmpty());
     EXPECT_FALSE(mapping->selection.demand);
@@ -45,14 +48,15 @@ TEST(MappingFile, NeedsNothingButTheProfile)
 TEST(MappingFile, IsRefusedWithEveryFaultAtItsPlace)
 {
     const Folder folder;
-    const auto mapping = load_mapping(folder.write("m.toml", "in = [0]\nident = 70000\ncolour = 5\n"));
+    const auto mapping =
+        load_mapping(io::read_regular_file, folder.write("m.toml", "in = [0]\nident = 70000\ncolour = 5\n"));
     ASSERT_FALSE(mapping);
     const auto faults = test::short_forms(mapping.error());
     EXPECT_THAT(faults, testing::Contains(HasSubstr("'profile' is missing")));
     EXPECT_THAT(faults, testing::Contains(testing::StartsWith("1:")));
     EXPECT_THAT(faults, testing::Contains(testing::StartsWith("2:")));
     EXPECT_THAT(faults, testing::Contains(HasSubstr("colour")));
-    EXPECT_FALSE(load_mapping(folder.path() / "not there.toml"));
+    EXPECT_FALSE(load_mapping(io::read_regular_file, folder.path() / "not there.toml"));
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "second_hand.hpp"
 
 #include "dpslave/gsd/device.hpp"
+#include "dpslave/io/file.hpp"
 
 #include <algorithm>
 
@@ -77,7 +78,7 @@ SecondHand second_hand(const std::string& content)
 
 profile::Profile load(const std::string& name)
 {
-    auto profile = profile::load_profile(kSource / "config/profiles", name);
+    auto profile = profile::load_profile(io::read_regular_file, kSource / "config/profiles", name);
     EXPECT_TRUE(profile) << to_string(profile.error().at(0));
     return profile ? *std::move(profile) : profile::Profile{};
 }

@@ -3,6 +3,7 @@
 #include "second_hand.hpp"
 
 #include "dpslave/gsd/type_file.hpp"
+#include "dpslave/io/file.hpp"
 
 #include <gmock/gmock.h>
 
@@ -52,7 +53,7 @@ TEST(ShippedFiles, AreAllThoseOfProfilesWithAKnownIdentAndNoneBeside)
 {
     std::set<std::string> wanted{"README.md", "manual/584s-590/EURO0533.GSD", "manual/620/EURO0533.GSD",
                                  "mappings/gain-scheduling.toml"};
-    for (const std::string& name : profile::profile_names(kSource / "config/profiles"))
+    for (const std::string& name : io::names_in(kSource / "config/profiles", ".toml"))
         if (const profile::Profile profile = test::load(name); profile.ident)
             wanted.insert(name + '/' + profile.gsd.file);
     for (const gsd::TypeFile& file : gsd::type_files(gsd::TypeName::printed))

@@ -3,6 +3,7 @@
 // chapter_8.txt is the chapter kept by itself; the programs are reckoned here.
 #include "files.hpp"
 
+#include "dpslave/io/file.hpp"
 #include "dpslave/profile/profile.hpp"
 
 #include <gmock/gmock.h>
@@ -26,7 +27,7 @@ const std::filesystem::path kSource{DPSLAVE_SOURCE_DIR};
 const drive::TagTable& table()
 {
     static const drive::TagTable tags = [] {
-        auto read = profile::load_tags(kSource / "config/tags/2400.csv");
+        auto read = profile::load_tags(io::read_regular_file, kSource / "config/tags/2400.csv");
         EXPECT_TRUE(read) << to_string(read.error().at(0));
         return read ? *std::move(read) : drive::TagTable{};
     }();

@@ -3,6 +3,7 @@
 // refuses.
 #include "files.hpp"
 
+#include "dpslave/io/file.hpp"
 #include "dpslave/profile/profile.hpp"
 
 #include <gmock/gmock.h>
@@ -118,7 +119,7 @@ TEST_F(ConvertTags, makes_further_rows_of_a_tag_aliases_where_they_stand)
                                     "62,Break,REAL,0,,,,,,,,Motor,\n"
                                     "62,Dwell,,,,,,,,,,Setpoint,CONFLICT: of another controller\n"
                                     "517,Type,ENUM,,,,rw,,,,0=None,Programmer,\n");
-    const auto tags = profile::load_tags(folder_.path() / "to/c.csv");
+    const auto tags = profile::load_tags(io::read_regular_file, (folder_.path() / "to/c.csv").string());
     ASSERT_TRUE(tags);
     EXPECT_THAT(tags->find(517)->aliases, ElementsAre("Goto"));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files.hpp"
 
+#include "dpslave/io/file.hpp"
 #include "dpslave/profile/profile.hpp"
 
 #include <gmock/gmock.h>
@@ -33,7 +34,7 @@ protected:
     Result<Profile, Faults> load(std::string_view content)
     {
         folder_.write("profiles/own.toml", content);
-        return load_profile(folder_.path() / "profiles", "own");
+        return load_profile(io::read_regular_file, folder_.path() / "profiles", "own");
     }
 
     static std::string shipped(const std::string& name)
@@ -296,7 +297,7 @@ TEST_F(OwnProfile, of_a_new_device_is_a_file_and_a_table_and_no_code)
     folder_.write("tags/pump.csv", "tag,name,type,decimals,values\n4,Flow,INT,1,\n9,State,WORD,,bit0=Dry\n");
     folder_.write("profiles/pump.toml", text);
 
-    const auto pump = load_profile(folder_.path() / "profiles", "pump");
+    const auto pump = load_profile(io::read_regular_file, folder_.path() / "profiles", "pump");
 
     ASSERT_TRUE(pump) << to_string(pump.error().at(0));
     EXPECT_EQ(pump->device, "Feed pump of a site");
@@ -307,7 +308,7 @@ TEST_F(OwnProfile, of_a_new_device_is_a_file_and_a_table_and_no_code)
     EXPECT_EQ(pump->status_tag, 9);
     EXPECT_EQ(pump->fault_mask, 1);
     EXPECT_EQ(displayed(*pump->tags.find(9), 1), ">0001 (Dry)");
-    EXPECT_THAT(profile::profile_names(folder_.path() / "profiles"), ElementsAre("pump"));
+    EXPECT_THAT(io::names_in(folder_.path() / "profiles", ".toml"), ElementsAre("pump"));
 }
 
 struct LampText {
@@ -382,7 +383,7 @@ TEST_F(OwnProfile, a_table_or_a_profile_that_is_not_there_is_named)
     EXPECT_THAT(to_string(no_table.error().at(0)),
                 HasSubstr("tags/absent.csv: the file cannot be read: No such file"));
 
-    const auto no_profile = load_profile(folder_.path() / "profiles", "absent");
+    const auto no_profile = load_profile(io::read_regular_file, folder_.path() / "profiles", "absent");
     ASSERT_FALSE(no_profile);
     EXPECT_THAT(to_string(no_profile.error().at(0)),
                 HasSubstr("absent.toml: the file cannot be read: No such file"));

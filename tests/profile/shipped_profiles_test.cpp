@@ -2,6 +2,7 @@
 // The shipped profiles against the manuals of their devices, key by key.
 #include "files.hpp"
 
+#include "dpslave/io/file.hpp"
 #include "dpslave/profile/profile.hpp"
 
 #include <gmock/gmock.h>
@@ -25,7 +26,7 @@ const std::filesystem::path kShipped = std::filesystem::path{DPSLAVE_SOURCE_DIR}
 
 Profile load(const std::string& name)
 {
-    auto profile = profile::load_profile(kShipped, name);
+    auto profile = profile::load_profile(io::read_regular_file, kShipped.string(), name);
     if (profile) return *std::move(profile);
     for (const auto& fault : profile.error()) ADD_FAILURE() << to_string(fault);
     return {};
@@ -46,14 +47,14 @@ std::string identifiers_of(const Profile& profile)
 
 TEST(ShippedProfiles, are_these_sorted_and_an_absent_folder_has_none)
 {
-    EXPECT_THAT(profile::profile_names(kShipped),
+    EXPECT_THAT(io::names_in(kShipped, ".toml"),
                 ElementsAre("2404f", "2408f", "584s", "584sv", "590", "590plus", "605", "620", "690plus"));
-    EXPECT_TRUE(profile::profile_names(kShipped / "absent").empty());
+    EXPECT_TRUE(io::names_in(kShipped / "absent", ".toml").empty());
 }
 
 TEST(ShippedProfiles, support_the_six_rates_of_the_boards_and_the_fixed_one)
 {
-    for (const std::string& name : profile::profile_names(kShipped))
+    for (const std::string& name : io::names_in(kShipped, ".toml"))
         EXPECT_THAT(load(name).personality.max_tsdr,
                     ElementsAre(60_tbit, 60_tbit, 60_tbit, 60_tbit, 60_tbit, 100_tbit, 150_tbit))
             << name;
@@ -61,7 +62,7 @@ TEST(ShippedProfiles, support_the_six_rates_of_the_boards_and_the_fixed_one)
 
 TEST(ShippedProfiles, name_an_ident_only_where_a_manual_prints_one)
 {
-    for (const std::string& name : profile::profile_names(kShipped)) {
+    for (const std::string& name : io::names_in(kShipped, ".toml")) {
         const Profile profile = load(name);
         const bool is_board = name == "584s" || name == "590" || name == "620";
         EXPECT_EQ(profile.ident, is_board        ? std::optional<std::uint16_t>{0x0533}
@@ -267,7 +268,7 @@ TEST(ShippedProfiles, of_the_technology_box_name_their_tables_and_their_mnemonic
         EXPECT_EQ(load(name).mnemonics, drive::MnemonicRule::ac) << name;
     EXPECT_EQ(load("590plus").mnemonics, drive::MnemonicRule::dc_590plus);
     for (const char* name : {"584sv", "605"}) {
-        EXPECT_THAT(load(name).tag_file.string(), EndsWith("tags/empty.csv"));
+        EXPECT_THAT(load(name).tag_file, EndsWith("tags/empty.csv"));
         EXPECT_TRUE(load(name).tags.all().empty()) << "no public table: nothing is made up";
     }
     EXPECT_NE(load("590plus").tags.find(537), nullptr);

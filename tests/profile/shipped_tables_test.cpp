@@ -3,6 +3,7 @@
 // print.
 #include "files.hpp"
 
+#include "dpslave/io/file.hpp"
 #include "dpslave/profile/profile.hpp"
 
 #include <gmock/gmock.h>
@@ -23,7 +24,7 @@ const std::filesystem::path kTags = std::filesystem::path{DPSLAVE_SOURCE_DIR} / 
 
 drive::TagTable load(const std::string& file)
 {
-    auto tags = profile::load_tags(kTags / file);
+    auto tags = profile::load_tags(io::read_regular_file, kTags / file);
     EXPECT_TRUE(tags) << to_string(tags.error().at(0));
     return tags ? *std::move(tags) : drive::TagTable{};
 }
@@ -38,7 +39,7 @@ class ShippedTable : public testing::TestWithParam<const char*> {};
 
 TEST_P(ShippedTable, can_be_read_and_is_plain_ASCII_with_line_feeds)
 {
-    EXPECT_TRUE(profile::load_tags(kTags / GetParam()));
+    EXPECT_TRUE(profile::load_tags(io::read_regular_file, kTags / GetParam()));
     for (const char c : test::content_of(kTags / GetParam()))
         EXPECT_TRUE(c == '\n' || (c >= ' ' && c <= '~')) << static_cast<int>(c);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files.hpp"
 
+#include "dpslave/io/file.hpp"
 #include "dpslave/profile/profile.hpp"
 
 #include <gmock/gmock.h>
@@ -25,7 +26,7 @@ class TagTable : public testing::Test {
 protected:
     drive::TagTable good(std::string_view content)
     {
-        auto tags = load_tags(folder_.write("t.csv", content));
+        auto tags = load_tags(io::read_regular_file, folder_.write("t.csv", content).string());
         if (tags) return *std::move(tags);
         for (const auto& fault : tags.error()) ADD_FAILURE() << to_string(fault);
         return {};
@@ -33,7 +34,7 @@ protected:
 
     Faults bad(std::string_view content)
     {
-        const auto tags = load_tags(folder_.write("t.csv", content));
+        const auto tags = load_tags(io::read_regular_file, folder_.write("t.csv", content).string());
         EXPECT_FALSE(tags) << "half a table was taken";
         return tags ? Faults{} : tags.error();
     }
@@ -95,7 +96,9 @@ TEST_F(TagTable, of_many_names_for_one_tag_keeps_each_once)
 
 TEST_F(TagTable, that_is_no_regular_file_or_too_large_is_refused_at_once)
 {
-    const auto why = [](const std::filesystem::path& file) { return load_tags(file).error().at(0).what; };
+    const auto why = [](const std::filesystem::path& file) {
+        return load_tags(io::read_regular_file, file.string()).error().at(0).what;
+    };
     const auto pipe = folder_.path() / "pipe.csv";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
 
@@ -433,12 +436,12 @@ TEST_F(TagTable, the_line_after_a_cell_of_two_lines_is_counted_right)
 
 TEST_F(TagTable, a_file_that_is_not_there_or_no_file_is_a_fault_of_the_file)
 {
-    const auto absent = load_tags(folder_.path() / "absent.csv");
+    const auto absent = load_tags(io::read_regular_file, (folder_.path() / "absent.csv").string());
     ASSERT_FALSE(absent);
     EXPECT_THAT(to_string(absent.error().at(0)),
                 HasSubstr("absent.csv: the file cannot be read: No such file"));
 
-    const auto folder = load_tags(folder_.path());
+    const auto folder = load_tags(io::read_regular_file, folder_.path().string());
     ASSERT_FALSE(folder);
     EXPECT_THAT(folder.error().at(0).what, HasSubstr("it is a folder"));
 }

@@ -10,7 +10,7 @@ cd "$1"
 row=$(sed -n "/^$library *|/p" "$table")
 [ -n "$row" ] || { echo "$table has no row for $library" >&2; exit 2; }
 column() { printf '%s\n' "$row" | cut -d'|' -f"$1" | xargs; }
-alternatives() { sed -E 's/\./\\./g; s/ +/|/g'; }
+alternatives() { sed -E 's/[.+]/\\&/g; s/ +/|/g'; }
 
 kind=$(column 2)
 # base -> base/.*; fdl/sap_user.hpp stays

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "profile/files.hpp"
 
+#include "dpslave/io/file.hpp"
 #include "dpslave/toml/document.hpp"
 #include "dpslave/toml/wording.hpp"
 
@@ -23,7 +24,7 @@ class TomlDocument : public testing::Test {
 protected:
     Document& read(std::string_view content)
     {
-        document_.emplace(folder_.write("d.toml", content));
+        document_.emplace(io::read_regular_file, folder_.write("d.toml", content).string());
         return *document_;
     }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The one narrow door to a drive, whatever protocol it speaks. A call is one exchange, or as many as it
-/// takes to be sure of its answer (docs/internals/drive-answers.md): after a refusal the drive is asked for the reason,
-/// and where an older answer is owed it is cleared first. Each exchange may block for one response time-out
-/// and the time that its characters take, whatever comes on the line; the first one without a good answer
-/// ends the call. deferred: nothing was asked, or nothing is proven. Repetitions are the poller's business,
-/// so that one dead drive does not stop the others.
+/// takes to be sure of its answer (docs/internals/drive-answers.md): after a refusal the drive is asked for
+/// the reason, and where an older answer is owed it is cleared first. Each exchange may block for one
+/// response time-out and the time that its characters take, whatever comes on the line; the first one without
+/// a good answer ends the call. deferred: nothing was asked, or nothing is proven. Repetitions are the
+/// poller's business, so that one dead drive does not stop the others.
 #pragma once
 
 #include "dpslave/base/process_image.hpp"

@@ -8,7 +8,6 @@
 #include "dpslave/toml/fault.hpp"
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,6 +42,6 @@ struct Mapping {
     std::string profile;
     Selection selection;
 };
-Result<Mapping, toml::Faults> load_mapping(const std::filesystem::path& file);
+Result<Mapping, toml::Faults> load_mapping(const toml::TextSource& source, const std::string& file);
 
 } // namespace dpslave::profile

@@ -9,8 +9,8 @@
 #include "dpslave/drive/tag.hpp"
 #include "dpslave/led/pattern.hpp"
 #include "dpslave/toml/fault.hpp"
+#include "dpslave/toml/text_source.hpp"
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -76,7 +76,7 @@ struct Profile {
     dp::Personality personality;        ///< its ident is *ident, or 0 where open
     std::uint8_t min_address = 0, max_address = 125;
     drive::TagTable tags;
-    std::filesystem::path tag_file;
+    std::string tag_file; ///< its path
     bool tags_only_from_table = false;
     drive::MnemonicRule mnemonics = drive::MnemonicRule::none;
     drive::ZeroAfter zero_after = std::chrono::nanoseconds{0}; ///< with a TEC OPTION block RIDE THROUGH rules
@@ -100,14 +100,12 @@ struct Profile {
 
 /// Reads `folder`/NAME.toml and the table it names (../tags/FILE beside the folder). All faults of both files
 /// in one list.
-Result<Profile, toml::Faults> load_profile(const std::filesystem::path& folder, const std::string& name);
+Result<Profile, toml::Faults> load_profile(const toml::TextSource& source, const std::string& folder,
+                                           const std::string& name);
 
 /// Reads a tag table.
-Result<drive::TagTable, toml::Faults> load_tags(const std::filesystem::path& file);
+Result<drive::TagTable, toml::Faults> load_tags(const toml::TextSource& source, const std::string& file);
 /// The same of its text; `file` is for the faults.
 Result<drive::TagTable, toml::Faults> read_tags(std::string_view content, const std::string& file);
-
-/// The names for which `folder` holds a profile, sorted: for messages.
-std::vector<std::string> profile_names(const std::filesystem::path& folder);
 
 } // namespace dpslave::profile

@@ -5,9 +5,9 @@
 #pragma once
 
 #include "dpslave/toml/fault.hpp"
+#include "dpslave/toml/text_source.hpp"
 
 #include <cstdint>
-#include <filesystem>
 #include <initializer_list>
 #include <memory>
 #include <optional>
@@ -80,8 +80,8 @@ private:
 
 class Document {
 public:
-    /// Reads `file`. If it cannot be read or is no TOML, that is a fault, and root() is an empty table.
-    explicit Document(const std::filesystem::path& file);
+    /// Reads `name`. If it cannot be read or is no TOML, that is a fault, and root() is an empty table.
+    Document(const TextSource& source, std::string name);
     ~Document();
     Document(const Document&) = delete;
     Document& operator=(const Document&) = delete;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What a station of the new file means for the one of the present file that it continues. docs/guide/reload.md has
-/// the table of keys.
+/// What a station of the new file means for the one of the present file that it continues.
+/// docs/guide/reload.md has the table of keys.
 #pragma once
 
 #include "differences.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpslave/app/service.hpp"
 
+#include "dpslave/io/file.hpp"
 #include "dpslave/toml/document.hpp"
 
 #include <nlohmann/json.hpp>
@@ -20,7 +21,7 @@ constexpr const char* kKept = "driver-enable.json";
 
 bool is_unconfigured(const std::filesystem::path& file)
 {
-    toml::Document document{file};
+    toml::Document document{io::read_regular_file, file.string()};
     if (!document.readable()) return false;
     const toml::Table root = document.root();
     return !root.has("bus") && !root.has("line") && !root.has("station");

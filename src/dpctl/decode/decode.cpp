@@ -5,6 +5,8 @@
 #include "dpctl/cli/table.hpp"
 #include "dpctl/cli/words.hpp"
 
+#include "dpslave/io/file.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -182,7 +184,7 @@ int do_decode(const Options& options, Terminal& terminal)
     }
     std::optional<profile::Profile> device;
     if (!options.profile.empty()) {
-        auto loaded = profile::load_profile(options.profiles, options.profile);
+        auto loaded = profile::load_profile(io::read_regular_file, options.profiles, options.profile);
         if (!loaded) {
             for (const toml::Fault& fault : loaded.error())
                 terminal.err << "dpctl: " << to_string(fault) << '\n';

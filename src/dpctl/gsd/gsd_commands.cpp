@@ -9,6 +9,7 @@
 #include "dpslave/gsd/identifier.hpp"
 #include "dpslave/gsd/io_map.hpp"
 #include "dpslave/gsd/type_file.hpp"
+#include "dpslave/io/file.hpp"
 #include "dpslave/profile/gsd_device.hpp"
 
 #include <fmt/format.h>
@@ -71,10 +72,10 @@ std::optional<profile::Profile> load(const std::string& folder, const std::strin
                                        : "--profile is a name such as 590; the folder goes to --profiles.");
         return std::nullopt;
     }
-    auto profile = profile::load_profile(folder, name);
+    auto profile = profile::load_profile(io::read_regular_file, folder, name);
     if (profile) return *std::move(profile);
     for (const toml::Fault& fault : profile.error()) fmt::print(terminal.err, "{}\n", to_string(fault));
-    const auto names = profile::profile_names(folder);
+    const auto names = io::names_in(folder, ".toml");
     if (!names.empty() && std::find(names.begin(), names.end(), name) == names.end())
         fmt::print(terminal.err, "dpctl: the profiles there: {}\n", fmt::join(names, ", "));
     return std::nullopt;
@@ -244,7 +245,7 @@ int gsd_make(const GsdOptions& options, Terminal& terminal)
 {
     profile::Mapping mapping;
     if (!options.mapping.empty()) {
-        auto loaded = profile::load_mapping(options.mapping);
+        auto loaded = profile::load_mapping(io::read_regular_file, options.mapping);
         if (!loaded) {
             for (const toml::Fault& fault : loaded.error())
                 fmt::print(terminal.err, "{}\n", to_string(fault));

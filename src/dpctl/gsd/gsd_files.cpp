@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gsd_files.hpp"
 
-#include "dpslave/toml/text_file.hpp"
+#include "dpslave/io/file.hpp"
 
 #include <fcntl.h>
 #include <stdio.h> // renameat2
@@ -71,7 +71,7 @@ int put_in_place(const char* temporary, const std::filesystem::path& file, bool 
 
 Result<std::string, FileError> read_file(const std::filesystem::path& file)
 {
-    auto content = toml::read_regular_file(file);
+    auto content = io::read_regular_file(file.string());
     if (!content) return Failure{FileError{content.error().why}};
     return *std::move(content);
 }

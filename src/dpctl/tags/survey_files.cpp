@@ -2,8 +2,9 @@
 #include "dpctl/gsd/gsd_files.hpp"
 #include "survey.hpp"
 
+#include "dpslave/io/file.hpp"
 #include "dpslave/profile/profile.hpp"
-#include "dpslave/toml/text_file.hpp"
+#include "dpslave/toml/text_source.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -64,7 +65,7 @@ Result<SurveyFiles, std::string> SurveyFiles::open(std::filesystem::path table,
     files.lock_ = *std::move(lock);
     files.begin_with(begin_with);
     if (resume) {
-        const auto record = toml::read_text_file(files.record_);
+        const auto record = toml::read_text(io::read_regular_file, files.record());
         if (!record)
             return Failure{to_string(record.error()) +
                            " There is no survey to go on with: leave --resume out to begin one."};
@@ -86,7 +87,7 @@ void SurveyFiles::begin_with(const std::filesystem::path& file)
 {
     std::error_code ignored;
     if (file.empty() || std::filesystem::exists(table_, ignored)) return;
-    auto first = toml::read_text_file(file);
+    auto first = toml::read_text(io::read_regular_file, file.string());
     if (!first) {
         not_taken_over_ = to_string(first.error());
         return;
@@ -102,7 +103,7 @@ Result<SurveyFiles::Text, std::string> SurveyFiles::table_now() const
 {
     std::error_code ignored;
     if (!std::filesystem::exists(table_, ignored)) return Text{first_table_};
-    auto now = toml::read_regular_file(table_);
+    auto now = io::read_regular_file(table());
     if (!now) return Failure{fmt::format("{}: it cannot be read: {}", table(), now.error().why)};
     return Text{*std::move(now)};
 }

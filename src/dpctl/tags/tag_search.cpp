@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tag_search.hpp"
 
+#include "dpslave/io/file.hpp"
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -124,7 +126,7 @@ void add_device(TagFile& file, const profile::Profile& profile)
 TagFiles load_table(const fs::path& file)
 {
     TagFiles result;
-    auto tags = profile::load_tags(file);
+    auto tags = profile::load_tags(io::read_regular_file, file.string());
     if (tags)
         result.files.push_back({.name = file.filename().string(),
                                 .tags = *std::move(tags),
@@ -140,13 +142,13 @@ TagFiles load_table(const fs::path& file)
 TagFiles load_table_of(const fs::path& profiles, const std::string& name)
 {
     TagFiles result;
-    auto profile = profile::load_profile(profiles, name);
+    auto profile = profile::load_profile(io::read_regular_file, profiles.string(), name);
     if (!profile) {
         collect_faults(profile.error(), result.faults);
         return result;
     }
     TagFile& file = result.files.emplace_back();
-    file.name = profile->tag_file.filename().string();
+    file.name = fs::path{profile->tag_file}.filename().string();
     file.tags = profile->tags;
     add_device(file, *profile);
     return result;
@@ -170,14 +172,14 @@ TagFiles load_tables(const fs::path& profiles)
         for (TagFile& file : one.files) result.files.push_back(std::move(file));
         result.faults.insert(result.faults.end(), one.faults.begin(), one.faults.end());
     }
-    for (const std::string& name : profile::profile_names(profiles)) {
-        const auto profile = profile::load_profile(profiles, name);
+    for (const std::string& name : io::names_in(profiles.string(), ".toml")) {
+        const auto profile = profile::load_profile(io::read_regular_file, profiles.string(), name);
         if (!profile) {
             collect_faults(profile.error(), result.faults);
             continue;
         }
         for (TagFile& file : result.files)
-            if (profile->tag_file.filename() == file.name) add_device(file, *profile);
+            if (fs::path{profile->tag_file}.filename() == file.name) add_device(file, *profile);
     }
     return result;
 }

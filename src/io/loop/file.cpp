@@ -1,27 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpslave/toml/text_file.hpp"
+#include "dpslave/io/file.hpp"
+
+#include "dpslave/io/fd.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <filesystem>
 #include <system_error>
 
-namespace dpslave::toml {
+namespace dpslave::io {
 namespace {
-
-struct OpenFile {
-    int number = -1;
-    explicit OpenFile(int n) : number(n) {}
-    OpenFile(const OpenFile&) = delete;
-    OpenFile& operator=(const OpenFile&) = delete;
-    ~OpenFile()
-    {
-        if (number >= 0) ::close(number);
-    }
-};
 
 Failure<Unreadable> last_error()
 {
@@ -41,21 +34,21 @@ Failure<Unreadable> no_file(mode_t mode)
 
 } // namespace
 
-Result<std::string, Unreadable> read_regular_file(const std::filesystem::path& file)
+Result<std::string, Unreadable> read_regular_file(const std::string& file)
 {
     struct stat status {};
     // Asked first, since the mere opening of a device may do something; and again of what was opened.
     if (::stat(file.c_str(), &status) != 0) return last_error();
     if (!S_ISREG(status.st_mode)) return no_file(status.st_mode);
-    const OpenFile open{::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)};
-    if (open.number < 0 || ::fstat(open.number, &status) != 0) return last_error();
+    const Fd open{::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)};
+    if (!open || ::fstat(open.get(), &status) != 0) return last_error();
     if (!S_ISREG(status.st_mode)) return no_file(status.st_mode);
     if (status.st_size > static_cast<off_t>(kMaxFileSize)) return too_large();
 
     std::string content;
     std::array<char, 16384> part{};
     for (;;) {
-        const ssize_t got = ::read(open.number, part.data(), part.size());
+        const ssize_t got = ::read(open.get(), part.data(), part.size());
         if (got < 0 && errno == EINTR) continue;
         if (got < 0) return last_error();
         if (got == 0) return content;
@@ -64,15 +57,15 @@ Result<std::string, Unreadable> read_regular_file(const std::filesystem::path& f
     }
 }
 
-Result<std::string, Fault> read_text_file(const std::filesystem::path& file)
+std::vector<std::string> names_in(const std::string& folder, const std::string& extension)
 {
-    auto content = read_regular_file(file);
-    if (!content) {
-        const std::string& why = content.error().why;
-        return Failure{Fault{file.string(), 0, 0, "the file cannot be read: " + why + "."}};
-    }
-    if (content->starts_with(kByteOrderMark)) content->erase(0, kByteOrderMark.size());
-    return *std::move(content);
+    std::vector<std::string> names;
+    std::error_code error;
+    for (std::filesystem::directory_iterator entry{folder, error}, end; !error && entry != end;
+         entry.increment(error))
+        if (entry->path().extension() == extension) names.push_back(entry->path().stem().string());
+    std::sort(names.begin(), names.end());
+    return names;
 }
 
-} // namespace dpslave::toml
+} // namespace dpslave::io
