@@ -191,4 +191,12 @@ std::optional<std::chrono::seconds> SurveyPace::time_for(std::size_t reads) cons
     return std::chrono::seconds{std::llround(std::ceil(seconds * static_cast<double>(reads)))};
 }
 
+SurveyPatience::Verdict SurveyPatience::waits(bool for_drive, std::chrono::nanoseconds now)
+{
+    if (!since_) since_ = now;
+    if (is_time_over(now)) return for_drive ? Verdict::no_drive : Verdict::time_is_over;
+    if (now < *since_ + kLongest || (time_ && for_drive)) return Verdict::wait;
+    return for_drive ? Verdict::no_drive : Verdict::other_survey;
+}
+
 } // namespace dpslave::profile

@@ -22,7 +22,7 @@ std::optional<T> whole(std::string_view text)
 }
 
 constexpr std::string_view kRecordHeader =
-    "tag,mnemonic,answers,silences,denials,form,digits,decimals,lowest,highest,last,denied";
+    "tag,mnemonic,answers,silences,denials,form,digits,decimals,lowest,highest,last,denied,station";
 enum class RecordColumn : std::size_t {
     tag,
     mnemonic,
@@ -36,8 +36,9 @@ enum class RecordColumn : std::size_t {
     highest,
     last,
     denied,
+    station,
 };
-constexpr std::size_t kRecordColumns = 12;
+constexpr std::size_t kRecordColumns = 13;
 
 constexpr std::array kForms = {SurveyForm::none,  SurveyForm::number, SurveyForm::hexadecimal,
                                SurveyForm::other, SurveyForm::mixed,  SurveyForm::word};
@@ -152,7 +153,7 @@ std::optional<std::chrono::seconds> parse_duration(std::string_view text)
     return std::chrono::seconds{*count * unit};
 }
 
-std::string record_text(const Survey& survey)
+std::string record_text(const Survey& survey, std::string_view station)
 {
     std::string out{kRecordHeader};
     out += '\n';
@@ -165,12 +166,13 @@ std::string record_text(const Survey& survey)
               has_number ? text(one.lowest) : std::string{}, has_number ? text(one.highest) : std::string{},
               csv_cell(one.last)})
             out += cell + ',';
-        out += csv_cell(one.denied) + '\n';
+        out += csv_cell(one.denied) + ',' + csv_cell(station) + '\n';
     }
     return out;
 }
 
-Result<Survey, toml::Faults> read_record(std::string_view content, const std::string& file)
+Result<Survey, toml::Faults> read_record(std::string_view content, const std::string& file,
+                                         std::string_view station)
 {
     toml::Faults faults;
     const std::vector<Row> rows = read_csv(content, file, faults);
@@ -180,7 +182,12 @@ Result<Survey, toml::Faults> read_record(std::string_view content, const std::st
             {file, 1, 1, "this is no record of a survey: leave --resume out to begin a new one."});
     for (std::size_t i = 1; i < rows.size() && faults.empty(); ++i) {
         auto read = record_row(rows[i]);
-        if (read)
+        if (read && rows[i].cells.back().text != station)
+            faults.push_back({file, rows[i].line, 1,
+                              "this is the record of station '" + std::string{rows[i].cells.back().text} +
+                                  "', not of '" + std::string{station} +
+                                  "': name another table with --table."});
+        else if (read)
             survey.insert(*std::move(read));
         else
             faults.push_back(

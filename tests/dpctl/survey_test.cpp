@@ -5,6 +5,7 @@
 #include "dpctl_bench.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <csignal>
 #include <filesystem>
@@ -50,7 +51,7 @@ class SurveyFilesTest : public testing::Test {
 protected:
     SurveyFiles open(bool resume = false, const std::filesystem::path& begin_with = {}) const
     {
-        auto files = SurveyFiles::open(table, begin_with, resume);
+        auto files = SurveyFiles::open("unwinder", table, begin_with, resume);
         if (!files) throw std::runtime_error(files.error());
         return *std::move(files);
     }
@@ -137,7 +138,7 @@ TEST_F(SurveyFilesTest, ATableThatCannotBeReadIsNotReplaced)
     const std::string large(std::size_t{1024} * 1024 + 1, 'x');
     put(table, large);
 
-    EXPECT_THAT(SurveyFiles::open(table, {}, false).error(),
+    EXPECT_THAT(SurveyFiles::open("unwinder", table, {}, false).error(),
                 testing::AllOf(HasSubstr("cannot be read"), HasSubstr("larger than 1 MiB")));
 
     EXPECT_EQ(content(table).size(), large.size());
@@ -147,13 +148,13 @@ TEST_F(SurveyFilesTest, OfOneSurveyAreNotThoseOfAnotherAtTheSameTime)
 {
     {
         SurveyFiles first = open();
-        EXPECT_THAT(SurveyFiles::open(table, {}, true).error(),
+        EXPECT_THAT(SurveyFiles::open("unwinder", table, {}, true).error(),
                     testing::AllOf(HasSubstr("another survey writes this file"), HasSubstr("--table")));
         first.seen[1].add(said("12.5"));
         EXPECT_EQ(first.save(), std::nullopt);
-        EXPECT_THAT(SurveyFiles::open(table, {}, true).error(), HasSubstr("another survey"))
+        EXPECT_THAT(SurveyFiles::open("unwinder", table, {}, true).error(), HasSubstr("another survey"))
             << "also when the file was written anew";
-        EXPECT_TRUE(SurveyFiles::open(folder.path() / "other.csv", {}, false));
+        EXPECT_TRUE(SurveyFiles::open("unwinder", folder.path() / "other.csv", {}, false));
     }
     EXPECT_EQ(open(true).seen.size(), 1U) << "its end gives them free";
 }
@@ -177,15 +178,61 @@ TEST_F(SurveyFilesTest, AreWrittenWholeOrNotAtAll)
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator{folder.path()}, {}), 2) << "no leftovers";
 }
 
+TEST_F(SurveyFilesTest, OfAnotherStationAreNotGoneOnWith)
+{
+    {
+        SurveyFiles files = open();
+        files.seen[1].add(said("12.5"));
+        EXPECT_EQ(files.save(), std::nullopt);
+    }
+    EXPECT_THAT(SurveyFiles::open("rewinder", table, {}, true).error(),
+                HasSubstr("the record of station 'unwinder', not of 'rewinder'"));
+}
+
+TEST_F(SurveyFilesTest, ThatAreLinksAreWrittenWhereTheyLead)
+{
+    namespace fs = std::filesystem;
+    const TempFolder elsewhere;
+    fs::create_symlink(elsewhere.path() / "t.csv", table); // leads to no file yet
+    put(elsewhere.path() / "r.csv", "");
+    fs::create_symlink(elsewhere.path() / "r.csv", folder.path() / "second");
+    fs::create_symlink("second", record);
+
+    SurveyFiles files = open();
+    files.seen[1].add(said("12.5"));
+    EXPECT_EQ(files.save(), std::nullopt);
+
+    EXPECT_TRUE(fs::is_symlink(table));
+    EXPECT_TRUE(fs::is_symlink(record));
+    EXPECT_THAT(content(elsewhere.path() / "t.csv"), HasSubstr("\n1,"));
+    EXPECT_THAT(content(elsewhere.path() / "r.csv"), HasSubstr("\n1,"));
+}
+
+TEST_F(SurveyFilesTest, KeepTheirPermissionsAndNewOnesHaveThoseOfTheUser)
+{
+    namespace fs = std::filesystem;
+    const auto mode_of = [](const fs::path& file) { return fs::status(file).permissions(); };
+    put(table, "tag\n");
+    fs::permissions(table, fs::perms{0660});
+    const mode_t before = ::umask(027);
+    SurveyFiles files = open();
+    files.seen[1].add(said("12.5"));
+    EXPECT_EQ(files.save(), std::nullopt);
+    ::umask(before);
+
+    EXPECT_EQ(mode_of(table), fs::perms{0660});
+    EXPECT_EQ(mode_of(record), fs::perms{0640});
+}
+
 TEST_F(SurveyFilesTest, SayAtOnceWhatIsWrong)
 {
-    EXPECT_THAT(SurveyFiles::open(table, {}, true).error(),
+    EXPECT_THAT(SurveyFiles::open("unwinder", table, {}, true).error(),
                 testing::AllOf(HasSubstr("cannot be read: No such file"), HasSubstr("leave --resume out")));
-    EXPECT_THAT(SurveyFiles::open(folder.path() / "none" / "t.csv", {}, false).error(),
+    EXPECT_THAT(SurveyFiles::open("unwinder", folder.path() / "none" / "t.csv", {}, false).error(),
                 HasSubstr("cannot be written"));
-    EXPECT_THAT(SurveyFiles::open("/dev/null", {}, false).error(), HasSubstr("no regular file"));
+    EXPECT_THAT(SurveyFiles::open("unwinder", "/dev/null", {}, false).error(), HasSubstr("no regular file"));
     put(table, "name\nSPEED\n");
-    EXPECT_THAT(SurveyFiles::open(table, {}, false).error(), HasSubstr("no column tag"));
+    EXPECT_THAT(SurveyFiles::open("unwinder", table, {}, false).error(), HasSubstr("no column tag"));
 }
 
 // ---------------------------------------------------------------- what is shown
@@ -302,7 +349,7 @@ TEST_F(SurveyProgram, GoesOnUntilItsTimeIsOver)
     const Ran ran = dpctl(command({"--only", "1", "--for", "1s"}));
 
     EXPECT_EQ(ran.exit, 0) << ran.err;
-    const auto record = profile::read_record(content(folder.path() / "t.survey.csv"), "r");
+    const auto record = profile::read_record(content(folder.path() / "t.survey.csv"), "r", "unwinder");
     ASSERT_TRUE(record);
     EXPECT_GT(record->at(1).answers, 3U);
 }

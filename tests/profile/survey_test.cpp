@@ -110,10 +110,10 @@ TEST(SurveyRecord, comes_back_from_its_file_as_it_was)
     survey[59].add(silence());
     survey[60] = saw({"1.", ">1"});
 
-    const auto read = read_record(record_text(survey), "r.csv");
+    const auto read = read_record(record_text(survey, "unwinder"), "r.csv", "unwinder");
 
     ASSERT_TRUE(read);
-    EXPECT_EQ(record_text(*read), record_text(survey));
+    EXPECT_EQ(record_text(*read, "unwinder"), record_text(survey, "unwinder"));
     ASSERT_EQ(read->size(), 6U);
     EXPECT_EQ(read->at(55).mnemonic, "bj");
     EXPECT_EQ(text(read->at(55).lowest), "-0.5");
@@ -126,15 +126,25 @@ TEST(SurveyRecord, comes_back_from_its_file_as_it_was)
 
 TEST(SurveyRecord, another_file_is_refused_with_its_line)
 {
-    const auto table = read_record("tag,name\n1,SPEED\n", "t.csv");
+    const auto table = read_record("tag,name\n1,SPEED\n", "t.csv", "unwinder");
     ASSERT_FALSE(table);
     EXPECT_THAT(table.error().front().what, HasSubstr("no record of a survey"));
 
     Survey survey;
     survey[55] = saw({"1."});
-    const auto cut = read_record(record_text(survey) + "56,bk,1,0\n", "r.csv");
+    const auto cut = read_record(record_text(survey, "unwinder") + "56,bk,1,0\n", "r.csv", "unwinder");
     ASSERT_FALSE(cut);
     EXPECT_EQ(cut.error().front().line, 3U);
+}
+
+TEST(SurveyRecord, of_another_station_is_refused)
+{
+    Survey survey;
+    survey[55] = saw({"1."});
+    const auto read = read_record(record_text(survey, "re,winder"), "r.csv", "unwinder");
+
+    ASSERT_FALSE(read);
+    EXPECT_THAT(read.error().front().what, HasSubstr("the record of station 're,winder', not of 'unwinder'"));
 }
 
 // ---- which tag is next
@@ -219,6 +229,50 @@ TEST(SurveyPace, says_nothing_before_it_has_measured_and_then_what_the_last_read
     for (int i = 0; i < 64; ++i) pace.took(milliseconds{200});
     EXPECT_THAT(pace.time_for(100), Optional(seconds{20})) << "the silent part of the numbers takes longer";
     EXPECT_THAT(pace.time_for(1), Optional(seconds{1})) << "rounded up";
+}
+
+// ---- how long it waits
+
+using Verdict = SurveyPatience::Verdict;
+
+TEST(SurveyPatience, waits_half_a_minute_for_the_drive_and_behind_another_survey)
+{
+    for (const bool for_drive : {true, false}) {
+        SurveyPatience patience{std::nullopt};
+        EXPECT_EQ(patience.waits(for_drive, seconds{100}), Verdict::wait);
+        EXPECT_EQ(patience.waits(for_drive, milliseconds{129'999}), Verdict::wait);
+        EXPECT_EQ(patience.waits(for_drive, seconds{130}),
+                  for_drive ? Verdict::no_drive : Verdict::other_survey);
+    }
+}
+
+TEST(SurveyPatience, begins_anew_with_each_answer)
+{
+    SurveyPatience patience{std::nullopt};
+    EXPECT_EQ(patience.waits(true, seconds{0}), Verdict::wait);
+    patience.was_answered();
+    EXPECT_EQ(patience.waits(true, seconds{40}), Verdict::wait);
+    EXPECT_EQ(patience.waits(true, seconds{70}), Verdict::no_drive);
+}
+
+TEST(SurveyPatience, with_a_time_of_its_own_waits_for_the_drive_until_that_is_over)
+{
+    SurveyPatience patience{seconds{600}};
+    EXPECT_EQ(patience.waits(true, seconds{0}), Verdict::wait);
+    EXPECT_EQ(patience.waits(true, seconds{599}), Verdict::wait);
+    EXPECT_FALSE(patience.is_time_over(seconds{599}));
+    EXPECT_EQ(patience.waits(true, seconds{600}), Verdict::no_drive);
+    EXPECT_TRUE(patience.is_time_over(seconds{600}));
+}
+
+TEST(SurveyPatience, with_a_time_of_its_own_waits_for_another_survey_half_a_minute_all_the_same)
+{
+    SurveyPatience patience{seconds{600}};
+    EXPECT_EQ(patience.waits(false, seconds{0}), Verdict::wait);
+    EXPECT_EQ(patience.waits(false, seconds{30}), Verdict::other_survey);
+
+    SurveyPatience at_the_end{seconds{10}};
+    EXPECT_EQ(at_the_end.waits(false, seconds{10}), Verdict::time_is_over);
 }
 
 // ---- what a person writes

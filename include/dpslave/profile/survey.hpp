@@ -84,9 +84,11 @@ struct Sighting {
 /// What a survey saw, by tag.
 using Survey = std::map<std::uint16_t, Sighting>;
 
-/// The record of a survey as a CSV file, from which it can go on.
-std::string record_text(const Survey& survey);
-Result<Survey, toml::Faults> read_record(std::string_view content, const std::string& file);
+/// The record of a survey as a CSV file, from which it can go on. Each row names the station, and the record
+/// of another station is refused.
+std::string record_text(const Survey& survey, std::string_view station);
+Result<Survey, toml::Faults> read_record(std::string_view content, const std::string& file,
+                                         std::string_view station);
 
 /// Which tag is asked next: of those that are still wanted the one that was asked least, ascending. A tag
 /// that was only ever denied is asked once; one that never answered three times, for a silence may be the
@@ -123,6 +125,23 @@ private:
     static constexpr std::size_t kWindow = 64, kEnough = 8;
     std::array<std::chrono::nanoseconds, kWindow> window_{};
     std::size_t count_ = 0;
+};
+
+/// How long a survey waits for a drive that does not answer, or behind another survey: 30 s. With a time of
+/// its own it waits for the drive until that is over. Times count from the begin of the survey.
+class SurveyPatience {
+public:
+    enum class Verdict : std::uint8_t { wait, no_drive, other_survey, time_is_over };
+
+    explicit SurveyPatience(std::optional<std::chrono::seconds> time) : time_(time) {}
+    bool is_time_over(std::chrono::nanoseconds now) const { return time_ && now >= *time_; }
+    Verdict waits(bool for_drive, std::chrono::nanoseconds now);
+    void was_answered() { since_.reset(); }
+
+private:
+    static constexpr std::chrono::seconds kLongest{30};
+    std::optional<std::chrono::seconds> time_;
+    std::optional<std::chrono::nanoseconds> since_;
 };
 
 /// A tag table after a survey.

@@ -55,6 +55,29 @@ FileError is_there()
     return {"it is there already: choose another name, or replace it with --force"};
 }
 
+/// Where a link leads, also where there is no file yet. A ring of links stays as it is: writing fails then.
+std::filesystem::path target_of(std::filesystem::path file)
+{
+    constexpr int kMostLinks = 40;
+    std::error_code failed;
+    for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(file, failed); ++i)
+        file = file.parent_path() / std::filesystem::read_symlink(file, failed);
+    return file;
+}
+
+/// As the file that is replaced; a new one is readable as any other of this user.
+bool set_permissions(int descriptor, const std::filesystem::path& file)
+{
+    struct stat there {};
+    if (::stat(file.c_str(), &there) == 0) {
+        if (::fchown(descriptor, there.st_uid, there.st_gid) != 0 && errno != EPERM) return false;
+        return ::fchmod(descriptor, there.st_mode & 0777) == 0;
+    }
+    const mode_t mask = ::umask(0);
+    ::umask(mask);
+    return ::fchmod(descriptor, 0666 & ~mask) == 0;
+}
+
 /// 0, or errno.
 int put_in_place(const char* temporary, const std::filesystem::path& file, bool replace)
 {
@@ -76,18 +99,17 @@ Result<std::string, FileError> read_file(const std::filesystem::path& file)
     return *std::move(content);
 }
 
-std::optional<FileError> write_file(const std::filesystem::path& file, std::string_view content, bool replace)
+std::optional<FileError> write_file(const std::filesystem::path& name, std::string_view content, bool replace)
 {
     struct stat there {};
-    if (!replace && ::lstat(file.c_str(), &there) == 0) return is_there();
+    if (!replace && ::lstat(name.c_str(), &there) == 0) return is_there();
+    const std::filesystem::path file = replace ? target_of(name) : name;
 
     std::string temporary = file.string() + ".XXXXXX";
     Descriptor descriptor{::mkostemp(temporary.data(), O_CLOEXEC)};
     if (descriptor.number() < 0) return last_error();
-    const mode_t mask = ::umask(0); // readable as any other file of this user; mkostemp gives 0600
-    ::umask(mask);
     const bool written = write_all(descriptor.number(), content) &&
-                         ::fchmod(descriptor.number(), 0666 & ~mask) == 0 && descriptor.close();
+                         set_permissions(descriptor.number(), file) && descriptor.close();
     const int error = written ? put_in_place(temporary.c_str(), file, replace) : errno;
     if (error == 0) return std::nullopt;
     ::unlink(temporary.c_str());

@@ -19,8 +19,9 @@ struct FileError {
 /// A regular file of at most 1 MiB, octet by octet.
 Result<std::string, FileError> read_file(const std::filesystem::path& file);
 
-/// Under a temporary name beside `file`, then renamed: nobody ever sees half of it. `replace` = false: a file
-/// that is there already is left alone, and that is the error.
+/// Under a temporary name beside `file`, then renamed: it is whole at every moment. `replace` = false: a file
+/// that is there already is left alone, and that is the error. `replace` = true: a link stays, and the file
+/// where it leads is written; owner and permissions stay.
 std::optional<FileError> write_file(const std::filesystem::path& file, std::string_view content,
                                     bool replace);
 

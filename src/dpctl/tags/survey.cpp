@@ -21,7 +21,6 @@ constexpr auto kSaveEvery = 5s;     ///< what a loss of power may cost
 constexpr auto kDrawEvery = 200ms;  ///< of the bar on a terminal
 constexpr auto kSayEvery = 10s;     ///< of the lines elsewhere
 constexpr auto kLongestRound = 60s; ///< a survey read waits for a round of the line
-constexpr auto kGiveUpAfter = 30s;  ///< without a drive, or behind another survey
 constexpr int kWaitForDrive_ms = 1000, kWaitForOther_ms = 200;
 
 struct Scope {
@@ -57,7 +56,8 @@ public:
           scope_(std::move(scope)),
           files_(std::move(files)),
           plan_(scope_.tags, options.duration.empty() ? options.passes : 0),
-          time_(profile::parse_duration(options.duration))
+          time_(profile::parse_duration(options.duration)),
+          patience_(time_)
     {}
 
     int go(const EndSignals& end);
@@ -81,7 +81,7 @@ private:
     profile::SurveyPace pace_;
     std::optional<std::chrono::seconds> time_; ///< --for
     Clock::time_point began_ = Clock::now(), saved_ = began_, said_ = began_;
-    std::optional<Clock::time_point> waits_since_; ///< for the drive, or for another survey
+    profile::SurveyPatience patience_;
     bool waits_for_drive_ = false;
     std::string not_saved_; ///< why not, the last time
 };
@@ -115,7 +115,7 @@ int Run::go(const EndSignals& end)
 End Run::read_all(control::Client& client, const EndSignals& end)
 {
     for (;;) {
-        if (time_ && Clock::now() >= began_ + *time_) return End::time_is_over;
+        if (patience_.is_time_over(Clock::now() - began_)) return End::time_is_over;
         const auto tag = plan_.next(files_.seen);
         if (!tag) return End::done;
         if (const auto ended = read_one(client, end, *tag)) return *ended;
@@ -146,7 +146,7 @@ std::optional<End> Run::read_one(control::Client& client, const EndSignals& end,
         }
         if (!is_busy && take((*reply)->parameters, tag)) {
             pace_.took(Clock::now() - asked_at);
-            waits_since_.reset();
+            patience_.was_answered();
             waits_for_drive_ = false;
             return std::nullopt;
         }
@@ -156,14 +156,15 @@ std::optional<End> Run::read_one(control::Client& client, const EndSignals& end,
 
 std::optional<End> Run::wait_for(bool for_drive, const EndSignals& end)
 {
-    const auto now = Clock::now();
-    if (!waits_since_) waits_since_ = now;
+    using Verdict = profile::SurveyPatience::Verdict;
     waits_for_drive_ = for_drive;
     say_progress(false);
-    if (time_ && now >= began_ + *time_) return for_drive ? End::no_drive : End::time_is_over;
-    // Who has said how long it is to go on is not left before.
-    const bool gives_up = now >= *waits_since_ + kGiveUpAfter && !(time_ && for_drive);
-    if (gives_up) return for_drive ? End::no_drive : End::other;
+    switch (patience_.waits(for_drive, Clock::now() - began_)) {
+        case Verdict::wait: break;
+        case Verdict::no_drive: return End::no_drive;
+        case Verdict::other_survey: return End::other;
+        case Verdict::time_is_over: return End::time_is_over;
+    }
     if (end.within(for_drive ? kWaitForDrive_ms : kWaitForOther_ms)) return End::interrupted;
     return std::nullopt;
 }
@@ -306,8 +307,9 @@ int do_survey(const Options& options, Terminal& terminal)
             scope.station, scope.tag_table);
         return kNo;
     }
-    auto files = SurveyFiles::open(options.table.empty() ? file_name(scope.station) : options.table,
-                                   scope.tag_table, options.resume);
+    auto files =
+        SurveyFiles::open(scope.station, options.table.empty() ? file_name(scope.station) : options.table,
+                          scope.tag_table, options.resume);
     if (!files) {
         terminal.err << "dpctl: " << files.error() << '\n';
         return kNo;

@@ -22,7 +22,7 @@ class SurveyFiles {
 public:
     /// `begin_with`: a table whose rows stand in the new one where there is no `table` yet; empty = none. The
     /// error is a sentence.
-    static Result<SurveyFiles, std::string> open(std::filesystem::path table,
+    static Result<SurveyFiles, std::string> open(const std::string& station, std::filesystem::path table,
                                                  const std::filesystem::path& begin_with, bool resume);
 
     /// Joins what was seen with the table as it is now and writes both files, each whole or not at all. The
@@ -45,6 +45,7 @@ private:
     Result<Text, std::string> table_now() const;
     std::optional<std::string> join(const Text& now);
 
+    std::string station_;
     std::filesystem::path table_, record_;
     std::string first_table_; ///< until `table_` is there
     std::size_t rows_taken_over_ = 0;

@@ -48,10 +48,11 @@ std::filesystem::path record_beside(const std::filesystem::path& table)
     return table.parent_path() / (table.stem().string() + ".survey.csv");
 }
 
-Result<SurveyFiles, std::string> SurveyFiles::open(std::filesystem::path table,
+Result<SurveyFiles, std::string> SurveyFiles::open(const std::string& station, std::filesystem::path table,
                                                    const std::filesystem::path& begin_with, bool resume)
 {
     SurveyFiles files;
+    files.station_ = station;
     files.table_ = std::move(table);
     files.record_ = record_beside(files.table_);
     for (const auto& file : {files.table_, files.record_})
@@ -69,7 +70,7 @@ Result<SurveyFiles, std::string> SurveyFiles::open(std::filesystem::path table,
         if (!record)
             return Failure{to_string(record.error()) +
                            " There is no survey to go on with: leave --resume out to begin one."};
-        auto seen = profile::read_record(*record, files.record());
+        auto seen = profile::read_record(*record, files.record(), station);
         if (!seen) return Failure{sentence(seen.error())};
         files.seen = *std::move(seen);
     }
@@ -123,7 +124,7 @@ std::optional<std::string> SurveyFiles::join(const Text& now)
 /// person.
 std::optional<std::string> SurveyFiles::save()
 {
-    if (const auto failed = write_file(record_, profile::record_text(seen), true))
+    if (const auto failed = write_file(record_, profile::record_text(seen, station_), true))
         return fmt::format("{}: it cannot be written: {}", record(), failed->why);
     if (auto lock = lock_on(record_)) lock_ = *std::move(lock); // it is a new file
     const auto before = table_now();
