@@ -18,7 +18,7 @@ std::size_t class_of(std::uint32_t value)
 {
     if (value < kEighthsFrom) return value;
     if (value >= Histogram::kLastLowerEnd) return Histogram::kClasses - 1;
-    const auto power = static_cast<unsigned>(std::bit_width(value)) - 1;
+    const std::size_t power = static_cast<std::size_t>(std::bit_width(value)) - 1;
     if (value < kQuartersFrom) return kFirstOfEighths + (power - 4) * 8 + ((value >> (power - 3)) & 7);
     return kFirstOfQuarters + (power - 6) * 4 + ((value >> (power - 2)) & 3);
 }

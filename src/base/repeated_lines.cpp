@@ -58,6 +58,7 @@ std::vector<RepeatedLines::Line> RepeatedLines::on_time(Instant now)
     }
     std::sort(due.begin(), due.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     std::vector<Line> lines;
+    lines.reserve(due.size());
     for (auto& [order, line] : due) lines.push_back(std::move(line));
     return lines;
 }
