@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// dpsim: a paced serial line, an EI-ASCII drive or a Modbus instrument, and a DP master, for users without
 /// hardware and for the tests.
-#include "console.hpp"
-#include "drive_commands.hpp"
-#include "instrument_commands.hpp"
-#include "master_options.hpp"
-#include "programs.hpp"
+#include "dpsim/common/programs.hpp"
+#include "dpsim/drive/drive_commands.hpp"
+#include "dpsim/instrument/instrument_commands.hpp"
+#include "dpsim/master/console.hpp"
+#include "dpsim/master/master_options.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

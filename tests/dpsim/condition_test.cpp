@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a script can ask for, and where the process words lie (HA389815 chapter 6).
-#include "dpsim/condition.hpp"
-#include "dpsim/values.hpp"
+#include "dpsim/common/values.hpp"
+#include "dpsim/master/condition.hpp"
 #include "octets.hpp"
 
 #include <gmock/gmock.h>

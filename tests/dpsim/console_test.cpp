@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The script language of `dpsim master` on a simulated clock.
-#include "dpsim/console.hpp"
+#include "dpsim/master/console.hpp"
 #include "master_bench.hpp"
 
 #include <gmock/gmock.h>

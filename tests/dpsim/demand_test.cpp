@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Demand Data registers: HA389815 chapter 7; extended commands and worked examples: 2408f/2404f handbook
 // chapter 7.
-#include "dpsim/demand.hpp"
+#include "dpsim/master/demand.hpp"
 #include "octets.hpp"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Slave_Diag, wire reference 5.1 and 5.3.
-#include "dpsim/diagnosis.hpp"
+#include "dpsim/master/diagnosis.hpp"
 #include "octets.hpp"
 
 #include <gmock/gmock.h>

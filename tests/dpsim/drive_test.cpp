@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A drive on an EI-ASCII line (EI-ASCII reference, sections 1 and 4); octets and checks written by hand.
-#include "dpsim/drive_commands.hpp"
+#include "dpsim/drive/drive_commands.hpp"
 #include "octets.hpp"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // EI-ASCII reference, sections 1 to 4.
-#include "dpsim/ei_ascii.hpp"
+#include "dpsim/drive/ei_ascii.hpp"
 #include "octets.hpp"
 
 #include <gtest/gtest.h>

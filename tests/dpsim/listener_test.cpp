@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A UART at the wrong rate. The expectations were found on paper: bit times of the sender on squared paper,
 // and a look at the middle of each bit time of the listener.
-#include "dpsim/listener.hpp"
+#include "dpsim/line/listener.hpp"
 #include "octets.hpp"
 
 #include <gtest/gtest.h>

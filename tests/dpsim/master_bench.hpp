@@ -2,7 +2,7 @@
 /// A master on a simulated clock, and the slave is what the test writes.
 #pragma once
 
-#include "dpsim/master.hpp"
+#include "dpsim/master/master.hpp"
 #include "octets.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the options of `dpsim master` send: HA389815 chapter 6, HA463561U002, 2408f/2404f handbook chapter 5.
-#include "dpsim/master_options.hpp"
+#include "dpsim/master/master_options.hpp"
 #include "octets.hpp"
 
 #include <gmock/gmock.h>

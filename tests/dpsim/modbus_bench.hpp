@@ -2,7 +2,7 @@
 /// Instruments on a Modbus RTU line with a simulated clock; the master is what the test writes.
 #pragma once
 
-#include "dpsim/instrument_commands.hpp"
+#include "dpsim/instrument/instrument_commands.hpp"
 #include "octets.hpp"
 
 #include <gmock/gmock.h>

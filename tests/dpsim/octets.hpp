@@ -2,7 +2,7 @@
 /// Octets of the tests, written as the references print them.
 #pragma once
 
-#include "dpsim/telegram.hpp"
+#include "dpsim/common/telegram.hpp"
 
 #include <cstdlib>
 #include <sstream>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A paced line: a character takes 11 bit times, 10 with seven data bits.
-#include "dpsim/pacer.hpp"
+#include "dpsim/line/pacer.hpp"
 #include "octets.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tag tables as CSV.
-#include "dpsim/ei_ascii.hpp"
-#include "dpsim/tag_file.hpp"
+#include "dpsim/common/tag_file.hpp"
+#include "dpsim/drive/ei_ascii.hpp"
 
 #include <gmock/gmock.h>
 

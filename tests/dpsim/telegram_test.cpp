@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Telegrams as the wire reference prints them, sections 2.1, 4.2, 4.8 and 4.10.
-#include "dpsim/telegram.hpp"
+#include "dpsim/common/telegram.hpp"
 #include "octets.hpp"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "dpsim/common/programs.hpp"
+#include "dpsim/common/values.hpp"
 #include "edge.hpp"
 #include "listener.hpp"
 #include "pacer.hpp"
-#include "programs.hpp"
-#include "values.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

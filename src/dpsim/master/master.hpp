@@ -4,7 +4,7 @@
 #pragma once
 
 #include "diagnosis.hpp"
-#include "telegram.hpp"
+#include "dpsim/common/telegram.hpp"
 
 #include "dpslave/base/units.hpp"
 

@@ -3,7 +3,7 @@
 /// library that the daemon speaks through.
 #pragma once
 
-#include "telegram.hpp"
+#include "dpsim/common/telegram.hpp"
 
 namespace dpslave::sim {
 

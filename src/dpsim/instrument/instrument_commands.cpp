@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "instrument_commands.hpp"
 
-#include "values.hpp"
+#include "dpsim/common/values.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 /// All that the simulators ask of Linux: ttys, ptys, the clock, signals, lines typed by people.
 #pragma once
 
-#include "telegram.hpp"
+#include "dpsim/common/telegram.hpp"
 
 #include "dpslave/base/units.hpp"
 

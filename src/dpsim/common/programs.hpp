@@ -2,7 +2,7 @@
 /// The three programs of dpsim, after their options were read. Each returns its exit status.
 #pragma once
 
-#include "master.hpp"
+#include "dpsim/master/master.hpp"
 
 namespace dpslave::sim {
 

@@ -2,7 +2,7 @@
 /// Slave_Diag as the master reads it (wire reference 5.1 and 5.3), with words for people.
 #pragma once
 
-#include "telegram.hpp"
+#include "dpsim/common/telegram.hpp"
 
 #include <string_view>
 

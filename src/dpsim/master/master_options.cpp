@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master_options.hpp"
 
-#include "values.hpp"
+#include "dpsim/common/values.hpp"
 
 #include <fmt/format.h>
 

@@ -3,8 +3,8 @@
 /// judge's own hand for checksums, mnemonics and text forms. Shares nothing with the daemon's drive room.
 #pragma once
 
-#include "tag_file.hpp"
-#include "telegram.hpp"
+#include "dpsim/common/tag_file.hpp"
+#include "dpsim/common/telegram.hpp"
 
 #include <string_view>
 

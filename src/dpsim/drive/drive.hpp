@@ -2,7 +2,7 @@
 /// One or more EI-ASCII drives in memory on one serial line (EI-ASCII reference, section 1).
 #pragma once
 
-#include "device.hpp"
+#include "dpsim/common/device.hpp"
 #include "ei_ascii.hpp"
 
 #include <map>

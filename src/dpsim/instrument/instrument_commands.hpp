@@ -2,7 +2,7 @@
 /// What can be typed at a simulated instrument: its faults, its front panel, its status bits.
 #pragma once
 
-#include "device_commands.hpp"
+#include "dpsim/common/device_commands.hpp"
 #include "modbus_line.hpp"
 
 namespace dpslave::sim {

@@ -3,7 +3,7 @@
 /// way. Pure.
 #pragma once
 
-#include "telegram.hpp"
+#include "dpsim/common/telegram.hpp"
 
 #include "dpslave/base/units.hpp"
 

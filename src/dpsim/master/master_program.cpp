@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "console.hpp"
-#include "edge.hpp"
-#include "programs.hpp"
+#include "dpsim/common/programs.hpp"
+#include "dpsim/line/edge.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

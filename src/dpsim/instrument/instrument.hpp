@@ -3,7 +3,7 @@
 /// (handbook chapters 7 and 8; EI-ASCII and Modbus reference, section 5). Pure; knows no telegram.
 #pragma once
 
-#include "device.hpp"
+#include "dpsim/common/device.hpp"
 #include "modbus_frame.hpp"
 
 #include <span>

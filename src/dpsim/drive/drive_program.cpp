@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "dpsim/common/programs.hpp"
+#include "dpsim/common/values.hpp"
+#include "dpsim/instrument/instrument_commands.hpp"
+#include "dpsim/line/edge.hpp"
 #include "drive_commands.hpp"
-#include "edge.hpp"
-#include "instrument_commands.hpp"
-#include "programs.hpp"
-#include "values.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "console.hpp"
-#include "values.hpp"
+#include "dpsim/common/values.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 /// Pure.
 #pragma once
 
-#include "telegram.hpp"
+#include "dpsim/common/telegram.hpp"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 /// What can be typed at a simulated EI-ASCII drive: its faults, beside what every device has.
 #pragma once
 
-#include "device_commands.hpp"
+#include "dpsim/common/device_commands.hpp"
 #include "drive.hpp"
 
 namespace dpslave::sim {
