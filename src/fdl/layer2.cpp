@@ -71,7 +71,6 @@ void Layer2::on_character_error(Instant read_at)
 {
     cancel_reply();
     ++counters_.octets;
-    count(Flaw::character);
     receiver_.begin_read(1, read_at);
     take_heard();
     if (!rate_is_kept(0, 1, read_at)) return;

@@ -12,15 +12,20 @@ namespace {
 /// of 64), and what looks like silence until then may have been a telegram that goes on.
 constexpr Tbit kFifo{64 * kCharacter.count};
 
+/// So much silence ends a piece that is no telegram: T_SYN and the idle time-out of a FIFO, which holds the
+/// last octets back for four characters. A master repeats a request after a slot time of 100 T_bit at the
+/// least.
+constexpr Tbit kPause = kTsyn + Tbit{4 * kCharacter.count};
+
 /// When an unfinished telegram is given up although nothing came behind it that tells its end.
 Instant given_up_at(Instant read_at, Baud baud)
 {
     return read_at + silence_limit(baud) + duration_of(kFifo, baud);
 }
 
-/// Whether the beginning of a telegram that was cut off may be what makes one fail so. A telegram with a good
-/// checksum that says what is not understood is one.
-bool may_be_stump(Flaw flaw)
+/// Whether these octets are no telegram: the beginning of one that was cut off may be what makes one fail so.
+/// A telegram with a good checksum that says what is not understood is one.
+bool is_damage(Flaw flaw)
 {
     return flaw == Flaw::checksum || flaw == Flaw::end_delimiter || flaw == Flaw::character ||
            flaw == Flaw::unfinished;
@@ -53,13 +58,17 @@ std::chrono::nanoseconds silence_limit(Baud baud)
 /// FIFO held back is no silence.
 void Receiver::begin_read(std::size_t octets, Instant read_at)
 {
-    if (used_ != 0) {
+    if (used_ != 0 || damaged_) {
         const Tbit on_wire{static_cast<std::uint32_t>(octets) * kCharacter.count};
         const Instant began = read_at - duration_of(on_wire, baud_);
         if (began >= gap_ends_ - duration_of(kFifo, baud_))
             give_up();
-        else if (read_at - heard_at_ >= duration_of(kTsyn, baud_))
+        else if (used_ != 0 && read_at - heard_at_ >= duration_of(kTsyn, baud_))
             boundaries_[used_] = true;
+        if (damaged_ && began - heard_at_ >= duration_of(kPause, baud_)) {
+            damaged_ = false;
+            counted_ = used_;
+        }
     }
     heard_at_ = read_at;
 }
@@ -74,6 +83,7 @@ void Receiver::on_bytes(Bytes bytes, bool more_follows)
 
 void Receiver::on_character_error()
 {
+    if (!std::exchange(damaged_, true)) untold_ = Flaw::character;
     if (used_ == 0) return; // no telegram has begun: it is skipped like any octet that cannot begin one
     const auto length = frame_length(Bytes{rx_}.first(used_));
     if (!length || *length == 0) {
@@ -96,8 +106,8 @@ bool Receiver::on_time(Instant now)
 
 const Receiver::Heard* Receiver::next()
 {
-    if (std::exchange(gave_up_, false)) {
-        heard_ = {.telegram = Failure{Flaw::unfinished}, .at = heard_at_, .newest = false};
+    if (const auto flaw = std::exchange(untold_, std::nullopt)) {
+        heard_ = {.telegram = Failure{*flaw}, .at = heard_at_, .newest = false};
         return &heard_;
     }
     while (reading_) {
@@ -123,7 +133,7 @@ bool Receiver::next_in_buffer()
         const Bytes rest = Bytes{rx_}.first(used_).subspan(at_);
         const auto length = frame_length(rest);
         if (!length) {
-            const bool is_new = at_ >= failed_;
+            const bool is_new = begins_flaw();
             // Hunt on; silence is never waited for: a busy bus has none. What has failed is searched only
             // where something may have begun in it.
             const std::size_t boundary = boundary_within(at_, failed_);
@@ -138,16 +148,28 @@ bool Receiver::next_in_buffer()
         heard_.telegram = telegram_at(at_, *length, boundary != end);
         if (heard_.telegram) {
             at_ = end;
+            if (heard_.telegram->has_fc()) damaged_ = false; // SC and tokens are in noise by chance
             heard_.newest = input_.empty() && !more_follows_ && end == used_;
             return true;
         }
         const Flaw flaw = heard_.telegram.error();
-        const bool is_new = at_ >= failed_ && flaw != Flaw::character;
+        if (!is_damage(flaw)) {
+            at_ = end;
+            damaged_ = false;
+            return true;
+        }
+        const bool is_new = flaw != Flaw::character && begins_flaw();
         failed_ = std::max(failed_, end);
-        at_ = may_be_stump(flaw) ? boundary : end;
+        at_ = boundary;
         if (is_new) return true;
     }
     return false;
+}
+
+/// What is at at_ is no telegram. True: it is the first of its piece, and counts.
+bool Receiver::begins_flaw()
+{
+    return at_ >= failed_ && at_ >= counted_ && !std::exchange(damaged_, true);
 }
 
 void Receiver::refill()
@@ -183,8 +205,8 @@ bool Receiver::hunt_behind_stump()
     hunt_at_ = kNever;
     for (std::size_t at = boundary_within(0, used_); at < used_; at = boundary_within(at, used_)) {
         if (spoilt_ > at || !are_telegrams(Bytes{rx_}.first(used_).subspan(at))) continue;
+        tell_unfinished();
         forget(at);
-        gave_up_ = true;
         more_follows_ = false;
         reading_ = true;
         return true;
@@ -201,8 +223,14 @@ void Receiver::await_rest()
 
 void Receiver::give_up()
 {
+    tell_unfinished();
     forget_all();
-    gave_up_ = true;
+}
+
+/// The line has fallen silent behind the stump that rx_ begins with.
+void Receiver::tell_unfinished()
+{
+    if (!std::exchange(damaged_, false) && counted_ == 0) untold_ = Flaw::unfinished;
 }
 
 /// Takes the first `count` octets off rx_.
@@ -211,6 +239,7 @@ void Receiver::forget(std::size_t count)
     std::memmove(rx_.data(), rx_.data() + count, used_ - count);
     used_ -= count;
     spoilt_ -= std::min(spoilt_, count);
+    counted_ -= std::min(counted_, count);
     if (boundaries_.none()) return;
     boundaries_ >>= count;
     boundaries_[0] = false;
@@ -218,7 +247,7 @@ void Receiver::forget(std::size_t count)
 
 void Receiver::forget_all()
 {
-    used_ = spoilt_ = 0;
+    used_ = spoilt_ = counted_ = 0;
     boundaries_.reset();
     gap_ends_ = hunt_at_ = kNever;
 }
@@ -229,7 +258,8 @@ void Receiver::restart(Baud baud)
     forget_all();
     at_ = failed_ = 0;
     input_ = {};
-    reading_ = gave_up_ = false;
+    reading_ = damaged_ = false;
+    untold_.reset();
 }
 
 } // namespace dpslave::fdl

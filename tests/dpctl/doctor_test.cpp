@@ -441,7 +441,7 @@ INSTANTIATE_TEST_SUITE_P(
         Counted{"DriverStays", "driver_guarded", 1, 0, "bus.driver",
                 "0 edges failed, and the guard let the driver go 1 time in the last minute"},
         Counted{"Flaws", "flaw: checksum", 5, 4, "bus.flaws",
-                "5 flaws (damaged telegrams, or octets that belong to none) beside 100000 valid telegrams in "
+                "5 flaws (damaged telegrams, or noise between them) beside 100000 valid telegrams in "
                 "the last minute"},
         Counted{"Retries", "retries", 100, 99, "bus.retries",
                 "the master asked again 100 times in 100000 requests in the last minute"},
@@ -456,7 +456,7 @@ TEST_F(Doctor, NoiseThatGoesOnIsNotLostAmongGoodTelegramsAndSaysSinceWhen)
     replies.counters["groups"][0]["counters"].back()["since_age_ms"] = 720'000.0;
 
     EXPECT_THAT(found(), ElementsAre("bus.flaws"));
-    EXPECT_EQ(evidence("bus.flaws"), "12 flaws (damaged telegrams, or octets that belong to none) beside "
+    EXPECT_EQ(evidence("bus.flaws"), "12 flaws (damaged telegrams, or noise between them) beside "
                                      "30000 valid telegrams in the last minute, since 12 min");
 }
 
@@ -468,6 +468,15 @@ TEST_F(Doctor, OneBurstOfFlawsIsAPlugOrASwitchAndNoDisturbedLine)
 
     replies.counters["groups"][0]["counters"].back()["since_age_ms"] = 22'000.0;
     EXPECT_THAT(found(), ElementsAre("bus.flaws"));
+}
+
+TEST_F(Doctor, TelegramsThatAreNotUnderstoodAreNoDisturbanceOfTheLine)
+{
+    for (const char* const name :
+         {"flaw: missing SAP", "flaw: unknown address extension", "flaw: source address"}) {
+        count(name, 50);
+        EXPECT_THAT(found(), IsEmpty()) << name;
+    }
 }
 
 TEST_F(Doctor, WhatIsOverIsOneLineWithCountAndAge)

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -98,6 +100,39 @@ protected:
     dpslave::fdl::Layer2 station{{.baud = dpslave::Baud::k187_5, .search = {}, .start_up_latency = {}}};
     Bus bus{station};
 };
+
+/// A slave 5 of its own for each telegram, so that none hides what the one before left behind.
+struct Line {
+    explicit Line(dpslave::Baud baud)
+        : station{{.baud = baud, .search = {}, .start_up_latency = {}}},
+          bus{station, {.baud = baud, .min_tsdr = dpslave::Tbit{11}, .max_tsdr = {}}}
+    {
+        station.attach(kUs, user, kClassMaxTsdr);
+        bus.advance({});
+    }
+
+    /// Of all kinds.
+    std::uint64_t flaws() const
+    {
+        const auto& each = station.counters().flaws;
+        return std::accumulate(each.begin(), each.end(), std::uint64_t{0});
+    }
+
+    RecordingUser user;
+    dpslave::fdl::Layer2 station;
+    Bus bus;
+};
+
+/// How a FIFO may hand a telegram over: whole, or so many octets at a time.
+inline constexpr std::size_t kWhole = 300; // more than any telegram has octets
+inline constexpr std::array<std::size_t, 6> kBunches{kWhole, 1, 4, 8, 14, 16};
+
+inline Octets without(const Octets& telegram, std::size_t lost)
+{
+    Octets rest = telegram;
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(lost));
+    return rest;
+}
 
 inline const auto kNameOf = [](const auto& info) { return std::string{info.param.name}; };
 

@@ -8,12 +8,9 @@
 
 using namespace dpslave;
 using namespace test;
-using fdl::Flaw;
 
 namespace {
 
-constexpr std::size_t kWhole = 300; // more than any telegram has octets
-constexpr std::array<std::size_t, 6> kBunches{kWhole, 1, 4, 8, 14, 16};
 constexpr std::array<std::size_t, 3> kSizes{2, 8, 32}; // of the data
 
 /// `size` octets of data, all but the last `fill`, that give an SRD to us this checksum.
@@ -24,30 +21,6 @@ Octets data_with_checksum(std::size_t size, std::uint8_t fill, std::uint8_t chec
     data.back() = static_cast<std::uint8_t>(checksum - before);
     return data;
 }
-
-Octets without(const Octets& telegram, std::size_t lost)
-{
-    Octets rest = telegram;
-    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(lost));
-    return rest;
-}
-
-/// A slave 5 of its own for each telegram, so that none hides what the one before left behind.
-struct Line {
-    explicit Line(Baud baud)
-        : station{{.baud = baud, .search = {}, .start_up_latency = {}}},
-          bus{station, {.baud = baud, .min_tsdr = 11_tbit, .max_tsdr = {}}}
-    {
-        station.attach(kUs, user, kClassMaxTsdr);
-        bus.advance({});
-    }
-
-    std::uint64_t flaws(Flaw flaw) const { return station.counters().flaws[static_cast<std::size_t>(flaw)]; }
-
-    RecordingUser user;
-    fdl::Layer2 station;
-    Bus bus;
-};
 
 class LostOctet : public testing::TestWithParam<Baud> {
 protected:
@@ -225,18 +198,5 @@ INSTANTIATE_TEST_SUITE_P(WireReference, Stump,
                                          "A2 05 02 7D 01 02 03 04 05 06 07 08 A8", "68", "68 16", "68 05",
                                          "68 05 05", "68 05 05 68", "68 F9 F9 68", "68 05 05 68 05 02 7D 01",
                                          "68 23 23 68 05 02 7D 01 02 03 04 05 06 07 08 09 10 68"));
-
-TEST(CutTelegram, IsOneFlawHoweverManyOctetsItHad)
-{
-    Line line{Baud::k187_5};
-    line.bus.arrives_in_bunches(
-        without(sd2(kUs, kMaster, kSrdFcb1, octets("01 02 03 04 05 06 07 08 09 0A")), 6), 4);
-    line.bus.master_sends(sd2(kUs, kMaster, kSrdFcb1, {1}));
-    ASSERT_TRUE(line.bus.reply());
-
-    EXPECT_EQ(line.flaws(Flaw::checksum) + line.flaws(Flaw::end_delimiter) + line.flaws(Flaw::unfinished),
-              1u);
-    EXPECT_EQ(line.flaws(Flaw::start_delimiter), 0u);
-}
 
 } // namespace

@@ -67,6 +67,7 @@ TEST_F(Receiver, LeavesOutTheTelegramWithABadCharacter)
     EXPECT_EQ(next(), "-");
     receiver.begin_read(1, now);
     receiver.on_character_error();
+    EXPECT_EQ(next(), "bad character");
     EXPECT_EQ(next(), "-");
     reads(joined({Octets(first.begin() + 8, first.end()), second}));
 

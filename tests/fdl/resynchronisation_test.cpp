@@ -20,7 +20,7 @@ TEST_F(Resynchronisation, ImpossibleOctetsAreSkippedOneByOne)
     bus.arrives_in_one_read({joined({octets("00 FF 16 49"), kAsk})});
 
     EXPECT_TRUE(bus.reply());
-    EXPECT_EQ(station.counters().flaws[static_cast<std::size_t>(fdl::Flaw::start_delimiter)], 4u);
+    EXPECT_EQ(station.counters().flaws[static_cast<std::size_t>(fdl::Flaw::start_delimiter)], 1u);
 }
 
 TEST_F(Resynchronisation, HeaderThatContradictsItselfIsSkippedOctetByOctet)
@@ -179,7 +179,8 @@ TEST_F(Resynchronisation, BadCharacterIsForgottenWithItsTelegramAfterASilence)
     station.on_bytes(kAsk, later + milliseconds{1});
 
     EXPECT_EQ(user.srds.size(), 1u);
-    EXPECT_EQ(station.counters().flaws[static_cast<std::size_t>(fdl::Flaw::unfinished)], 1u);
+    EXPECT_EQ(station.counters().flaws[static_cast<std::size_t>(fdl::Flaw::character)], 1u);
+    EXPECT_EQ(station.counters().flaws[static_cast<std::size_t>(fdl::Flaw::unfinished)], 0u) << "it is one";
 }
 
 TEST_F(Resynchronisation, BadCharacterInAnSd2HeaderEndsItsTelegramThere)

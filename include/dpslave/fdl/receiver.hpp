@@ -36,14 +36,15 @@ public:
     void on_bytes(Bytes bytes, bool more_follows);
     /// In the place of an octet that the UART reported as bad.
     void on_character_error();
-    /// Time passes: an unfinished telegram is searched for whole ones, or given up. True: next() has
+    /// Time passes: an unfinished telegram is searched for whole ones, or given up. True: next() may have
     /// something, and after it this is to be called again.
     bool on_time(Instant now);
     /// kNever = none.
     Instant next_deadline() const { return std::min(gap_ends_, hunt_at_); }
 
-    /// The next telegram or flaw, in the order of the line. A bad character is not among them: its telegram
-    /// is left out. nullptr: there is none. Valid until the next call of the receiver.
+    /// The next telegram or flaw, in the order of the line. Octets that are no telegram are one flaw, named
+    /// by the first of them, until a telegram with a checksum or a pause. nullptr: there is none. Valid until
+    /// the next call of the receiver.
     const Heard* next();
 
     /// What was heard until now is no telegram any more; the line goes on at `baud`.
@@ -52,10 +53,12 @@ public:
 private:
     void await_rest();
     void give_up();
+    void tell_unfinished();
     bool hunt_behind_stump();
     Result<Telegram, Flaw> telegram_at(std::size_t at, std::size_t length, bool is_cut) const;
     std::size_t boundary_within(std::size_t begin, std::size_t end) const;
     bool next_in_buffer();
+    bool begins_flaw();
     void refill();
     void forget(std::size_t count);
     void forget_all();
@@ -73,11 +76,13 @@ private:
     // What next() goes on with.
     Heard heard_;
     bool reading_ = false;
-    bool gave_up_ = false; // an unfinished telegram; not told yet
+    std::optional<Flaw> untold_;
+    bool damaged_ = false;    // what was heard last is no telegram, and its flaw is told
+    std::size_t counted_ = 0; // octets of rx_ before a pause whose flaw is told
     bool more_follows_ = false;
     Bytes input_;            // not in rx_ yet
     std::size_t at_ = 0;     // rx_ is read up to here
-    std::size_t failed_ = 0; // up to here a telegram was counted that has failed: not each octet again
+    std::size_t failed_ = 0; // up to here a telegram has failed: it is searched at boundaries only
 };
 
 } // namespace dpslave::fdl

@@ -50,7 +50,7 @@ inline constexpr std::uint8_t kFcRs = 0x03;
 inline constexpr std::uint8_t kFcDl = 0x08;
 inline constexpr std::uint8_t kFcDh = 0x0A;
 
-/// Why a run of octets is no telegram. Counted one by one and shown by `dpctl counters`.
+/// Why a run of octets is no telegram. One count for each kind, shown by `dpctl counters`.
 enum class Flaw : std::uint8_t {
     start_delimiter,
     length_mismatch, ///< LE and LEr differ, or the second SD2 is missing

@@ -57,9 +57,9 @@ Group bus_counters(const View& view)
         "of the bus thread while it serves: see lock_memory in [realtime]");
     for (std::size_t i = 0; i < fdl::kFlaws; ++i)
         add(c, fmt::format("flaw: {}", fdl::text(static_cast<fdl::Flaw>(i))), fdl.flaws[i],
-            "telegrams that were none: noise, wiring, termination, rate");
+            "pieces of the stream that were no telegram: noise, wiring, termination, rate");
     add(c, "search_flaws", fdl.search_flaws,
-        "the same while the rate was searched: at a rate that is not the bus's all telegrams are none");
+        "the same while the rate was searched: at a rate that is not the bus's nothing is a telegram");
     add(c, "lost_events", view.lost_events, "events that the log could not take");
     return {"bus", std::move(c)};
 }

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 namespace dpslave::dpctl {
@@ -18,13 +20,23 @@ constexpr std::int64_t kOften = 1000;  ///< one in so many is more than a sound 
 constexpr double kBurst = 2'000;       ///< ms: a plug or a switch makes flaws for less than that, once
 constexpr std::int64_t kSomeFlaws = 5; ///< in a minute: a sound line has none
 
-/// All kinds of them as one count.
+/// A telegram with a good checksum that says what no DP slave understands: the line is sound.
+constexpr std::array kNotUnderstood = std::to_array<std::string_view>({
+    "flaw: missing SAP",
+    "flaw: unknown address extension",
+    "flaw: source address",
+});
+
+/// Pieces of the stream that are damaged, of all kinds, as one count.
 Count flaws(const Facts& f)
 {
     Count sum;
     for (const Json& counter : list(f.counters, "counters")) {
-        if (!text(counter, "name").starts_with("flaw: ")) continue;
-        const Count one = counted(f.counters, text(counter, "name"));
+        const std::string name = text(counter, "name");
+        if (!name.starts_with("flaw: ") ||
+            std::find(kNotUnderstood.begin(), kNotUnderstood.end(), name) != kNotUnderstood.end())
+            continue;
+        const Count one = counted(f.counters, name);
         sum.total += one.total;
         sum.minute += one.minute;
         if (one.last_ms && (!sum.last_ms || *one.last_ms < *sum.last_ms)) sum.last_ms = one.last_ms;
@@ -199,7 +211,7 @@ std::string seen_flaws(const Facts& f)
     const Count bad = flaws(f), good = counted(f.counters, "telegrams");
     if (bad.minute < kSomeFlaws || !telegrams_are_heard(f) || is_without_echo(f)) return {};
     if (bad.since_ms.value_or(0) - bad.last_ms.value_or(0) < kBurst) return {};
-    return fmt::format("{} (damaged telegrams, or octets that belong to none) beside {} {}",
+    return fmt::format("{} (damaged telegrams, or noise between them) beside {} {}",
                        plural(bad.minute, "flaw"), plural(good.minute, "valid telegram"), lately(bad));
 }
 std::string seen_retries(const Facts& f)
@@ -250,8 +262,8 @@ constexpr std::array kRules = std::to_array<Rule>({
     {"bus.port", Scope::bus, Rank::recent, "the port does not take replies", "The port of the bus fails",
      kPortSteps, kGateway, seen_port},
     {"bus.flaws", Scope::bus, Rank::recent,
-     "five flaws in a minute: damaged telegrams, or octets that belong to none",
-     "The line of the bus is disturbed", kLineSteps, kBox, seen_flaws},
+     "five flaws in a minute: damaged telegrams, or noise between them", "The line of the bus is disturbed",
+     kLineSteps, kBox, seen_flaws},
     {"bus.late", Scope::bus, Rank::recent,
      "more than one reply in a thousand came too late, or its request was overtaken",
      "This machine answers too late", kLateSteps, kGateway, seen_late},
