@@ -76,21 +76,21 @@ struct StationLink {
 };
 
 class BusStation;
-/// Those who live on the bus, at most 127, in any order. A station of two rosters that stand one after the
-/// other stays on the bus without a break.
-using Roster = std::vector<std::shared_ptr<BusStation>>;
+/// The stations of the bus, at most 127, in any order. A station that is in the present set and in the next
+/// one stays on the bus without a break.
+using BusStations = std::vector<std::shared_ptr<BusStation>>;
 
-/// What the bus thread noticed at its port, for the log.
-enum class PortNews : std::uint8_t {
-    gone,
+/// What happened to the port of the bus, for the log.
+enum class PortEvent : std::uint8_t {
+    lost,
     back,
-    driver_gone, ///< an edge of the driver enable failed: nothing is sent until it works again
+    driver_lost, ///< an edge of the driver enable failed: nothing is sent until it works again
     driver_back,
-    driver_guarded, ///< only the guard made it inactive; told once until the port is opened again
+    driver_guarded, ///< only the guard made it inactive; reported once until the port is opened again
 };
 
 /// A sentence about the port, with its path, each reason once.
-struct PortWords {
+struct PortMessage {
     bool is_warning = false; ///< else the port is closed
     std::string text;
 };
@@ -101,41 +101,39 @@ struct BusSnapshot {
     fdl::BaudState baud_state = fdl::BaudState::fixed;
     bool port_open = false;
     Instant taken_at{};
-    Instant last_telegram{}; ///< with a checksum, of anybody; default = none was heard yet
+    Instant last_telegram{}; ///< with a right check sum, of any station; default = none was heard yet
     fdl::Counters counters{};
     fdl::AskedAddresses::List unanswered{}; ///< addresses of others that do not answer
     std::uint64_t write_errors = 0;
-    std::uint64_t unsent = 0; ///< replies that did not go out: those, no port, or no driver enable
+    std::uint64_t unsent = 0; ///< replies not sent: write errors, no port, or no driver enable
     /// Of each reply, from the read of the request's last octet to the end of the write: us, and T_bit of the
     /// rate of then.
     Histogram turnaround_us, turnaround_tbit;
-    std::uint64_t too_late =
-        0; ///< replies whose write ended behind their window although it had begun within it
-    bool driver_works = true;         ///< false: nothing is sent, for an edge of the driver enable has failed
+    std::uint64_t too_late = 0;       ///< replies whose write began within their window and ended behind it
+    bool driver_works = true;         ///< false: an edge of the driver enable has failed, nothing is sent
     std::uint64_t driver_errors = 0;  ///< edges of the driver enable that failed
     std::uint64_t driver_guarded = 0; ///< times that only the guard made the driver enable inactive
-    bool echo_heard = false;
-    std::uint64_t echo_broken = 0;  ///< echoes that were not what was sent
-    std::uint64_t echo_missing = 0; ///< echoes that were due and did not come
-    std::uint64_t page_faults = 0;  ///< of the bus thread since it serves
-    bool valid = false;             ///< false: nothing was published yet
+    std::uint64_t echo_broken = 0;    ///< echoes that were not what was sent
+    std::uint64_t echo_missing = 0;   ///< echoes that were due and did not come
+    std::uint64_t page_faults = 0;    ///< of the bus thread since its loop began
+    bool valid = false;               ///< false: nothing was published yet
 };
 struct BusLink {
     Mailbox<BusSnapshot> snapshot;
     /// Counts the rounds of the bus thread: while it moves, the watchdog of systemd is fed.
     std::atomic<std::uint64_t> heartbeat{0};
-    /// A thread had to give up (said in the log): the main thread ends the program.
+    /// A thread has failed (the log says how): the main thread ends the program.
     std::atomic<bool> failed{false};
-    /// The stations from now on, main -> bus, and back what is no longer on the bus.
-    Handover<Roster> roster;
-    Ring<PortNews, 8> port_news; ///< bus -> main
+    /// The stations from now on, main -> bus, and back the set of before.
+    Handover<BusStations> stations;
+    Ring<PortEvent, 8> port_events; ///< bus -> main
     /// Why the port is closed and stays so, or what it cannot do since it is open again, bus -> main.
-    Handover<PortWords> port_words;
+    Handover<PortMessage> port_messages;
     std::atomic<Baud> baud{Baud::k9_6}; ///< the rate of replies, bus -> guard of the driver enable
-    std::atomic<bool> ended{false};     ///< the bus thread has said its last word
+    std::atomic<bool> ended{false};     ///< the bus thread has ended
 };
 
-/// What a drive said no to, in words; the newest few of a line.
+/// What a drive refused, in words; the newest few of a line.
 struct Trouble {
     std::uint32_t station = 0; ///< DriveUnit::number
     std::uint16_t tag = 0;
@@ -183,13 +181,13 @@ struct LineLink {
     Ring<ProbeOrder, 2> probes;                // main -> drive
     Ring<ProbeReport, 2> probe_reports;        // drive -> main
     std::atomic<std::uint32_t> probe_tried{0}; ///< drive -> main: questions of the probe that runs
-    /// main -> drive: the number of a probe that nobody waits for any more.
+    /// main -> drive: the number of a probe whose caller has gone.
     std::atomic<std::uint32_t> probe_ended{0};
     Mailbox<TroubleList> troubles;           // drive -> main
     std::atomic<bool> port_open{false};      // drive -> main
     Handover<LineWork> work;                 // main -> drive
     std::atomic<std::uint32_t> work_done{0}; ///< drive -> main: how many of them were carried out
-    std::atomic<bool> ended{false};          ///< drive -> main: the thread has said its last word
+    std::atomic<bool> ended{false};          ///< drive -> main: the thread has ended
 };
 
 } // namespace dpslave::app

@@ -131,7 +131,7 @@ protected:
         return std::make_shared<app::BusStation>(one, links[address]);
     }
 
-    void start(const Options& options, app::Roster stations)
+    void start(const Options& options, app::BusStations stations)
     {
         config::Config config;
         config.bus.baud = options.baud;
@@ -143,8 +143,9 @@ protected:
         ASSERT_TRUE(driver) << driver.error();
         driver_.emplace(std::move(*driver));
         ASSERT_EQ(driver_->attach(port->tty()), std::nullopt);
-        bus_ = std::make_unique<app::BusThread>(config.bus, *std::move(port), *driver_,
-                                                std::make_unique<app::Roster>(std::move(stations)), link);
+        bus_ =
+            std::make_unique<app::BusThread>(config.bus, *std::move(port), *driver_,
+                                             std::make_unique<app::BusStations>(std::move(stations)), link);
         thread_ = std::jthread([this](const std::stop_token& stop) {
             is_realtime = io::enter_realtime(50, -1).empty();
             tid = ::gettid();
@@ -188,18 +189,18 @@ protected:
     }
 
     const app::BusSnapshot& snapshot() { return link.snapshot.latest(); }
-    bool hears_news(app::PortNews wanted)
+    bool reports(app::PortEvent wanted)
     {
         return eventually([&] {
-            const auto news = link.port_news.pop();
+            const auto news = link.port_events.pop();
             return news == wanted;
         });
     }
     /// Why the port stays closed; empty = the bus thread did not say it.
     std::string hears_trouble()
     {
-        std::unique_ptr<app::PortWords> words;
-        const bool is_said = eventually([&] { return link.port_words.take(words); });
+        std::unique_ptr<app::PortMessage> words;
+        const bool is_said = eventually([&] { return link.port_messages.take(words); });
         return is_said && !words->is_warning ? words->text : "";
     }
     virtual std::string port_path() { return pty.path(); }

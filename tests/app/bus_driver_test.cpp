@@ -8,7 +8,7 @@
 namespace dpslave::test {
 namespace {
 
-using app::PortNews;
+using app::PortEvent;
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
@@ -91,7 +91,7 @@ TEST_F(DriverEnableOfTheBus, IsLetGoByTheGuardAfterTwiceTheLongestTelegram)
     ASSERT_EQ(edges.size(), 2u);
     EXPECT_GE(edges[1].at - edges[0].at, microseconds{11220}); // 2 * 255 * 22 us
     EXPECT_TRUE(eventually([this] { return snapshot().driver_guarded == 1; }));
-    EXPECT_TRUE(hears_news(PortNews::driver_guarded));
+    EXPECT_TRUE(reports(PortEvent::driver_guarded));
 }
 
 TEST_F(DriverEnableOfTheBus, StaysActiveForAReplyBehindOneThatHasNotGoneOut)
@@ -113,12 +113,12 @@ TEST_F(DriverEnableOfTheBus, ThatDoesNotWorkKeepsTheReplyBackUntilItWorksAgain)
     ask_status();
     uart::refuse_edges(true);
     EXPECT_EQ(master.ask(fdl_status(kStation), 2), std::nullopt); // nothing without driver enable
-    ASSERT_TRUE(hears_news(PortNews::driver_gone));
+    ASSERT_TRUE(reports(PortEvent::driver_lost));
     EXPECT_TRUE(eventually([this] { return snapshot().driver_errors >= 1; }));
     EXPECT_TRUE(eventually([this] { return snapshot().unsent >= 2; })); // that one, and all after it
 
     uart::refuse_edges(false);
-    ASSERT_TRUE(hears_news(PortNews::driver_back));
+    ASSERT_TRUE(reports(PortEvent::driver_back));
     ask_status();
 }
 

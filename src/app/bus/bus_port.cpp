@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The port of the bus and its driver enable: another rate, gone, of no use, back again, and what is told of
-// it.
-#include "bus_thread.hpp"
+#include "bus_port.hpp"
 
 #include "dpslave/io/clock.hpp"
 
@@ -12,96 +10,192 @@
 
 namespace dpslave::app {
 
-/// The search for the rate has decided: the line is switched, and what it had brought at the old rate is
-/// gone.
-void BusThread::follow_rate()
+io::TtySettings bus_tty_settings(const config::Config& config)
 {
-    if (const auto baud = layer2_.take_baud_change()) set_baud(*baud);
+    constexpr Baud kEveryUart = Baud::k9_6;
+    io::TtySettings settings;
+    settings.baud = static_cast<std::uint32_t>(config.bus.baud.value_or(kEveryUart));
+    settings.mark_errors = true;
+    settings.prompt = true;
+    const io::DriverEnableSettings& driver = config.bus.driver_enable;
+    settings.drop_rts_at_close = driver.direction != io::Direction::rts || !driver.active_low;
+    return settings;
 }
 
-void BusThread::set_baud(Baud baud)
+BusPort::BusPort(io::Port port, io::DriverEnable& driver, fdl::EchoMode echo, io::Epoll& epoll,
+                 std::uint64_t key, BusLink& link)
+    : port_(std::move(port)),
+      driver_(driver),
+      sender_(driver),
+      echo_(echo),
+      epoll_(epoll),
+      key_(key),
+      link_(link)
+{}
+
+BusPort::~BusPort()
+{
+    driver_.detach(); // before the port is closed
+}
+
+fdl::Layer2Settings BusPort::layer2_settings(const config::BusConfig& config)
+{
+    fdl::Layer2Settings settings;
+    settings.start_up_latency = driver_.edge_time(); // the driver goes on before the first bit
+    if (config.baud) {
+        settings.baud = *config.baud;
+        return settings;
+    }
+    settings.baud = Baud::k1500; // if it can be done, else the next lower one
+    settings.search.emplace();
+    if (!port_.is_open()) return settings;
+    // A port that vanishes while it is asked can do nothing; all rates are tried when it is back.
+    if (const auto can = port_.tty().bauds().can; can.any()) settings.search->rates = can;
+    return settings;
+}
+
+/// By its edges: each arrival of octets is reported once, and asking the port again whether something is left
+/// costs more than the reply.
+void BusPort::watch()
+{
+    if (port_.is_open()) epoll_.add(port_.tty().fd(), EPOLLIN | EPOLLET, key_);
+}
+
+void BusPort::set_baud(Baud baud)
 {
     sender_.abort();
     link_.baud.store(baud, std::memory_order_relaxed);
     if (const auto trouble = port_.set_baud(static_cast<std::uint32_t>(baud))) {
-        tell(PortNews::gone);
-        refuse_port(*trouble);
+        report(PortEvent::lost);
+        refuse(*trouble);
     }
 }
 
-/// By its edges: each arrival of octets is told once, and asking the port again whether something is left
-/// costs more than the reply.
-void BusThread::watch_port()
+void BusPort::read(fdl::Layer2& layer2)
 {
-    epoll_.add(port_.tty().fd(), EPOLLIN | EPOLLET, kTtyKey);
+    while (port_.is_open()) {
+        const auto chunk = port_.tty().read(buffer_);
+        if (!chunk) return lose();
+        const Instant read_at = io::monotonic_now();
+        const bool more = chunk->more || chunk->bad_character;
+        if (!chunk->octets.empty()) hear(chunk->octets, read_at, more, layer2);
+        if (chunk->bad_character) {
+            if (const Bytes withheld = echo_.on_character_error(read_at); !withheld.empty())
+                layer2.on_bytes(withheld, read_at, true);
+            layer2.on_character_error(read_at);
+        }
+        if (!chunk->more) return;
+    }
 }
 
-void BusThread::lose_port()
+void BusPort::hear(Bytes octets, Instant read_at, bool more, fdl::Layer2& layer2)
 {
-    if (!port_.is_open()) return;
-    let_go_of_port();
+    const auto foreign = echo_.remove(octets, read_at);
+    if (foreign.octets.empty()) return;
+    heard_at_ = read_at;
+    if (!foreign.withheld.empty()) layer2.on_bytes(foreign.withheld, read_at, true);
+    layer2.on_bytes(foreign.octets, read_at, more);
+}
+
+std::optional<Instant> BusPort::send(Bytes reply, Baud baud)
+{
+    if (!port_.is_open()) {
+        ++unsent_;
+        return std::nullopt;
+    }
+    const auto written = sender_.send(reply, port_.tty(), baud);
+    if (!written) {
+        ++unsent_;
+        if (written.error() == BusSender::Unsent::port_gone) lose();
+        return std::nullopt;
+    }
+    const Tbit length{static_cast<std::uint32_t>(reply.size()) * kCharacter.count};
+    const Instant over = *written + duration_of(length, baud);
+    // The FIFO of the UART and the kernel's own workers delay an echo as they do the rest of a telegram.
+    echo_.sent(reply, over + duration_of(fdl::kTsyn, baud), over + fdl::silence_limit(baud));
+    return *written;
+}
+
+void BusPort::finish_sending()
+{
+    if (sender_.is_sending() && port_.is_open()) sender_.finish(port_.tty());
+}
+
+void BusPort::check(Instant now)
+{
+    if (!port_.is_open()) reopen(now);
+    if (port_.is_open()) check_driver_enable(now);
+}
+
+/// Nothing is sent through a port whose driver enable does not work: it is treated as closed.
+void BusPort::reopen(Instant now)
+{
+    if (!port_.ready(now)) return report_trouble();
+    watch();
+    if (const auto trouble = driver_.attach(port_.tty())) return refuse(port_.path() + ": " + *trouble);
+    guard_reported_ = false;
+    report(PortEvent::back);
+    std::string warnings;
+    for (const std::string& one : port_.tty().warnings()) warnings += (warnings.empty() ? "" : ". ") + one;
+    if (!warnings.empty()) report({.is_warning = true, .text = port_.path() + ": " + warnings});
+}
+
+/// An edge of the driver enable that failed is reported once, and the way back is tried for. So is the first
+/// time that the guard was needed.
+void BusPort::check_driver_enable(Instant now)
+{
+    if (sender_.driver_guarded() != guarded_ && !std::exchange(guard_reported_, true))
+        report(PortEvent::driver_guarded);
+    guarded_ = sender_.driver_guarded();
+    const bool works = driver_.works() || (!sender_.is_sending() && driver_.ready(now));
+    if (std::exchange(driver_worked_, works) != works)
+        report(works ? PortEvent::driver_back : PortEvent::driver_lost);
+}
+
+void BusPort::lose()
+{
+    detach();
     port_.lose(io::monotonic_now());
-    tell(PortNews::gone);
+    report(PortEvent::lost);
 }
 
 /// It can be opened, and is of no use.
-void BusThread::refuse_port(const std::string& why)
+void BusPort::refuse(const std::string& why)
 {
-    let_go_of_port();
+    detach();
     port_.refuse(io::monotonic_now(), why);
-    tell_trouble();
+    report_trouble();
 }
 
-void BusThread::let_go_of_port()
+void BusPort::detach()
 {
     sender_.abort();
     epoll_.remove(port_.tty().fd());
     driver_.detach();
 }
 
-void BusThread::tell_trouble()
+void BusPort::report_trouble()
 {
     if (const auto why = port_.take_trouble())
-        tell({.is_warning = false, .text = *why + "; it is tried again"});
+        report({.is_warning = false, .text = *why + "; it is tried again"});
 }
 
-void BusThread::tell(PortWords words)
+void BusPort::report(PortMessage message)
 {
-    auto told = std::make_unique<PortWords>(std::move(words));
-    static_cast<void>(link_.port_words.offer(told)); // not read yet: the older one is as true
+    auto reported = std::make_unique<PortMessage>(std::move(message));
+    static_cast<void>(link_.port_messages.offer(reported)); // not read yet: the older one is as true
 }
 
-/// Nothing is sent through a port whose driver enable does not work: then it is as good as not there.
-void BusThread::try_reopen(Instant now)
+void BusPort::write_state(BusSnapshot& snapshot) const
 {
-    if (!port_.ready(now)) {
-        tell_trouble();
-        return;
-    }
-    watch_port();
-    if (const auto trouble = driver_.attach(port_.tty())) {
-        refuse_port(port_.path() + ": " + *trouble);
-        return;
-    }
-    guard_told_ = false;
-    tell(PortNews::back);
-    std::string warnings;
-    for (const std::string& one : port_.tty().warnings()) warnings += (warnings.empty() ? "" : ". ") + one;
-    if (!warnings.empty()) tell({.is_warning = true, .text = port_.path() + ": " + warnings});
-}
-
-/// An edge of the driver enable that failed is told once, and the way back is tried for. So is the first time
-/// that the guard was needed.
-void BusThread::mind_driver(Instant now)
-{
-    if (!port_.is_open()) return;
-    if (sender_.driver_guarded() != guarded_ && !std::exchange(guard_told_, true))
-        tell(PortNews::driver_guarded);
-    guarded_ = sender_.driver_guarded();
-    const bool works = driver_.works() || (!sender_.is_sending() && driver_.ready(now));
-    if (works == driver_worked_) return;
-    driver_worked_ = works;
-    tell(works ? PortNews::driver_back : PortNews::driver_gone);
+    snapshot.port_open = port_.is_open();
+    snapshot.write_errors = sender_.write_errors();
+    snapshot.unsent = unsent_;
+    snapshot.driver_works = driver_.works();
+    snapshot.driver_errors = sender_.driver_errors();
+    snapshot.driver_guarded = sender_.driver_guarded();
+    snapshot.echo_broken = echo_.broken();
+    snapshot.echo_missing = echo_.missing();
 }
 
 } // namespace dpslave::app

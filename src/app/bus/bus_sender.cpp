@@ -48,7 +48,7 @@ void BusSender::finish(const io::Tty& tty)
     if (transmission_.is_over(now, shift_register(tty))) make_inactive(now);
 }
 
-/// A UART that was never empty when the guard came is not asked any more: its driver does not know.
+/// A UART that was never empty within the guard time is not asked any more: its driver does not know.
 std::optional<bool> BusSender::shift_register(const io::Tty& tty) const
 {
     constexpr std::uint64_t kTrusted = 3;

@@ -29,19 +29,19 @@ public:
     enum class Unsent : std::uint8_t {
         no_driver, ///< the driver enable does not work
         not_taken, ///< the port did not take it whole
-        port_gone, ///< nor will it take anything any more
+        port_gone, ///< the port did not take it, and has gone
     };
     /// The reply leaves now and whole. Gives the moment after the write.
     Result<Instant, Unsent> send(Bytes telegram, io::Tty& tty, Baud baud);
 
     /// Whether the driver is active because of a reply that goes out.
     bool is_sending() const { return transmission_.is_running(); }
-    /// When finish() has something to do; kNever = nothing goes out, or nobody has to be let go.
+    /// When finish() has something to do; kNever = nothing goes out, or no driver is switched here.
     Instant next_deadline() const { return transmission_.ends_at(); }
-    /// Lets the driver go if the reply is over, or will be within kSpin: that is spun for. Call it until
-    /// is_sending() is false.
+    /// Makes the driver inactive if the reply is over, or will be within kSpin: that is spun for. Call it
+    /// until is_sending() is false.
     void finish(const io::Tty& tty);
-    /// The port goes: the driver goes inactive at once, whatever is on its way.
+    /// Before the port is closed: the driver goes inactive at once, whatever is on its way.
     void abort();
 
     std::uint64_t write_errors() const { return write_errors_; }   ///< replies that the port did not take

@@ -44,7 +44,7 @@ void BusStation::on_time(Instant now)
     slave_.on_time(now);
 }
 
-bool BusStation::hand_on()
+bool BusStation::forward()
 {
     while (const auto left = slave_.take_left())
         link_->ended.store(left->generation, std::memory_order_release);

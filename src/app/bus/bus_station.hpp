@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// One slave as the bus sees it: a dp::Slave that fetches the newest inputs and answers when it is spoken to,
-/// so that the cost of a telegram does not grow with the number of stations. It is on the bus while the main
-/// thread wants it there.
+/// One slave of the bus: a dp::Slave that fetches the newest inputs at each request, so that the cost of a
+/// telegram does not grow with the number of stations.
 #pragma once
 
 #include "app/links.hpp"
@@ -14,7 +13,7 @@
 
 namespace dpslave::app {
 
-/// Built by the main thread, then the bus thread's alone while it is in its roster.
+/// Built by the main thread, then the bus thread's alone while it is in its StationSet.
 class BusStation final : public fdl::SapUser {
 public:
     /// Takes from `config` what it needs.
@@ -31,13 +30,13 @@ public:
     dp::Slave& slave() { return slave_; }
     const dp::Personality& personality() const { return *personality_; }
 
-    /// Takes what the main thread ordered, also while nobody speaks to the station. True: it was news.
+    /// Takes what the main thread ordered, also without a request of a master. True: it was new.
     bool take_orders();
     const BusOrders& orders() const { return orders_; }
 
-    /// Hands outputs, orders and events on. False: a full ring has refused an order; call again.
-    bool hand_on();
-    /// Hands a fresh snapshot to the main thread.
+    /// Passes outputs, orders and events on. False: a full ring has refused an order; call again.
+    bool forward();
+    /// For the main thread.
     void publish_snapshot() { link_->bus_snapshot.publish(slave_.snapshot()); }
 
 private:
@@ -46,7 +45,7 @@ private:
     std::shared_ptr<StationLink> link_;
     std::shared_ptr<const dp::Personality> personality_; // the slave looks into it
     dp::Slave slave_;
-    BusOrders orders_;                         ///< as they were seen last
+    BusOrders orders_;                         ///< as taken last
     std::optional<DemandOrder> waiting_order_; ///< refused by a full ring: late, not lost
 };
 

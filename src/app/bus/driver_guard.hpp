@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The last guard of the driver enable while the program lives: a thread that does nothing else, and that
-/// nothing holds up, neither a bus thread that hangs nor the main thread's files. Source: row A-027.
+/// The last guard of the driver enable while the program runs: a thread that does nothing else, so neither a
+/// bus thread that hangs nor the main thread's files delay it. Source: row A-027.
 #pragma once
 
 #include "dpslave/base/units.hpp"
@@ -18,15 +18,15 @@ public:
     /// How often it looks: a line that is stuck is active for twice the longest telegram and this, at most.
     static constexpr std::chrono::milliseconds kLook{10};
 
-    /// `baud`: the rate that replies have now. Both outlive the guard, which is not at work yet.
+    /// `baud`: the rate that replies have now. Both outlive the guard, which does nothing before start().
     DriverGuard(io::DriverEnable& driver, const std::atomic<Baud>& baud) : driver_(driver), baud_(baud) {}
 
-    /// At work until the end of the object, where the driver is switched by hand at all. `bus_priority`: of
-    /// the bus thread, 0..99; the guard has one more, or as much if that is 99, so that one that spins
-    /// does not keep it off the processor.
+    /// Runs until the end of the object, if the driver is switched by the program at all. `bus_priority`: of
+    /// the bus thread, 0..99; the guard has one more, or as much if that is 99, so that a bus thread that
+    /// spins does not keep it off the processor.
     void start(int bus_priority);
 
-    /// How often it had to let the driver go. Any thread may ask.
+    /// How often it made the driver enable inactive. Any thread may ask.
     std::uint64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }
 
 private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Which station shows its state next: each at most once in 50 ms, and one at a time, so that what a telegram
-/// costs does not grow with their number. Places and times in, places out.
+/// Which station publishes its state next: each at most once in 50 ms, and one at a time, so that what a
+/// telegram costs does not grow with their number. Slots and times in, slots out.
 #pragma once
 
 #include "dpslave/base/units.hpp"
@@ -16,26 +16,26 @@ namespace dpslave::app {
 class SnapshotTurns {
 public:
     static constexpr std::chrono::nanoseconds kInterval = std::chrono::milliseconds{50};
-    static constexpr std::size_t kPlaces = 128;
+    static constexpr std::size_t kSlots = 128;
 
-    /// What was shown of this place (below kPlaces) is older than its state.
-    void changed(std::size_t place);
-    /// It has gone: there is nothing to show.
-    void forget(std::size_t place);
-    /// Nothing is due before this; kNever = everything was shown.
+    /// What was published of this slot (below kSlots) is older than its state.
+    void changed(std::size_t slot);
+    /// The station has left: nothing is to be published.
+    void forget(std::size_t slot);
+    /// Nothing is due before this; kNever = all is published.
     Instant next() const { return next_; }
-    /// The place that is to be shown now, if one is. The next one follows kInterval / `stations` later at the
-    /// earliest.
+    /// The slot that is to be published now, if one is. The next one follows kInterval / `stations` later at
+    /// the earliest.
     std::optional<std::size_t> take(Instant now, std::size_t stations);
 
 private:
     void find_next();
 
-    std::bitset<kPlaces> changed_;
-    std::array<Instant, kPlaces> rests_until_{}; ///< each place after it was shown
-    Instant all_rest_until_{};                   ///< after any was shown
+    std::bitset<kSlots> changed_;
+    std::array<Instant, kSlots> rests_until_{}; ///< each slot after it was published
+    Instant all_rest_until_{};                  ///< after any was published
     Instant next_ = kNever;
-    std::size_t last_ = kPlaces - 1; ///< the place that was shown last
+    std::size_t last_ = kSlots - 1; ///< the slot that was published last
 };
 
 } // namespace dpslave::app

@@ -116,7 +116,7 @@ ExitStatus run_daemon(const config::Config& config, const std::filesystem::path&
         return give_up();
     }
 
-    BusThread bus(config.bus, std::move(*port), *driver, plant.roster(), link);
+    BusThread bus(config.bus, std::move(*port), *driver, plant.bus_stations(), link);
     io::make_stacks_small();
     if (config.realtime.lock_memory) say_warnings(io::lock_memory());
     spdlog::info("dpslaved {}: {} station(s) on {} at {}", kVersion, config.stations.size(), config.bus.port,

@@ -171,7 +171,7 @@ std::optional<std::string> MainThread::apply(Plan plan)
     if (auto trouble = plant_.exchange(plan)) return trouble;
     config_ = std::move(plan.config);
     repost();
-    roster_ = plant_.roster();
+    bus_set_ = plant_.bus_stations();
     reloading_ = Reloading::bus;
     for (std::string& warning : lamps_.exchange(config_)) spdlog::warn("{}", warning);
     show_lamps(io::monotonic_now());
@@ -228,12 +228,12 @@ void MainThread::answer_those_who_asked()
     }
 }
 
-/// The bus takes its new roster when those who are not in it have said their last word.
+/// The bus takes its new set when the stations that are not in it have passed on what they had.
 bool MainThread::bus_has_let_go()
 {
-    bus_.roster.collect();
-    if (roster_ && !bus_.roster.offer(roster_)) return false;
-    return bus_.roster.taken();
+    bus_.stations.collect();
+    if (bus_set_ && !bus_.stations.offer(bus_set_)) return false;
+    return bus_.stations.taken();
 }
 
 void MainThread::answer_reload()

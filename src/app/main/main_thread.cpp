@@ -264,28 +264,28 @@ void MainThread::log_port_news()
     const auto say = [&](Level level, std::string text) {
         log_.say(level, std::move(text), io::monotonic_now());
     };
-    while (const auto news = bus_.port_news.pop()) {
+    while (const auto news = bus_.port_events.pop()) {
         switch (*news) {
-            case PortNews::gone:
+            case PortEvent::lost:
                 say(Level::error, port + " has gone; it is opened again as soon as it returns");
                 break;
-            case PortNews::back: say(Level::info, port + " is back"); break;
-            case PortNews::driver_gone:
+            case PortEvent::back: say(Level::info, port + " is back"); break;
+            case PortEvent::driver_lost:
                 say(Level::error, "the driver enable of " + port +
                                       " cannot be switched: nothing is sent until it works again; look "
                                       "whether the GPIO chip is still there");
                 break;
-            case PortNews::driver_guarded:
+            case PortEvent::driver_guarded:
                 say(Level::warning, "the driver enable of " + port +
                                         " was let go by the guard: the UART did not say in time that it had "
                                         "sent all; `dpctl counters` shows how often (driver_guarded)");
                 break;
-            case PortNews::driver_back:
+            case PortEvent::driver_back:
                 say(Level::info, "the driver enable of " + port + " works again");
                 break;
         }
     }
-    if (std::unique_ptr<PortWords> words; bus_.port_words.take(words))
+    if (std::unique_ptr<PortMessage> words; bus_.port_messages.take(words))
         say(words->is_warning ? Level::warning : Level::error, words->text);
     if (const std::uint64_t dropped = guard_.dropped(); std::exchange(dropped_seen_, dropped) != dropped)
         say(Level::error, "the driver enable of " + port +

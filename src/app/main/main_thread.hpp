@@ -161,7 +161,7 @@ private:
     /// Where a reload stands. Another one begins when it is idle again.
     enum class Reloading : std::uint8_t {
         idle,
-        bus,   ///< the bus is to take the new roster
+        bus,   ///< the bus is to take its new set of stations
         drives ///< the drives of those who left get their safe state
     };
     control::Reply on_reload(const control::Json& parameters);
@@ -220,7 +220,7 @@ private:
     std::vector<std::uint32_t> reload_told_;  ///< who waits for the one that is under way
     std::vector<Station> leaving_;            ///< kept until bus and drives are done with them
     std::uint64_t lost_before_ = 0;           ///< events that stations which left could not tell
-    std::unique_ptr<Roster> roster_;          ///< to be offered to the bus
+    std::unique_ptr<BusStations> bus_set_;    ///< to be offered to the bus
 };
 
 } // namespace dpslave::app

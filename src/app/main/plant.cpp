@@ -114,11 +114,11 @@ void Plant::start(DriveLine& line)
     });
 }
 
-std::unique_ptr<Roster> Plant::roster() const
+std::unique_ptr<BusStations> Plant::bus_stations() const
 {
-    auto roster = std::make_unique<Roster>();
-    for (const Station& station : stations_) roster->push_back(station.bus);
-    return roster;
+    auto all = std::make_unique<BusStations>();
+    for (const Station& station : stations_) all->push_back(station.bus);
+    return all;
 }
 
 // ---- the exchange

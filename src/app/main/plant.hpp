@@ -60,7 +60,7 @@ public:
     const std::vector<Station>& stations() const { return stations_; }
     const std::vector<std::shared_ptr<DriveLine>>& lines() const { return lines_; }
     /// For the bus: those that are there now.
-    std::unique_ptr<Roster> roster() const;
+    std::unique_ptr<BusStations> bus_stations() const;
 
     /// Makes what `plan` asks for and takes over what stays. Ports that nobody of ours has are opened as a
     /// trial. Nothing: done, stations() and lines() are the new ones, and finish() is to come when the bus

@@ -5,15 +5,15 @@
 namespace dpslave::test {
 namespace {
 
-class RosterOfTheBus : public OnABus {
+class StationsOfTheBus : public OnABus {
 protected:
-    /// Offers a new roster and waits until it is in use; gives the old one back.
-    std::unique_ptr<app::Roster> change_to(app::Roster stations)
+    /// Offers a new set and waits until it is in use; gives the old one back.
+    std::unique_ptr<app::BusStations> change_to(app::BusStations stations)
     {
-        auto next = std::make_unique<app::Roster>(std::move(stations));
-        EXPECT_TRUE(link.roster.offer(next));
-        std::unique_ptr<app::Roster> old;
-        EXPECT_TRUE(eventually([&] { return (old = link.roster.collect()) != nullptr; }));
+        auto next = std::make_unique<app::BusStations>(std::move(stations));
+        EXPECT_TRUE(link.stations.offer(next));
+        std::unique_ptr<app::BusStations> old;
+        EXPECT_TRUE(eventually([&] { return (old = link.stations.collect()) != nullptr; }));
         return old;
     }
     bool answers(std::uint8_t address, int tries = 20)
@@ -22,7 +22,7 @@ protected:
     }
 };
 
-TEST_F(RosterOfTheBus, MayBeEmptyAtFirst)
+TEST_F(StationsOfTheBus, MayBeEmptyAtFirst)
 {
     start({}, {});
     EXPECT_FALSE(answers(5, 1));
@@ -31,7 +31,7 @@ TEST_F(RosterOfTheBus, MayBeEmptyAtFirst)
     EXPECT_TRUE(eventually([this] { return answers(5, 1); }));
 }
 
-TEST_F(RosterOfTheBus, TakesAStationOnAndTheOneThatWasThereGoesOn)
+TEST_F(StationsOfTheBus, TakesAStationOnAndTheOneThatWasThereGoesOn)
 {
     const auto five = station(5);
     start({}, {five});
@@ -45,28 +45,27 @@ TEST_F(RosterOfTheBus, TakesAStationOnAndTheOneThatWasThereGoesOn)
     EXPECT_EQ(links[5]->ended.load(), 0u); // its layout has not ended
 }
 
-TEST_F(RosterOfTheBus, ThatChangesAllTheTimeCostsTheOthersNotOneReply)
+TEST_F(StationsOfTheBus, ThatChangesAllTheTimeCostsTheOthersNotOneReply)
 {
     const auto five = station(5);
-    start({.direction = io::Direction::none},
-          {five, station(6)}); // nobody knows how many replies that will be
+    start({.direction = io::Direction::none}, {five, station(6)}); // the number of replies is not known
     start_up(5);
     std::uint16_t value = 0;
     for (std::uint8_t other = 7; other < 27; ++other) {
-        auto next = std::make_unique<app::Roster>(app::Roster{five, station(other)});
-        ASSERT_TRUE(link.roster.offer(next));
-        while (!link.roster.taken()) {
+        auto next = std::make_unique<app::BusStations>(app::BusStations{five, station(other)});
+        ASSERT_TRUE(link.stations.offer(next));
+        while (!link.stations.taken()) {
             drive_reads(5, ++value);
             ASSERT_EQ(exchange(5), value);
         }
-        ASSERT_TRUE(eventually([this] { return link.roster.collect() != nullptr; }));
+        ASSERT_TRUE(eventually([this] { return link.stations.collect() != nullptr; }));
     }
     EXPECT_TRUE(eventually([this] { return answers(26, 1); }));
     EXPECT_FALSE(answers(25, 1));
     EXPECT_EQ(allocations(), 0u); // all of it is built and thrown away elsewhere
 }
 
-TEST_F(RosterOfTheBus, TakesAStationOffWithAllThatLeavingMeans)
+TEST_F(StationsOfTheBus, TakesAStationOffWithAllThatLeavingMeans)
 {
     const auto five = station(5), six = station(6);
     start({}, {five, six});
@@ -83,7 +82,7 @@ TEST_F(RosterOfTheBus, TakesAStationOffWithAllThatLeavingMeans)
     EXPECT_EQ(six.use_count(), 2);
 }
 
-TEST_F(RosterOfTheBus, GivesAnAddressToAnotherStation)
+TEST_F(StationsOfTheBus, GivesAnAddressToAnotherStation)
 {
     start({}, {station(5)});
     start_up(5);
@@ -95,32 +94,32 @@ TEST_F(RosterOfTheBus, GivesAnAddressToAnotherStation)
     EXPECT_NE(first->ended.load(), 0u);
 }
 
-TEST_F(RosterOfTheBus, IsTakenOnlyWhenTheOrdersOfThoseWhoLeaveWereTaken)
+TEST_F(StationsOfTheBus, IsTakenOnlyWhenTheOrdersOfThoseWhoLeaveWereTaken)
 {
     const auto five = station(5);
-    while (links[5]->demand_orders.push({})) { // as if nobody had taken any for long
+    while (links[5]->demand_orders.push({})) { // as if the drive line took none
     }
     start({}, {five});
     start_up(5);
     ASSERT_TRUE(exchange(5));
     const Octets read_tag_7{0x10, 0x07, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00}; // Demand Data
     ASSERT_TRUE(master.ask(::test::sd2(5, 2, master.next_fc(), read_tag_7)));
-    ASSERT_TRUE(eventually([this] { return links[5]->demand_orders.refused() > 1; })); // it waits for room
-    auto next = std::make_unique<app::Roster>(app::Roster{station(6)});
-    ASSERT_TRUE(link.roster.offer(next));
+    ASSERT_TRUE(eventually([this] { return links[5]->demand_orders.refused() > 1; })); // the ring is full
+    auto next = std::make_unique<app::BusStations>(app::BusStations{station(6)});
+    ASSERT_TRUE(link.stations.offer(next));
     ASSERT_TRUE(eventually([this] { return answers(5, 1) == false; })); // it is silent at once
-    EXPECT_FALSE(link.roster.taken());
+    EXPECT_FALSE(link.stations.taken());
 
     EXPECT_TRUE(eventually([&] {
         static_cast<void>(links[5]->demand_orders.pop());
-        return link.roster.taken();
+        return link.stations.taken();
     }));
     EXPECT_TRUE(eventually([this] { return answers(6, 1); }));
 }
 
-TEST_F(RosterOfTheBus, ShowsEachStationInItsTurn)
+TEST_F(StationsOfTheBus, ShowsEachStationInItsTurn)
 {
-    app::Roster all;
+    app::BusStations all;
     for (std::uint8_t address = 3; address < 40; ++address) all.push_back(station(address));
     start({}, all);
 

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The port of the bus with its driver enable: octets to layer 2 without their echo, replies out, another
+/// rate, the loss of the port and its return. The bus thread's own.
+#pragma once
+
+#include "app/links.hpp"
+#include "bus_sender.hpp"
+
+#include "dpslave/config/config.hpp"
+#include "dpslave/fdl/echo.hpp"
+#include "dpslave/fdl/layer2.hpp"
+#include "dpslave/io/driver_enable.hpp"
+#include "dpslave/io/epoll.hpp"
+#include "dpslave/io/port.hpp"
+
+#include <array>
+#include <optional>
+#include <string>
+
+namespace dpslave::app {
+
+/// The PROFIBUS character format (8E1, bad characters marked, each octet at once) at the configured rate;
+/// where it is searched, at the lowest, which every UART can do.
+io::TtySettings bus_tty_settings(const config::Config& config);
+
+class BusPort {
+public:
+    /// `port` is open and `driver` attached to it, or it is closed. `epoll` reports `key` once for each
+    /// arrival of octets. All but `port` outlive the object.
+    BusPort(io::Port port, io::DriverEnable& driver, fdl::EchoMode echo, io::Epoll& epoll, std::uint64_t key,
+            BusLink& link);
+    ~BusPort();
+    BusPort(const BusPort&) = delete;
+    BusPort& operator=(const BusPort&) = delete;
+
+    /// For layer 2 on this port. Where the rate is searched the port is asked which rates it can do.
+    fdl::Layer2Settings layer2_settings(const config::BusConfig& config);
+    /// From now on the epoll reports octets, if the port is open.
+    void watch();
+    bool is_open() const { return port_.is_open(); }
+    /// Another rate; what had come at the old one is lost.
+    void set_baud(Baud baud);
+
+    /// Reads all that has come; our own octets do not reach layer 2. A port that fails is closed.
+    void read(fdl::Layer2& layer2);
+    /// When the newest octets were read that are not our own.
+    Instant heard_at() const { return heard_at_; }
+
+    /// The reply leaves now. Gives the moment after the write; nothing: it was not sent, and is counted.
+    std::optional<Instant> send(Bytes reply, Baud baud);
+    bool is_sending() const { return sender_.is_sending(); }
+    Instant sending_ends() const { return sender_.next_deadline(); } ///< as BusSender::next_deadline()
+    void finish_sending();
+
+    /// Opens a port that has gone, and tries a driver enable that has failed, when their time has come. It
+    /// may block and allocate where one of them does not work.
+    void check(Instant now);
+    /// Its part of the snapshot.
+    void write_state(BusSnapshot& snapshot) const;
+
+private:
+    void hear(Bytes octets, Instant read_at, bool more, fdl::Layer2& layer2);
+    void lose();
+    void refuse(const std::string& why);
+    void detach();
+    void reopen(Instant now);
+    void check_driver_enable(Instant now);
+    void report(PortEvent event)
+    {
+        link_.port_events.push(event);
+    } // full: the log is not worth a lost telegram
+    void report(PortMessage message);
+    void report_trouble();
+
+    io::Port port_;
+    io::DriverEnable& driver_;
+    BusSender sender_;
+    fdl::Echo echo_;
+    io::Epoll& epoll_;
+    std::uint64_t key_;
+    BusLink& link_;
+    std::array<std::uint8_t, 512> buffer_{};
+    Instant heard_at_{};
+    std::uint64_t unsent_ = 0;
+    bool driver_worked_ = true;
+    bool guard_reported_ = false;
+    std::uint64_t guarded_ = 0; ///< as seen last
+};
+
+} // namespace dpslave::app

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "station_set.hpp"
+
+#include "dpslave/io/clock.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+namespace dpslave::app {
+
+namespace {
+
+/// Calls `visit(n)` for every bit n that is set, without looking at the others one by one.
+template <class Visit>
+void for_each(const std::bitset<128>& bits_set, Visit visit)
+{
+    constexpr std::bitset<128> kLow{~0ULL};
+    for (unsigned half = 0; half < 2; ++half) {
+        std::uint64_t bits = ((bits_set >> (half * 64)) & kLow).to_ullong();
+        while (bits != 0) {
+            visit(half * 64 + static_cast<unsigned>(std::countr_zero(bits)));
+            bits &= bits - 1;
+        }
+    }
+}
+
+} // namespace
+
+StationSet::StationSet(std::unique_ptr<BusStations> stations, Handover<BusStations>& next,
+                       fdl::Layer2& layer2)
+    : stations_(std::move(stations)), next_(next), layer2_(layer2)
+{
+    add_stations();
+}
+
+void StationSet::update()
+{
+    exchange();
+    apply_orders();
+}
+
+/// What is given back with the present set may be destroyed at once: so those that are not in the next one
+/// pass on what they have first.
+void StationSet::exchange()
+{
+    const BusStations* const next = next_.offered();
+    if (next == nullptr || !remove_stations(*next)) return;
+    next_.take(stations_);
+    add_stations();
+}
+
+/// False: the ring of a station is full of orders, and one of its own is still waiting.
+bool StationSet::remove_stations(const BusStations& next)
+{
+    const auto stays = [&next](const BusStation* station) {
+        return std::any_of(next.begin(), next.end(), [&](const auto& one) { return one.get() == station; });
+    };
+    bool all_gone = true;
+    for (std::size_t i = 0; i < kSlots; ++i) {
+        Slot& slot = slots_[i];
+        if (slot.station == nullptr || stays(slot.station)) continue;
+        slot.leaves = true;
+        if (slot.address) detach(i);
+        if (!slot.station->forward()) {
+            all_gone = false;
+            continue;
+        }
+        slot.station->publish_snapshot();
+        slot = {};
+        waiting_.reset(i);
+        turns_.forget(i);
+    }
+    return all_gone;
+}
+
+void StationSet::add_stations()
+{
+    for (const auto& one : *stations_) {
+        const auto slot_of = [&](const BusStation* station) {
+            return std::find_if(slots_.begin(), slots_.end(),
+                                [&](const Slot& slot) { return slot.station == station; });
+        };
+        if (slot_of(one.get()) != slots_.end()) continue;
+        const auto slot = slot_of(nullptr);
+        if (slot == slots_.end()) return; // no bus has more than 127 addresses
+        slot->station = one.get();
+        turns_.changed(static_cast<std::size_t>(slot - slots_.begin()));
+    }
+}
+
+void StationSet::apply_orders()
+{
+    for (std::size_t i = 0; i < kSlots; ++i) {
+        const Slot& slot = slots_[i];
+        if (slot.station == nullptr) continue;
+        if (slot.station->take_orders())
+            turns_.changed(i); // a new diagnosis is published although no master asks for it
+        const BusOrders& wanted = slot.station->orders();
+        if (slot.address && (!wanted.enabled || *slot.address != wanted.address)) detach(i);
+    }
+    for (std::size_t i = 0; i < kSlots; ++i) { // an address that another one leaves is free by now
+        const Slot& slot = slots_[i];
+        if (slot.station != nullptr && !slot.address && !slot.leaves && slot.station->orders().enabled)
+            attach(i);
+    }
+}
+
+void StationSet::attach(std::size_t slot)
+{
+    BusStation& one = *slots_[slot].station;
+    const std::uint8_t address = one.orders().address;
+    if (slot_at_[address]) return; // another station still has it: with the next tick
+    one.slave().set_address(address);
+    if (!layer2_.attach(address, one, one.personality().max_tsdr)) return;
+    one.slave().start(io::monotonic_now());
+    slot_at_[address] = static_cast<std::uint8_t>(slot);
+    slots_[slot].address = address;
+    waiting_.set(slot, !one.forward());
+    turns_.changed(slot);
+}
+
+void StationSet::detach(std::size_t slot)
+{
+    BusStation& one = *slots_[slot].station;
+    const std::uint8_t address = *slots_[slot].address;
+    one.slave().stop(io::monotonic_now());
+    waiting_.set(slot, !one.forward());
+    turns_.changed(slot);
+    layer2_.detach(address);
+    slot_at_[address].reset();
+    slots_[slot].address.reset();
+}
+
+void StationSet::forward()
+{
+    const auto addresses = layer2_.take_touched();
+    if (addresses.none() && waiting_.none()) return;
+    for_each(addresses, [this](unsigned address) {
+        if (!slot_at_[address]) return; // it was detached after its request, and has passed on everything
+        waiting_.set(*slot_at_[address]);
+        turns_.changed(*slot_at_[address]);
+    });
+    for_each(waiting_, [this](unsigned slot) { waiting_.set(slot, !slots_[slot].station->forward()); });
+}
+
+void StationSet::publish(Instant now)
+{
+    if (const auto slot = turns_.take(now, stations_->size())) slots_[*slot].station->publish_snapshot();
+}
+
+void StationSet::stop()
+{
+    for (const Slot& slot : slots_) {
+        if (slot.station == nullptr) continue;
+        slot.station->slave().stop(io::monotonic_now());
+        slot.station->forward();
+        slot.station->publish_snapshot();
+    }
+}
+
+} // namespace dpslave::app
