@@ -204,6 +204,19 @@ std::optional<std::uint16_t> output_word(Master& master, std::size_t number)
     return be16(master.outputs(), process_start(master.settings()) + 2 * (number - 1));
 }
 
+std::vector<std::string> changed_inputs(const Master& master, std::vector<std::optional<std::uint16_t>>& seen)
+{
+    std::vector<std::string> lines;
+    seen.resize(input_words(master));
+    for (std::size_t n = 1; n <= seen.size(); ++n) {
+        const auto word = input_word(master, n);
+        if (!word || seen[n - 1] == word) continue;
+        seen[n - 1] = word;
+        lines.push_back(fmt::format("in {} is {}", n, show_word(*word)));
+    }
+    return lines;
+}
+
 bool set_output_word(Master& master, std::size_t number, std::uint16_t word)
 {
     if (number < 1 || number > output_words(master)) return false;

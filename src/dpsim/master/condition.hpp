@@ -11,6 +11,10 @@ std::optional<std::uint16_t> input_word(const Master& master, std::size_t number
 std::optional<std::uint16_t> output_word(Master& master, std::size_t number);
 bool set_output_word(Master& master, std::size_t number, std::uint16_t word);
 std::size_t input_words(const Master& master);
+/// A line for each input word that is another one than in `seen`, which is brought up to date. Asked after
+/// each turn of the master, no word that was on the bus is missed.
+std::vector<std::string> changed_inputs(const Master& master,
+                                        std::vector<std::optional<std::uint16_t>>& seen);
 std::size_t output_words(const Master& master);
 
 struct Condition {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 namespace dpslave::sim {
 namespace {
@@ -19,10 +20,6 @@ constexpr auto kAnswerTime = 5s;
 double seconds(std::chrono::nanoseconds t)
 {
     return std::chrono::duration<double>(t).count();
-}
-double microseconds(std::chrono::nanoseconds t)
-{
-    return std::chrono::duration<double, std::micro>(t).count();
 }
 
 std::string rest_of(const std::vector<std::string>& words, std::size_t from)
@@ -38,21 +35,36 @@ struct Console::Command {
     std::string_view name;
     std::string_view usage;
     std::string_view help;
-    void (Console::*run)(const Words&, Instant);
+    void (*run)(Console&, const Words&, Instant);
+
+    template <void (Console::*method)(const Words&, Instant)>
+    static void by(Console& console, const Words& words, Instant now)
+    {
+        (console.*method)(words, now);
+    }
+
+    static void set_mode(Console& console, const Words& words, Instant now)
+    {
+        console.master_.clear(words[0] == "clear");
+        console.wait_ = {.what = For::answer, .until = now + kAnswerTime, .service = Service::global_control};
+    }
 };
 
 const std::vector<Console::Command>& Console::commands()
 {
     static const std::vector<Command> table{
         {"start", "start [TIME]", "start-up until Data_Exch (10s), or the reason why not",
-         &Console::do_start},
-        {"in", "in [N]", "the process input words", &Console::do_in},
-        {"follow", "follow on|off", "tells each process input word that changes", &Console::do_follow},
-        {"out", "out [N = VALUE]", "sets a process output word, or shows all", &Console::do_out},
-        {"wait", "wait TIME [for CONDITION]", "waits, at most so long, for a condition", &Console::do_wait},
-        {"expect", "expect CONDITION", "fails if the condition does not hold now", &Console::do_expect},
+         Command::by<&Console::do_start>},
+        {"in", "in [N]", "the process input words", Command::by<&Console::do_in>},
+        {"follow", "follow on|off", "tells each process input word that changes",
+         Command::by<&Console::do_follow>},
+        {"out", "out [N = VALUE]", "sets a process output word, or shows all", Command::by<&Console::do_out>},
+        {"wait", "wait TIME [for CONDITION]", "waits, at most so long, for a condition",
+         Command::by<&Console::do_wait>},
+        {"expect", "expect CONDITION", "fails if the condition does not hold now",
+         Command::by<&Console::do_expect>},
         {"demand", "demand read TAG | write TAG VALUE | none",
-         "Demand Data, tags to 2047; waits for the answer", &Console::do_demand},
+         "Demand Data, tags to 2047; waits for the answer", Command::by<&Console::do_demand>},
         {"", "demand read-ext TAG | write-ext TAG VALUE", "the same with the extended commands 3 and 4",
          nullptr},
         {"", "demand raw R1 [R2 R3 R4]", "sets the four registers as they are; does not wait", nullptr},
@@ -61,25 +73,36 @@ const std::vector<Console::Command>& Console::commands()
         {"", "demand download TAG [VALUE ...]", "writes these values with command 4, else what is kept",
          nullptr},
         {"", "demand", "the four registers in both directions", nullptr},
-        {"diag", "diag", "reads Slave_Diag and explains it", &Console::do_diag},
-        {"get-cfg", "get-cfg", "reads the configuration that the slave holds", &Console::do_get_cfg},
+        {"diag", "diag", "reads Slave_Diag and explains it",
+         [](Console& c, const Words&, Instant now) {
+             c.ask({Service::slave_diag, {}}, now);
+         }},
+        {"get-cfg", "get-cfg", "reads the configuration that the slave holds",
+         [](Console& c, const Words&, Instant now) {
+             c.ask({Service::get_cfg, {}}, now);
+         }},
         {"sync", "sync | unsync | freeze | unfreeze [GROUPS]", "Global_Control; GROUPS is a mask, 0 = all",
-         &Console::do_global},
-        {"unsync", "", "", &Console::do_global},
-        {"freeze", "", "", &Console::do_global},
-        {"unfreeze", "", "", &Console::do_global},
-        {"clear", "clear | operate", "Clear: zeros go out; Operate: the outputs again", &Console::do_mode},
-        {"operate", "", "", &Console::do_mode},
+         Command::by<&Console::do_global>},
+        {"unsync", "", "", Command::by<&Console::do_global>},
+        {"freeze", "", "", Command::by<&Console::do_global>},
+        {"unfreeze", "", "", Command::by<&Console::do_global>},
+        {"clear", "clear | operate", "Clear: zeros go out; Operate: the outputs again", Command::set_mode},
+        {"operate", "", "", Command::set_mode},
         {"set-prm", "set-prm HEX", "Set_Prm with this whole data unit (7 octets and more)",
-         &Console::do_service},
-        {"chk-cfg", "chk-cfg HEX", "Chk_Cfg with these identifier octets", &Console::do_service},
-        {"send", "send HEX", "these octets as they are; shows what comes back", &Console::do_service},
-        {"unlock", "unlock", "releases the slave (Set_Prm with Unlock_Req) and stops", &Console::do_unlock},
-        {"run", "run [TIME]", "goes on exchanging for so long; without TIME until ended", &Console::do_run},
-        {"stop", "stop", "falls silent without a word", &Console::do_stop},
-        {"stats", "stats", "counters", &Console::do_stats},
-        {"help", "help", "this list", &Console::do_help},
-        {"quit", "quit", "ends", &Console::do_quit},
+         Command::by<&Console::do_service>},
+        {"chk-cfg", "chk-cfg HEX", "Chk_Cfg with these identifier octets", Command::by<&Console::do_service>},
+        {"send", "send HEX", "these octets as they are; shows what comes back",
+         Command::by<&Console::do_service>},
+        {"unlock", "unlock", "releases the slave (Set_Prm with Unlock_Req) and stops",
+         Command::by<&Console::do_unlock>},
+        {"run", "run [TIME]", "goes on exchanging for so long; without TIME until ended",
+         Command::by<&Console::do_run>},
+        {"stop", "stop", "falls silent without a word",
+         [](Console& c, const Words&, Instant) { c.master_.stop(); }},
+        {"stats", "stats", "counters",
+         [](Console& c, const Words&, Instant) { c.say(in_words(c.master_.counters())); }},
+        {"help", "help", "this list", [](Console& c, const Words&, Instant) { c.say(help()); }},
+        {"quit", "quit", "ends", [](Console& c, const Words&, Instant) { c.quit_ = true; }},
     };
     return table;
 }
@@ -116,12 +139,17 @@ void Console::command(const std::string& line, const std::string& place, Instant
     const auto found =
         std::find_if(table.begin(), table.end(), [&](const Command& c) { return c.name == words[0]; });
     if (found == table.end()) return fail(fmt::format("there is no command '{}'; help lists them", words[0]));
-    (this->*found->run)(words, now);
+    found->run(*this, words, now);
 }
 
 std::vector<std::string> Console::take_lines()
 {
     return std::exchange(lines_, {});
+}
+
+void Console::say(std::vector<std::string> lines)
+{
+    std::move(lines.begin(), lines.end(), std::back_inserter(lines_));
 }
 
 void Console::stamp(Instant now, std::string_view words)
@@ -131,7 +159,7 @@ void Console::stamp(Instant now, std::string_view words)
 
 void Console::fail(std::string_view why)
 {
-    done();
+    wait_.reset();
     say(fmt::format("{}{}: {}", place_, line_, why));
     if (!forgiving_) failed_ = true;
 }
@@ -141,7 +169,7 @@ void Console::fail(std::string_view why)
 void Console::on_time(Instant now)
 {
     while (const auto event = master_.take_event()) take(*event, now);
-    if (follows_) tell_changes();
+    if (follows_) say(changed_inputs(master_, followed_));
     if (wait_) check_wait(now);
 }
 
@@ -171,7 +199,7 @@ void Console::take(const MasterEvent& event, Instant now)
 
 void Console::take_answer(const Answer& answer)
 {
-    done();
+    wait_.reset();
     if (answer.service == Service::global_control) return;
     if (answer.service == Service::raw)
         return say(answer.words + (answer.octets.empty() ? "" : ": " + hex(answer.octets)));
@@ -180,7 +208,7 @@ void Console::take_answer(const Answer& answer)
         return say(answer.words);
     const auto diagnosis = parse_diagnosis(answer.frame->data);
     if (!diagnosis) return fail(diagnosis.error());
-    for (const std::string& line : explain(*diagnosis)) say(line);
+    say(explain(*diagnosis));
 }
 
 void Console::start_refused(const std::string& why)
@@ -197,7 +225,7 @@ void Console::check_wait(Instant now)
     switch (wait_->what) {
         case For::start:
             if (master_.state() == MasterState::data_exchange && master_.counters().cycles > wait_->cycles)
-                return done();
+                return wait_.reset();
             if (!late) return;
             if (master_.state() == MasterState::searching)
                 return fail(fmt::format(
@@ -209,23 +237,21 @@ void Console::check_wait(Instant now)
             if (late) fail("no answer in time");
             return;
         case For::time:
-            if (late) done();
+            if (late) wait_.reset();
             return;
         case For::condition: {
             const Verdict verdict = judge(wait_->condition, master_, last_reply_);
-            if (verdict.holds) return done();
+            if (verdict.holds) return wait_.reset();
             if (late) fail("not in time, " + verdict.seen);
             return;
         }
-        case For::demand_idle:
-        case For::demand_answer:
-        case For::demand_block: return check_demand(now);
+        case For::demand: return take(demand_.on_time(now));
     }
 }
 
 void Console::ask(Order order, Instant now)
 {
-    await({.what = For::answer, .until = now + kAnswerTime, .service = order.service});
+    wait_ = Wait{.what = For::answer, .until = now + kAnswerTime, .service = order.service};
     master_.order(std::move(order));
 }
 
@@ -237,25 +263,31 @@ void Console::do_start(const Words& words, Instant now)
         words.size() > 1 ? duration_of_text(words[1]) : std::optional<std::chrono::nanoseconds>{kStartTime};
     if (!time || words.size() > 2) return fail("write it as: start, or start 5s");
     master_.start();
-    await({.what = For::start, .until = now + *time, .cycles = master_.counters().cycles});
+    wait_ = Wait{.what = For::start, .until = now + *time, .cycles = master_.counters().cycles};
 }
 
 void Console::do_wait(const Words& words, Instant now)
 {
     const auto time = words.size() > 1 ? duration_of_text(words[1]) : std::nullopt;
     if (!time || (words.size() > 2 && words[2] != "for")) return fail("write it as: wait 2s for in 1 = 1250");
-    if (words.size() == 2) return await({.what = For::time, .until = now + *time});
+    if (words.size() == 2) {
+        wait_ = Wait{.what = For::time, .until = now + *time};
+        return;
+    }
     const auto condition = parse_condition({words.begin() + 3, words.end()});
     if (!condition) return fail(condition.error());
-    await({.what = For::condition, .until = now + *time, .condition = *condition});
+    wait_ = Wait{.what = For::condition, .until = now + *time, .condition = *condition};
 }
 
 void Console::do_run(const Words& words, Instant now)
 {
-    if (words.size() == 1) return await({.what = For::time, .until = kNever});
+    if (words.size() == 1) {
+        wait_ = Wait{.what = For::time, .until = kNever};
+        return;
+    }
     const auto time = duration_of_text(words[1]);
     if (!time || words.size() > 2) return fail("write it as: run 2s");
-    await({.what = For::time, .until = now + *time});
+    wait_ = Wait{.what = For::time, .until = now + *time};
 }
 
 void Console::do_expect(const Words& words, Instant /*now*/)
@@ -287,18 +319,6 @@ void Console::do_follow(const Words& words, Instant /*now*/)
     followed_.clear();
 }
 
-/// The image is looked at after each turn of the master: no word that was on the bus is missed.
-void Console::tell_changes()
-{
-    followed_.resize(input_words(master_));
-    for (std::size_t n = 1; n <= followed_.size(); ++n) {
-        const auto word = input_word(master_, n);
-        if (!word || followed_[n - 1] == word) continue;
-        followed_[n - 1] = word;
-        say(fmt::format("in {} is {}", n, show_word(*word)));
-    }
-}
-
 void Console::do_out(const Words& words, Instant /*now*/)
 {
     if (words.size() == 1) {
@@ -314,14 +334,18 @@ void Console::do_out(const Words& words, Instant /*now*/)
         return fail(fmt::format("there are {} output words, counted from 1", output_words(master_)));
 }
 
-void Console::do_diag(const Words& /*words*/, Instant now)
+void Console::do_demand(const Words& words, Instant now)
 {
-    ask({Service::slave_diag, {}}, now);
+    wait_ = Wait{.what = For::demand};
+    take(demand_.begin(words, now));
 }
 
-void Console::do_get_cfg(const Words& /*words*/, Instant now)
+void Console::take(DemandRun::Step step)
 {
-    ask({Service::get_cfg, {}}, now);
+    say(std::move(step.lines));
+    if (!step.failure.empty()) return fail(step.failure);
+    if (step.done) return wait_.reset();
+    wait_->until = demand_.deadline();
 }
 
 void Console::do_global(const Words& words, Instant now)
@@ -333,12 +357,6 @@ void Console::do_global(const Words& words, Instant now)
                                  : words[0] == "freeze" ? 0x08
                                                         : 0x04;
     ask({Service::global_control, {control, static_cast<std::uint8_t>(*groups)}}, now);
-}
-
-void Console::do_mode(const Words& words, Instant now)
-{
-    master_.clear(words[0] == "clear");
-    await({.what = For::answer, .until = now + kAnswerTime, .service = Service::global_control});
 }
 
 void Console::do_unlock(const Words& /*words*/, Instant now)
@@ -359,44 +377,6 @@ void Console::do_service(const Words& words, Instant now)
                             : words[0] == "set-prm" ? Service::set_prm
                                                     : Service::chk_cfg;
     ask({service, std::move(*octets)}, now);
-}
-
-void Console::do_stop(const Words& /*words*/, Instant /*now*/)
-{
-    master_.stop();
-}
-
-void Console::do_stats(const Words& /*words*/, Instant /*now*/)
-{
-    for (const std::string& line : summary()) say(line);
-}
-
-void Console::do_help(const Words& /*words*/, Instant /*now*/)
-{
-    for (const std::string& line : help()) say(line);
-}
-
-void Console::do_quit(const Words& /*words*/, Instant /*now*/)
-{
-    quit_ = true;
-}
-
-std::vector<std::string> Console::summary() const
-{
-    const MasterCounters& c = master_.counters();
-    std::vector<std::string> lines{fmt::format("{} cycles, {} retries, {} requests without answer, {} "
-                                               "invalid answers, {} octets nobody asked for",
-                                               c.cycles, c.retries, c.missing, c.invalid, c.unasked_octets),
-                                   fmt::format("{} diagnosis reads, {} answers with diagnosis pending, {} "
-                                               "refusals, {} times out of data exchange",
-                                               c.diagnosis_reads, c.diagnosis_pending, c.refused,
-                                               c.exchanges_lost)};
-    if (c.cycles > 0)
-        lines.push_back(fmt::format(
-            "Data_Exchange, request handed over until answer whole: min {:.0f}, mean {:.0f}, max {:.0f} us",
-            microseconds(c.answer_min), microseconds(c.answer_sum) / static_cast<double>(c.cycles),
-            microseconds(c.answer_max)));
-    return lines;
 }
 
 } // namespace dpslave::sim

@@ -3,14 +3,14 @@
 /// is told the time, and gives out lines. The cyclic exchange goes on while a command waits.
 #pragma once
 
-#include "condition.hpp"
+#include "demand_run.hpp"
 
 namespace dpslave::sim {
 
 class Console {
 public:
     /// `began`: zero of the times that are printed before events.
-    Console(Master& master, Instant began) : master_(master), began_(began) {}
+    Console(Master& master, Instant began) : master_(master), demand_(master), began_(began) {}
 
     /// Carries out one line. Precondition: !busy(). `place` begins the sentence of a failure ("line 4: ").
     void command(const std::string& line, const std::string& place, Instant now);
@@ -22,35 +22,17 @@ public:
     bool quit() const { return quit_; }
     bool failed() const { return failed_; }
     std::vector<std::string> take_lines();
-    /// The summary at the end.
-    std::vector<std::string> summary() const;
     static std::vector<std::string> help();
 
 private:
     using Words = std::vector<std::string>;
-    enum class For : std::uint8_t {
-        start,
-        answer,
-        time,
-        condition,
-        demand_idle,
-        demand_answer,
-        demand_block
-    };
+    enum class For : std::uint8_t { start, answer, time, condition, demand };
     struct Wait {
         For what = For::time;
         Instant until = kNever;
         Condition condition{};
-        DemandWords demand{};                  ///< the order that is meant
-        bool is_block = false;                 ///< it begins a transfer
         Service service = Service::slave_diag; ///< whose answer
         std::uint64_t cycles = 0;              ///< how many there had been
-    };
-    /// Values that go one by one through Demand Data, as worked example 2 of the 2408f/2404f handbook has it.
-    struct Transfer {
-        bool down = false;       ///< to the slave
-        std::uint16_t first = 0; ///< tag
-        std::size_t done = 0, count = 0;
     };
     struct Command;
     static const std::vector<Command>& commands();
@@ -63,38 +45,23 @@ private:
     void do_follow(const Words& words, Instant now);
     void do_out(const Words& words, Instant now);
     void do_demand(const Words& words, Instant now);
-    void show_demand_registers();
-    void demand_order(const Words& words, Instant now);
-    void demand_raw(const Words& words);
-    void demand_transfer(const Words& words, Instant now);
-    void do_diag(const Words& words, Instant now);
-    void do_get_cfg(const Words& words, Instant now);
     void do_global(const Words& words, Instant now);
-    void do_mode(const Words& words, Instant now);
     void do_unlock(const Words& words, Instant now);
     void do_service(const Words& words, Instant now);
-    void do_stop(const Words& words, Instant now);
-    void do_stats(const Words& words, Instant now);
-    void do_help(const Words& words, Instant now);
-    void do_quit(const Words& words, Instant now);
 
     void take(const MasterEvent& event, Instant now);
     void take_answer(const Answer& answer);
-    void tell_changes();
     void check_wait(Instant now);
-    void check_demand(Instant now);
-    void check_transfer(const DemandWords& answer, Instant now);
-    DemandWords transfer_order() const;
-    void say_block_line(std::size_t end);
+    void take(DemandRun::Step step);
     void start_refused(const std::string& why);
     void ask(Order order, Instant now);
-    void await(Wait wait) { wait_ = std::move(wait); }
-    void done() { wait_.reset(); }
     void say(std::string line) { lines_.push_back(std::move(line)); }
+    void say(std::vector<std::string> lines);
     void stamp(Instant now, std::string_view words);
     void fail(std::string_view why);
 
     Master& master_;
+    DemandRun demand_;
     Instant began_;
     std::optional<Wait> wait_;
     std::string line_, place_;
@@ -103,8 +70,6 @@ private:
     bool follows_ = false;
     std::vector<std::optional<std::uint16_t>> followed_; ///< the input words as told last
     Octets last_reply_;
-    Transfer transfer_;
-    std::vector<std::uint16_t> block_; ///< what was uploaded last, or is being downloaded
     std::vector<std::string> lines_;
 };
 

@@ -109,6 +109,9 @@ struct MasterCounters {
         answer_sum{0}; ///< Data_Exchange: handed over until answer whole
 };
 
+/// The counters in two or three lines.
+std::vector<std::string> in_words(const MasterCounters& counters);
+
 /// After every on_* call: take_transmit(), then take_event() until empty, then next_deadline().
 class Master {
 public:

@@ -34,7 +34,7 @@ public:
             while (!console_.busy() && !ended())
                 if (!next_command()) break;
         }
-        for (const std::string& line : console_.summary()) print_line(line);
+        for (const std::string& line : in_words(master_.counters())) print_line(line);
         return console_.failed() ? kFailed : kFine;
     }
 

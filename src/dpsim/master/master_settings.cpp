@@ -32,7 +32,29 @@ std::pair<std::uint8_t, std::uint8_t> watchdog_factors(std::chrono::milliseconds
     return best;
 }
 
+double microseconds(std::chrono::nanoseconds t)
+{
+    return std::chrono::duration<double, std::micro>(t).count();
+}
+
 } // namespace
+
+std::vector<std::string> in_words(const MasterCounters& c)
+{
+    std::vector<std::string> lines{fmt::format("{} cycles, {} retries, {} requests without answer, {} "
+                                               "invalid answers, {} octets nobody asked for",
+                                               c.cycles, c.retries, c.missing, c.invalid, c.unasked_octets),
+                                   fmt::format("{} diagnosis reads, {} answers with diagnosis pending, {} "
+                                               "refusals, {} times out of data exchange",
+                                               c.diagnosis_reads, c.diagnosis_pending, c.refused,
+                                               c.exchanges_lost)};
+    if (c.cycles > 0)
+        lines.push_back(fmt::format(
+            "Data_Exchange, request handed over until answer whole: min {:.0f}, mean {:.0f}, max {:.0f} us",
+            microseconds(c.answer_min), microseconds(c.answer_sum) / static_cast<double>(c.cycles),
+            microseconds(c.answer_max)));
+    return lines;
+}
 
 std::string_view text(Service service)
 {
