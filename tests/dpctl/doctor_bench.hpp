@@ -142,7 +142,7 @@ protected:
         std::string all;
         for (const Rule& rule : rules())
             if (rule.name == name)
-                for (const std::string_view step : rule.steps) all.append(step) += '\n';
+                for (const std::string_view step : steps_of(rule)) all.append(step) += '\n';
         return all;
     }
     Replies replies;

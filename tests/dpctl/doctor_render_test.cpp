@@ -56,14 +56,13 @@ STATION   ADDRESS  STATE      DRIVE   LAMPS
 unwinder        5  Data_Exch  silent  red off, green flashing 2 Hz: data
                                       exchange with the master
 
-1. The drive has fallen silent: power, cable, or its port was set otherwise
+1. The drive has fallen silent: power, cable, or other settings of its port
    (dpslaved)
    unwinder: ei-ascii unit 00 on p3: /dev/ttyS2 at 9.6 kbit/s, 7E1; it does not
              answer
-   - Check that the drive has power, and the cable between gateway and drive.
-   - Check whether the port of the drive was set to another protocol, rate or
-     unit since.
-   - dpctl read TAG asks the drive at once.
+   - Check the power of the drive, and the cable between gateway and drive.
+   - Compare the port of the drive with the configuration: protocol, rate, unit.
+   - Ask the drive now: dpctl read TAG
 
 the manual's list: Internal communications fault (HA389815 chapter 9)
    unwinder: unit 00 on p3 (/dev/ttyS2, ei-ascii) does not answer: 3 requests
@@ -71,8 +70,8 @@ the manual's list: Internal communications fault (HA389815 chapter 9)
    - Check that PROTOCOL of the drive is what the gateway's port needs (for the
      board itself: OPTION).
    - Check that the address is 0 to 125 (620: 1 to 125).
-   - 620: check the connections between the PROFIBUS side and the drive; P3 MODE
-     (or P1 MODE) and the baud rate.
+   - 620: check the connections between the PROFIBUS side and the drive. Check
+     P3 MODE (or P1 MODE) and the baud rate.
    - Check port, baud, format and unit of the line in the configuration against
      the drive's settings.
 
@@ -130,7 +129,7 @@ TEST_F(Doctor, GivesTheSameAsJson)
         "rule":"board.dark","condition":"red off, green off","cause":"No power or major fault",
         "evidence":"the station is in Power_On: it is not served",
         "steps":["Check the power of the gateway and of its transceiver.",
-                 "systemctl status dpslaved; journalctl -u dpslaved says why the station is not served."],
+                 "Run systemctl status dpslaved. Look why the station is not served: journalctl -u dpslaved"],
         "source":"HA389815 chapter 9"}],"notes":[],"earlier":[],"line":{"baud":187500,"cable_a_m":1000,"cable_b_m":600}})"));
 }
 
@@ -143,7 +142,7 @@ TEST(DoctorRules, AreAllPrintedForThoseWhoSeeLampsOnly)
     for (const Rule& rule : rules()) {
         EXPECT_THAT(all, HasSubstr(std::string{rule.condition} + "\n   " + std::string{rule.cause}));
         EXPECT_FALSE(rule.steps.empty()) << rule.name;
-        for (const std::string_view step : rule.steps) EXPECT_THAT(all, HasSubstr(std::string{step}));
+        for (const std::string_view step : steps_of(rule)) EXPECT_THAT(all, HasSubstr(std::string{step}));
     }
     EXPECT_THAT(all, HasSubstr("   1.5 Mbit/s    200 m  not at this rate\n"));
     EXPECT_EQ(json["lines"].size(), 7u);

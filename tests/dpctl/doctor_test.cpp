@@ -362,7 +362,7 @@ TEST_F(Doctor, GoesThroughTheListOfNoCommunicationsOfAController)
     EXPECT_THAT(steps("controller.no_communications"),
                 AllOf(HasSubstr("continuity of A (HE) and B (HD)"), HasSubstr("slot H"),
                       HasSubstr("node address"), HasSubstr("transmitted to the master"),
-                      HasSubstr("GSD file is correct"), HasSubstr("never more than 1.5 Mbaud"),
+                      HasSubstr("GSD file is correct"), HasSubstr("Never use more than 1.5 Mbaud"),
                       HasSubstr("no device but those at the ends"), HasSubstr("duplicate")));
 }
 
@@ -458,6 +458,17 @@ TEST_F(Doctor, NoiseThatGoesOnIsNotLostAmongGoodTelegramsAndSaysSinceWhen)
     EXPECT_THAT(found(), ElementsAre("bus.flaws"));
     EXPECT_EQ(evidence("bus.flaws"), "12 flaws (damaged telegrams, or noise between them) beside "
                                      "30000 valid telegrams in the last minute, since 12 min");
+}
+
+TEST_F(Doctor, FlawsBeforeTheFirstTelegramAreNoDisturbedLine)
+{
+    station()["state"] = "Wait_Prm";
+    never_heard_anything();
+    replies.status["uptime_ms"] = 4'000;
+    count("octets", 600);
+    count("flaw: bad character", 300);
+
+    EXPECT_THAT(found(), ElementsAre("station.just_started"));
 }
 
 TEST_F(Doctor, OneBurstOfFlawsIsAPlugOrASwitchAndNoDisturbedLine)
@@ -734,7 +745,7 @@ TEST_F(Doctor, SaysThatOutputsStandWhereTheMasterIsGoneAndTheWatchdogIsOff)
 
     EXPECT_THAT(found(), ElementsAre("bus.silent", "station.stands"));
     EXPECT_EQ(evidence("station.stands"), "its watchdog is off, and the last Data_Exchange was 20.0 s ago");
-    EXPECT_THAT(steps("station.stands"), HasSubstr("keep clear"));
+    EXPECT_THAT(steps("station.stands"), HasSubstr("Keep clear"));
 }
 
 TEST_F(Doctor, NotesSyncAndFreezeThatHoldTheData)

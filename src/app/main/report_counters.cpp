@@ -32,7 +32,7 @@ Group bus_counters(const View& view)
     const fdl::Counters& fdl = view.bus.counters;
     std::vector<Counter> c;
     add(c, "octets", fdl.octets, "received");
-    add(c, "telegrams", fdl.telegrams, "valid ones, of anybody");
+    add(c, "telegrams", fdl.telegrams, "valid ones, to any address");
     add(c, "checked", fdl.checked, "those of them that have a checksum: noise cannot make them");
     add(c, "requests", fdl.requests, "to one of our addresses or to all");
     add(c, "replies", fdl.replies, "sent");
@@ -42,7 +42,7 @@ Group bus_counters(const View& view)
     add(c, "late", fdl.late, "replies suppressed because MaxTsdr had passed: see [realtime] and max_tsdr");
     add(c, "too_late", view.bus.too_late,
         "replies begun in time whose write ended behind MaxTsdr: see [realtime] and max_tsdr");
-    add(c, "own_address", fdl.own_address, "telegrams of somebody else who uses one of our addresses");
+    add(c, "own_address", fdl.own_address, "telegrams of another device with one of our addresses");
     add(c, "write_errors", view.bus.write_errors, "replies that the port did not take");
     add(c, "unsent", view.bus.unsent,
         "replies that did not go out: those, or the port was closed, or the driver enable did not work");

@@ -74,22 +74,20 @@ constexpr std::array kSubcommands = std::to_array<Subcommand>({
     {"doctor", "Names the likely cause of a fault and the next step", kDoctorJson, Needs::daemon_to_judge,
      "dpctl doctor            every station\n"
      "dpctl doctor unwinder   this one\n"
-     "dpctl doctor --probe    looks for a drive that was never heard: other rates, formats, units (root and "
-     "the "
-     "operator group)\n"
-     "dpctl doctor --all      all rules, for lamps and symptoms that you see; needs no daemon",
+     "dpctl doctor --probe    looks for a drive that was never heard (root and the operator group)\n"
+     "dpctl doctor --all      all rules, for lamps and symptoms that you see",
      doctor_arguments, do_doctor},
     {"tune", "What this machine can promise at each rate, and what would make it better", kTuneJson,
      Needs::machine,
      "dpctl tune               the port of the running daemon, with what was measured\n"
      "dpctl tune /dev/ttyS1    this port, before there is a daemon",
      port_argument, do_tune},
-    {"counters", "What happened how often", "GetCounters", Needs::daemon, "", no_arguments, do_counters},
+    {"counters", "How often what happened", "GetCounters", Needs::daemon, "", no_arguments, do_counters},
     {"read", "Reads a tag from the drive now", "ReadTag", Needs::daemon, "", tag_argument, do_read},
     {"write", "Writes a tag of the drive now (root and the operator group)", "WriteTag", Needs::daemon,
      "dpctl write 56 -12.5 --station unwinder", tag_and_value_arguments, do_write},
     {"survey",
-     "Reads every tag of a drive and writes a tag table for a person to confirm (root and the operator "
+     "Reads every tag of a drive and writes a tag table, whose rows you confirm (root and the operator "
      "group)",
      kSurveyJson, Needs::daemon_to_judge,
      "dpctl survey unwinder                          every tag once, into unwinder.csv\n"

@@ -5,8 +5,9 @@
 namespace dpslave::dpctl {
 
 inline constexpr const char* kDoctorJson =
-    R"({"findings": [FINDING], "notes": [FINDING], "line": null or LINE};
+    R"({"findings": [FINDING], "notes": [FINDING], "earlier": [EARLIER], "line": null or LINE};
 FINDING = {"station": null or name, "rule", "condition", "cause", "evidence", "steps": [text], "source"};
+EARLIER = {"station": null or name, "what", "count", "age_ms"};
 LINE = {"baud", "cable_a_m", "cable_b_m": null or metres};
 with --all {"rules": [RULE], "lines": [LINE]}, where RULE is FINDING with "note", without "station" and "evidence")";
 

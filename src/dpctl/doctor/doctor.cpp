@@ -71,7 +71,7 @@ std::vector<Finding> diagnose(const Replies& replies, const std::string& wanted)
     const std::int64_t uptime = integer(replies.status, "uptime_ms").value_or(0);
     std::vector<Finding> findings;
     for (const Rule& rule : rules()) {
-        if (rule.scope == Scope::bus) {
+        if (is_of_bus(rule)) {
             const Facts facts{replies, bus,     counters, uptime, Family::option_board, nothing, nothing,
                               nothing, nothing, nothing,  nothing};
             if (std::string seen = rule.seen(facts); !seen.empty())

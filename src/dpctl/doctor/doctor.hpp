@@ -40,8 +40,6 @@ struct Facts {
     const Json& io;
 };
 
-enum class Scope : std::uint8_t { bus, station };
-
 /// What comes first: what explains the rest. Within a rank the order of rules() counts.
 enum class Rank : std::uint8_t {
     gone,      ///< a port or the driver enable is not there
@@ -53,17 +51,18 @@ enum class Rank : std::uint8_t {
 
 /// One row of the tables: condition -> cause -> steps.
 struct Rule {
-    std::string_view name;
-    Scope scope;
+    std::string_view name; ///< "bus.silent"; those that do not begin with "bus." look at one station
     Rank rank;
     std::string_view condition;
     std::string_view cause;
-    std::span<const std::string_view> steps;
+    std::string_view steps; ///< one a line
     std::string_view source;
     /// What makes it hold, in words; empty = it does not hold.
     std::string (*seen)(const Facts&);
 };
 std::span<const Rule> rules();
+bool is_of_bus(const Rule& rule);
+std::vector<std::string_view> steps_of(const Rule& rule);
 
 struct Finding {
     std::string station; ///< empty = the bus

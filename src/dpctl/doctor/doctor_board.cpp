@@ -8,33 +8,6 @@
 namespace dpslave::dpctl {
 namespace {
 
-constexpr std::string_view kBoard = "HA389815 chapter 9";
-
-constexpr std::array kExternalSteps = std::to_array<std::string_view>({
-    "Check the terminal connections: A and B of the transceiver (D-sub 8 and 3), both continuous to the "
-    "master; of the old board B was terminal 3 and A was terminal 4.",
-    "Check that the master communicates at 1.5 Mbaud or less.",
-    "Check that the address of the station ([[station]] address, OPTION ADDRESS of the board) is the one in "
-    "the master's project.",
-    "Check that no other PROFIBUS-DP slave or master has the same address.",
-});
-constexpr std::array kConfigurationSteps = std::to_array<std::string_view>({
-    "Check that the Usr_Prm_Data is declared correctly in the master: dpctl diag shows what came.",
-    "Check that the Cfg_Data is declared correctly in the master: its modules in the order of the tags.",
-    "Read the diagnosis of the slave into the master: the station status octets tell where the problem is.",
-});
-constexpr std::array kInternalSteps = std::to_array<std::string_view>({
-    "Check that PROTOCOL of the drive is what the gateway's port needs (for the board itself: OPTION).",
-    "Check that the address is 0 to 125 (620: 1 to 125).",
-    "620: check the connections between the PROFIBUS side and the drive; P3 MODE (or P1 MODE) and the baud "
-    "rate.",
-    "Check port, baud, format and unit of the line in the configuration against the drive's settings.",
-});
-constexpr std::array kDarkSteps = std::to_array<std::string_view>({
-    "Check the power of the gateway and of its transceiver.",
-    "systemctl status dpslaved; journalctl -u dpslaved says why the station is not served.",
-});
-
 bool is_board(const Facts& f)
 {
     return f.family == Family::option_board;
@@ -59,16 +32,34 @@ std::string seen_dark(const Facts& f)
 }
 
 constexpr std::array kRules = std::to_array<Rule>({
-    {"board.dark", Scope::station, Rank::stands, "red off, green off", "No power or major fault", kDarkSteps,
+    {"board.dark", Rank::stands, "red off, green off", "No power or major fault",
+     "Check the power of the gateway and of its transceiver.\n"
+     "Run systemctl status dpslaved. Look why the station is not served: journalctl -u dpslaved",
      kBoard, seen_dark},
-    {"board.internal", Scope::station, Rank::checklist,
+    {"board.internal", Rank::checklist,
      "red on (620: flashing 2 Hz), green flashing 2 Hz: the drive does not answer",
-     "Internal communications fault", kInternalSteps, kBoard, seen_internal},
-    {"board.configuration", Scope::station, Rank::checklist,
-     "red on, green flashing 1 Hz: Set_Prm or Chk_Cfg was refused", "Configuration fault",
-     kConfigurationSteps, kBoard, seen_configuration},
-    {"board.external", Scope::station, Rank::checklist, "red on, green flashing 1 Hz: nothing was refused",
-     "External communications fault", kExternalSteps, kBoard, seen_external},
+     "Internal communications fault",
+     "Check that PROTOCOL of the drive is what the gateway's port needs (for the board itself: OPTION).\n"
+     "Check that the address is 0 to 125 (620: 1 to 125).\n"
+     "620: check the connections between the PROFIBUS side and the drive. Check P3 MODE (or P1 MODE) and the "
+     "baud rate.\n"
+     "Check port, baud, format and unit of the line in the configuration against the drive's settings.",
+     kBoard, seen_internal},
+    {"board.configuration", Rank::checklist, "red on, green flashing 1 Hz: Set_Prm or Chk_Cfg was refused",
+     "Configuration fault",
+     "Check that the Usr_Prm_Data is declared correctly in the master. See what came: dpctl diag\n"
+     "Check that the Cfg_Data is declared correctly in the master: its modules in the order of the tags.\n"
+     "Read the diagnosis of the slave into the master. The station status octets tell where the problem is.",
+     kBoard, seen_configuration},
+    {"board.external", Rank::checklist, "red on, green flashing 1 Hz: nothing was refused",
+     "External communications fault",
+     "Check the terminal connections: A and B of the transceiver (D-sub 8 and 3), both continuous to the "
+     "master. On the old board B was terminal 3 and A was terminal 4.\n"
+     "Check that the master communicates at 1.5 Mbaud or less.\n"
+     "Check that the address of the station ([[station]] address, OPTION ADDRESS of the board) is the one in "
+     "the master's project.\n"
+     "Check that no other PROFIBUS-DP slave or master has the same address.",
+     kBoard, seen_external},
 });
 
 } // namespace

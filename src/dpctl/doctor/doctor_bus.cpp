@@ -12,9 +12,10 @@
 namespace dpslave::dpctl {
 namespace {
 
-constexpr std::string_view kBoard = "HA389815 chapter 9";
-constexpr std::string_view kBox = "HA463561U002, Troubleshooting";
-constexpr std::string_view kGateway = "dpslaved";
+constexpr std::string_view kDriverSteps =
+    "Run gpioinfo. Check that gpio_chip under [bus] is there, and that no other program has gpio_line.\n"
+    "Look which values of [bus] direction this port can do: journalctl -u dpslaved\n"
+    "Look whether `driver_errors` and `driver_guarded` still grow: dpctl counters";
 
 constexpr std::int64_t kOften = 1000;  ///< one in so many is more than a sound machine has
 constexpr double kBurst = 2'000;       ///< ms: a plug or a switch makes flaws for less than that, once
@@ -45,76 +46,6 @@ Count flaws(const Facts& f)
     }
     return sum;
 }
-
-constexpr std::array kLateSteps = std::to_array<std::string_view>({
-    "Look at [realtime] in the configuration: priority, cpu and lock_memory keep the machine's other work "
-    "away.",
-    "Where the machine cannot be faster, set max_tsdr under [bus] and give the master the GSD that `dpctl "
-    "gsd make` then writes.",
-    "dpctl tune: what holds this machine up, and which rates it can serve.",
-    "dpctl counters: do `late`, `too_late` and `overtaken` still grow?",
-});
-constexpr std::array kDoubleSteps = std::to_array<std::string_view>({
-    "Check that no other PROFIBUS-DP slave or master has the same address.",
-    "Give this station another address, in the configuration and in the master's project.",
-});
-constexpr std::array kEchoSteps = std::to_array<std::string_view>({
-    "Set echo = \"on\" under [bus]. Then restart the service: systemctl restart dpslaved",
-    "Or switch the echo off at the transceiver: its receiver is to be off while it sends.",
-    "If echo is on already: another device has the address of a station. Find it.",
-});
-constexpr std::array kNoEchoSteps = std::to_array<std::string_view>({
-    "If the transceiver has no echo: set echo = \"off\" under [bus]. Then restart the service: systemctl "
-    "restart dpslaved",
-    "If it has one: it does not send. Check its power and its driver enable ([bus] direction).",
-});
-constexpr std::array kLineSteps = std::to_array<std::string_view>({
-    "Check wiring, paying particular attention to the screening.",
-    "Check that the line is not longer than the rate allows (below).",
-    "Check that the last device of the segment, and no other but the ends, is terminated. Some equipment has "
-    "resistors that can be switched in and out.",
-    "dpctl counters: which flaws grow?",
-});
-constexpr std::array kRetrySteps = std::to_array<std::string_view>({
-    "Check that the transceiver is switched to sending in time ([bus] direction) and back at once.",
-    "Check wiring and termination: the master hears worse than this gateway does.",
-    "dpctl counters: is `late` 0? Else the machine answers too late.",
-});
-constexpr std::array kGoneSteps = std::to_array<std::string_view>({
-    "Look whether the adapter is plugged in and where it is now: ls -l /dev/serial/by-id",
-    "Name the port under [bus] by its stable path in /dev/serial/by-id.",
-    "journalctl -u dpslaved says when it went. It is opened again as soon as it returns.",
-});
-constexpr std::array kSilentSteps = std::to_array<std::string_view>({
-    "Check that the master is on and its bus is running.",
-    "Check the cable: A and B of the transceiver (D-sub 8 and 3) to the master; of the old board's terminals "
-    "B "
-    "was 3 and A was 4.",
-    "Check that the transceiver has power, and that [bus] port is the one that the cable is on.",
-});
-constexpr std::array kRateSteps = std::to_array<std::string_view>({
-    "Compare [bus] baud with the rate in the master's project.",
-    "baud = \"auto\" finds each rate but 45.45 kbit/s. For that one set baud = 45450.",
-    "Swap the two wires at the transceiver if A and B are exchanged: A is D-sub 8, B is D-sub 3.",
-    "dpctl counters: which flaws grow? Bad characters only: the rate or the wires.",
-});
-constexpr std::array kOtherAddressSteps = std::to_array<std::string_view>({
-    "Compare the address of the station ([[station]] address) with the one in the master's project, and make "
-    "them the same.",
-    "If another device belongs to that address: it is switched off or not connected, and this station is "
-    "missing in the master's project.",
-});
-constexpr std::array kPortSteps = std::to_array<std::string_view>({
-    "Look at the port ([bus] port): journalctl -u dpslaved says what the system answered.",
-});
-constexpr std::array kDriverSteps = std::to_array<std::string_view>({
-    "Look whether the GPIO chip is there and no other program has the line (gpioinfo): gpio_chip and "
-    "gpio_line "
-    "under "
-    "[bus].",
-    "journalctl -u dpslaved says which ways of [bus] direction this port can do.",
-    "dpctl counters: do `driver_errors` and `driver_guarded` still grow?",
-});
 
 std::string seen_gone(const Facts& f)
 {
@@ -210,6 +141,7 @@ std::string seen_flaws(const Facts& f)
 {
     const Count bad = flaws(f), good = counted(f.counters, "telegrams");
     if (bad.minute < kSomeFlaws || !telegrams_are_heard(f) || is_without_echo(f)) return {};
+    if (!counted(f.counters, "checked").last_ms) return {}; // it may be the rate
     if (bad.since_ms.value_or(0) - bad.last_ms.value_or(0) < kBurst) return {};
     return fmt::format("{} (damaged telegrams, or noise between them) beside {} {}",
                        plural(bad.minute, "flaw"), plural(good.minute, "valid telegram"), lately(bad));
@@ -239,36 +171,79 @@ std::string seen_driver(const Facts& f)
 }
 
 constexpr std::array kRules = std::to_array<Rule>({
-    {"bus.gone", Scope::bus, Rank::gone, "the port of the bus has vanished",
-     "The port of the bus is gone: adapter pulled, or its driver failed", kGoneSteps, kGateway, seen_gone},
-    {"bus.driver_gone", Scope::bus, Rank::gone, "the driver enable cannot be switched",
+    {"bus.gone", Rank::gone, "the port of the bus has vanished",
+     "The port of the bus is gone: adapter pulled, or its driver failed",
+     "Check that the adapter is plugged in. Look where it is now: ls -l /dev/serial/by-id\n"
+     "Name the port under [bus] by its stable path in /dev/serial/by-id.\n"
+     "Look when it went: journalctl -u dpslaved. It is opened again as soon as it returns.",
+     kGateway, seen_gone},
+    {"bus.driver_gone", Rank::gone, "the driver enable cannot be switched",
      "The transceiver cannot be switched to sending", kDriverSteps, kGateway, seen_driver_gone},
-    {"bus.echo", Scope::bus, Rank::stands, "each reply of the gateway comes back to it",
-     "The transceiver hears what it sends, and [bus] echo is off", kEchoSteps, kGateway, seen_echo},
-    {"bus.no_echo", Scope::bus, Rank::stands, "[bus] echo is on, and replies do not come back",
-     "No echo comes: the transceiver has none, or it does not send", kNoEchoSteps, kGateway, seen_no_echo},
-    {"bus.double_address", Scope::bus, Rank::stands, "another device sends with one of our addresses",
-     "External communications fault: an address is used twice", kDoubleSteps, kBoard, seen_double},
-    {"bus.silent", Scope::bus, Rank::stands, "not one octet comes from the bus",
-     "Nothing is heard on the bus: cable, transceiver, or the master is off", kSilentSteps, kGateway,
-     seen_silent},
-    {"bus.rate", Scope::bus, Rank::stands, "octets come from the bus, but no telegram with a checksum",
-     "The rate is wrong, or the two wires of the bus are swapped", kRateSteps, kGateway, seen_rate},
-    {"bus.other_address", Scope::bus, Rank::stands,
+    {"bus.echo", Rank::stands, "each reply of the gateway comes back to it",
+     "The transceiver hears what it sends, and [bus] echo is off",
+     "Set echo = \"on\" under [bus]. Then restart the service: systemctl restart dpslaved\n"
+     "Or switch the echo off at the transceiver. Its receiver must be off while it sends.\n"
+     "If echo is on already: find the other device that has the address of a station.",
+     kGateway, seen_echo},
+    {"bus.no_echo", Rank::stands, "[bus] echo is on, and replies do not come back",
+     "No echo comes: the transceiver has none, or it does not send",
+     "If the transceiver has no echo: set echo = \"off\" under [bus]. Then restart the service: systemctl "
+     "restart dpslaved\n"
+     "If it has one: it does not send. Check its power and its driver enable ([bus] direction).",
+     kGateway, seen_no_echo},
+    {"bus.double_address", Rank::stands, "another device sends with one of our addresses",
+     "External communications fault: an address is used twice",
+     "Check that no other PROFIBUS-DP slave or master has the same address.\n"
+     "Give this station another address, in the configuration and in the master's project.",
+     kBoard, seen_double},
+    {"bus.silent", Rank::stands, "not one octet comes from the bus",
+     "Nothing is heard on the bus: cable, transceiver, or the master is off",
+     "Check that the master is on and its bus is running.\n"
+     "Check the cable from A and B of the transceiver (D-sub 8 and 3) to the master. On the old board B was "
+     "terminal 3 and A was terminal 4.\n"
+     "Check that the transceiver has power. Check that the cable is on the port that [bus] port names.",
+     kGateway, seen_silent},
+    {"bus.rate", Rank::stands, "octets come from the bus, but no telegram with a checksum",
+     "The rate is wrong, or the two wires of the bus are swapped",
+     "Compare [bus] baud with the rate in the master's project.\n"
+     "baud = \"auto\" finds each rate but 45.45 kbit/s. For that one set baud = 45450.\n"
+     "Check that A is D-sub 8 and B is D-sub 3. If not, swap the two wires at the transceiver.\n"
+     "Look which flaws grow: dpctl counters. If only bad characters grow, it is the rate or the wires.",
+     kGateway, seen_rate},
+    {"bus.other_address", Rank::stands,
      "a master asks for an address where no station answers, and for none of ours",
-     "The address in the master's project is another one", kOtherAddressSteps, kGateway, seen_other_address},
-    {"bus.driver", Scope::bus, Rank::recent, "the driver enable cannot be switched, or is not let go in time",
-     "The transceiver is not switched as it should be", kDriverSteps, kGateway, seen_driver},
-    {"bus.port", Scope::bus, Rank::recent, "the port does not take replies", "The port of the bus fails",
-     kPortSteps, kGateway, seen_port},
-    {"bus.flaws", Scope::bus, Rank::recent,
-     "five flaws in a minute: damaged telegrams, or noise between them", "The line of the bus is disturbed",
-     kLineSteps, kBox, seen_flaws},
-    {"bus.late", Scope::bus, Rank::recent,
+     "The master's project has another address",
+     "Give [[station]] address and the master's project the same address.\n"
+     "If another device has that address: switch it on or connect it. Then add this station to the master's "
+     "project.",
+     kGateway, seen_other_address},
+    {"bus.driver", Rank::recent, "the driver enable cannot be switched, or is not let go in time",
+     "The transceiver is not switched as configured", kDriverSteps, kGateway, seen_driver},
+    {"bus.port", Rank::recent, "the port does not take replies", "The port of the bus fails",
+     "Look what the system answered: journalctl -u dpslaved. Check [bus] port.", kGateway, seen_port},
+    {"bus.flaws", Rank::recent, "five flaws in a minute: damaged telegrams, or noise between them",
+     "The line of the bus is disturbed",
+     "Check wiring, paying particular attention to the screening.\n"
+     "Check that the line is not longer than the rate allows (below).\n"
+     "Check that both ends of the segment are terminated, and no device between. Some equipment has "
+     "resistors that can be switched in and out.\n"
+     "Look which flaws grow: dpctl counters",
+     kBox, seen_flaws},
+    {"bus.late", Rank::recent,
      "more than one reply in a thousand came too late, or its request was overtaken",
-     "This machine answers too late", kLateSteps, kGateway, seen_late},
-    {"bus.retries", Scope::bus, Rank::recent, "the master repeats more than one request in a thousand",
-     "The master does not hear the replies", kRetrySteps, kGateway, seen_retries},
+     "This machine answers too late",
+     "Set priority, cpu and lock_memory under [realtime]. They keep the other work of the machine away.\n"
+     "If the machine cannot be faster: set max_tsdr under [bus]. Give the master the GSD that `dpctl gsd "
+     "make` then writes.\n"
+     "Run dpctl tune. It says what delays this machine, and which rates it can serve.\n"
+     "Look whether `late`, `too_late` and `overtaken` still grow: dpctl counters",
+     kGateway, seen_late},
+    {"bus.retries", Rank::recent, "the master repeats more than one request in a thousand",
+     "The master does not hear the replies",
+     "Check [bus] direction: the transceiver must send in time, and receive at once afterwards.\n"
+     "Check wiring and termination. The master hears less than this gateway does.\n"
+     "Look at `late`: dpctl counters. If it is not 0, the machine answers too late.",
+     kGateway, seen_retries},
 });
 
 } // namespace

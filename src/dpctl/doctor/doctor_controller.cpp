@@ -8,40 +8,6 @@
 namespace dpslave::dpctl {
 namespace {
 
-constexpr std::string_view kHandbook = "2408f/2404f handbook chapter 6";
-
-constexpr std::array kControllerSilentSteps = std::to_array<std::string_view>({
-    "Check the wiring: continuity of A (HE) and B (HD) to the master, the correct terminals.",
-    "Check that the controller side is set up: function of the slot (PROFIBUS in the controller itself, "
-    "Modbus behind this gateway), the right module in slot H.",
-    "Check that the node address is right for the network, and unique.",
-    "Ensure that the network is correctly configured and the configuration has been transmitted to the "
-    "master.",
-    "Verify that the GSD file is correct: dpctl gsd check FILE",
-    "Verify that the line is not longer than the rate allows (below); never more than 1.5 Mbaud.",
-    "Ensure that the last device of the segment is terminated, and that no device but those at the ends is.",
-    "If possible, replace the suspect device with a duplicate and test again.",
-});
-constexpr std::array kIntermittentSteps = std::to_array<std::string_view>({
-    "Verify the wiring, paying particular attention to the screening.",
-    "The I/O data may be too long: some masters take no more than 32 input and 32 output words per slave.",
-    "Verify that the line is not longer than the rate allows (below); never more than 1.5 Mbaud.",
-    "Ensure that the last device of the segment is terminated, and that no device but those at the ends is.",
-    "Verify the operation with a duplicate device if possible.",
-});
-constexpr std::array kJammedSteps = std::to_array<std::string_view>({
-    "The master's outputs are written continuously and override the front panel: setpoint, output power or "
-    "auto/manual seem jammed.",
-    "Write such values with Demand Data, only when they change.",
-    "Setpoints: use SP2 as the local one, selected with a digital input or key, and SP1 as the one of "
-    "PROFIBUS.",
-    "When the network fails the front panel regains control: a local island.",
-});
-constexpr std::array kFormatSteps = std::to_array<std::string_view>({
-    "If data seem wrong, verify the resolution: full sends 12.34 as 1234, integer as 12.",
-    "Verify that the GSD file is the one for this application: dpctl gsd show FILE",
-});
-
 bool is_controller(const Facts& f)
 {
     return f.family == Family::controller;
@@ -76,17 +42,45 @@ std::string seen_format(const Facts& f)
 }
 
 constexpr std::array kRules = std::to_array<Rule>({
-    {"controller.no_communications", Scope::station, Rank::checklist,
-     "status rdY, REM dark: no data exchange", "No communications", kControllerSilentSteps, kHandbook,
-     seen_controller_silent},
-    {"controller.intermittent", Scope::station, Rank::recent,
+    {"controller.no_communications", Rank::checklist, "status rdY, REM dark: no data exchange",
+     "No communications",
+     "Check the wiring: continuity of A (HE) and B (HD) to the master, the correct terminals.\n"
+     "Check that the controller side is set up: function of the slot (PROFIBUS in the controller itself, "
+     "Modbus behind this gateway), the right module in slot H.\n"
+     "Check that the node address is right for the network, and unique.\n"
+     "Ensure that the network is correctly configured and the configuration has been transmitted to the "
+     "master.\n"
+     "Verify that the GSD file is correct: dpctl gsd check FILE\n"
+     "Verify that the line is not longer than the rate allows (below). Never use more than 1.5 Mbaud.\n"
+     "Ensure that the last device of the segment is terminated, and that no device but those at the ends "
+     "is.\n"
+     "If possible, replace the suspect device with a duplicate and test again.",
+     kHandbook, seen_controller_silent},
+    {"controller.intermittent", Rank::recent,
      "the status flickers between rdY and run, or the diagnosis changes though the controller has no alarm",
-     "Intermittent failure to communicate", kIntermittentSteps, kHandbook, seen_intermittent},
-    {"controller.jammed", Scope::station, Rank::note,
+     "Intermittent failure to communicate",
+     "Verify the wiring, paying particular attention to the screening.\n"
+     "The I/O data may be too long: some masters take no more than 32 input and 32 output words per slave.\n"
+     "Verify that the line is not longer than the rate allows (below). Never use more than 1.5 Mbaud.\n"
+     "Ensure that the last device of the segment is terminated, and that no device but those at the ends "
+     "is.\n"
+     "Verify the operation with a duplicate device if possible.",
+     kHandbook, seen_intermittent},
+    {"controller.jammed", Rank::note,
      "setpoint, output power or auto/manual cannot be altered at the front panel",
-     "The master writes its outputs continuously", kJammedSteps, kHandbook, seen_jammed},
-    {"controller.format", Scope::station, Rank::note, "data format or parameter data seem incorrect",
-     "Resolution, or the GSD", kFormatSteps, kHandbook, seen_format},
+     "The master writes its outputs continuously",
+     "The master's outputs are written continuously and override the front panel: setpoint, output power or "
+     "auto/manual seem jammed.\n"
+     "Write such values with Demand Data, only when they change.\n"
+     "Setpoints: use SP2 as the local one, selected with a digital input or key, and SP1 as the one of "
+     "PROFIBUS.\n"
+     "When the network fails the front panel regains control: a local island.",
+     kHandbook, seen_jammed},
+    {"controller.format", Rank::note, "data format or parameter data seem incorrect",
+     "Resolution, or the GSD",
+     "If data seem wrong, verify the resolution: full sends 12.34 as 1234, integer as 12.\n"
+     "Verify that the GSD file is the one for this application: dpctl gsd show FILE",
+     kHandbook, seen_format},
 });
 
 } // namespace

@@ -8,79 +8,21 @@
 namespace dpslave::dpctl {
 namespace {
 
-constexpr std::string_view kGateway = "dpslaved";
+constexpr std::string_view kSilentSteps =
+    "Check the power of the drive, and the cable between gateway and drive.\n"
+    "Compare the port of the drive with the configuration: protocol, rate, unit.\n"
+    "Ask the drive now: dpctl read TAG";
+constexpr std::string_view kNoiseSteps =
+    "Check the cable to the drive: screen, routing away from motor cables, the common of the port (0 V).\n"
+    "RS-485: check A and B, the bias, and a terminator at both ends of a long cable.\n"
+    "A lower rate of drive and [[line]] is less sensitive.\n"
+    "Look whether drive_silences and drive_damaged still grow: dpctl counters";
 
 constexpr std::int64_t kSome = 3;         ///< in a minute: a sound line has none
 constexpr std::int64_t kShare = 100;      ///< one in so many transactions
 constexpr double kFirstQuestions = 5'000; ///< ms: a drive that was not asked yet is not silent
 constexpr double kComesBack = 30'000;     ///< ms: a drive that comes and goes is lost again within that
 constexpr double kOfNow = 15'000;         ///< ms: a lost drive is asked every few seconds
-
-constexpr std::array kGoneSteps = std::to_array<std::string_view>({
-    "Look whether the adapter is plugged in and where it is now: ls -l /dev/serial/by-id",
-    "Name the port under [[line]] by its stable path in /dev/serial/by-id.",
-    "journalctl -u dpslaved says what the system answered. It is tried again every second.",
-});
-constexpr std::array kNeverSteps = std::to_array<std::string_view>({
-    "Check the cable and its plug, and that the drive has power. If there are several lines: check that "
-    "their "
-    "cables are not swapped.",
-    "Check at the drive: the port is set to the protocol of the line, and group and unit, rate and format "
-    "are "
-    "those of the configuration.",
-    "Let the gateway look for it: dpctl doctor --probe tries other rates, formats and units and names what "
-    "answers.",
-});
-constexpr std::array kSilentSteps = std::to_array<std::string_view>({
-    "Check that the drive has power, and the cable between gateway and drive.",
-    "Check whether the port of the drive was set to another protocol, rate or unit since.",
-    "dpctl read TAG asks the drive at once.",
-});
-constexpr std::array kLateSteps = std::to_array<std::string_view>({
-    "Give the drive more time: timeout_ms of its [[line]], above what was measured.",
-    "Look whether the drive delays its answers: a response delay in its menu, or a converter between.",
-});
-constexpr std::array kNoiseSteps = std::to_array<std::string_view>({
-    "Check the cable to the drive: screen, routing away from motor cables, the common of the port (0 V).",
-    "RS-485: check A and B, the bias, and a terminator at both ends of a long cable.",
-    "A lower rate of drive and [[line]] is less sensitive.",
-    "dpctl counters: do drive_silences and drive_damaged still grow?",
-});
-constexpr std::array kUnsteadySteps = std::to_array<std::string_view>({
-    "Check the plugs at both ends, and the supply of the drive and of a converter between.",
-    "Check the cable: screen, routing away from motor cables, the common of the port (0 V).",
-    "If one tag alone is not answered: take it out of the master's project and look whether the rest is "
-    "steady.",
-});
-constexpr std::array kEchoSteps = std::to_array<std::string_view>({
-    "Set echo = \"on\" in the [[line]] of this drive, then dpctl reload.",
-    "Or switch the echo off at the adapter: many two-wire RS-485 adapters have a switch for it.",
-});
-constexpr std::array kUnreadableSteps = std::to_array<std::string_view>({
-    "Compare rate and format of [[line]] with those that the drive is set to.",
-    "Let the gateway look for it: dpctl doctor --probe tries other rates and formats and names what answers.",
-    "Check the cable to the drive: screen, routing away from motor cables, the common of the port (0 V), A "
-    "and "
-    "B.",
-    "Where every answer is whole but for its checksum: look at what stands between, a converter or a "
-    "gateway.",
-});
-constexpr std::array kNotAcceptedSteps = std::to_array<std::string_view>({
-    "Check the cable from the gateway to the drive: it is this direction that is disturbed.",
-    "RS-485: check A and B, the bias, and a terminator at both ends of a long cable; look whether the "
-    "transceiver cuts off the first character.",
-    "dpctl counters: does drive_not_accepted still grow?",
-});
-constexpr std::array kNotUnderstoodSteps = std::to_array<std::string_view>({
-    "Look at what the drive says: journalctl -u dpslaved has its EE (03 framing, 07 format of the message).",
-    "Check that the format ([[line]] format) is that of the drive: with another parity it cannot read what "
-    "it gets.",
-    "Check the cable from the gateway to the drive.",
-});
-constexpr std::array kForeignSteps = std::to_array<std::string_view>({
-    "Check that no other drive of this line has the same unit.",
-    "Check that no other master (a PC tool, an operator station) asks on this line.",
-});
 
 bool is_gone(const Json& drive)
 {
@@ -259,39 +201,71 @@ std::string seen_unknown(const Facts& f)
 }
 
 constexpr std::array kRules = std::to_array<Rule>({
-    {"drive.gone", Scope::station, Rank::gone, "the port of the drive line has vanished",
-     "The port of the drive line is gone: adapter pulled, or its driver failed", kGoneSteps, kGateway,
-     seen_gone},
-    {"drive.echo", Scope::station, Rank::stands, "requests to the drive come back from the line",
-     "The line of the drive hears itself: it has an echo", kEchoSteps, kGateway, seen_echo},
-    {"drive.unreadable", Scope::station, Rank::stands, "answers of the drive come, and none can be read",
-     "The drive answers, but damaged: rate or format of the line, or a disturbed cable", kUnreadableSteps,
+    {"drive.gone", Rank::gone, "the port of the drive line has vanished",
+     "The port of the drive line is gone: adapter pulled, or its driver failed",
+     "Check that the adapter is plugged in. Look where it is now: ls -l /dev/serial/by-id\n"
+     "Name the port under [[line]] by its stable path in /dev/serial/by-id.\n"
+     "Look what the system answered: journalctl -u dpslaved. It is tried again every second.",
+     kGateway, seen_gone},
+    {"drive.echo", Rank::stands, "requests to the drive come back from the line",
+     "The line of the drive hears itself: it has an echo",
+     "Set echo = \"on\" in the [[line]] of this drive. Then: dpctl reload\n"
+     "Or switch the echo off at the adapter. Many two-wire RS-485 adapters have a switch for it.",
+     kGateway, seen_echo},
+    {"drive.unreadable", Rank::stands, "answers of the drive come, and none can be read",
+     "The drive answers, but damaged: rate or format of the line, or a disturbed cable",
+     "Compare rate and format of [[line]] with those of the drive.\n"
+     "Run dpctl doctor --probe. It tries other rates and formats, and names what answers.\n"
+     "Check the cable to the drive: screen, routing away from motor cables, the common of the port (0 V), A "
+     "and B.\n"
+     "If only the checksums are wrong: look for a converter or a gateway between.",
      kGateway, seen_unreadable},
-    {"drive.never", Scope::station, Rank::stands, "the drive has never answered",
-     "The drive was never heard: cable, unit, rate or format", kNeverSteps, kGateway, seen_never},
-    {"drive.late", Scope::station, Rank::stands, "answers of the drive come after timeout_ms",
-     "The drive answers later than timeout_ms allows", kLateSteps, kGateway, seen_late},
-    {"drive.unsteady", Scope::station, Rank::stands, "the drive is lost and answers again, more than once",
-     "The drive comes and goes: a loose plug, its power, or a disturbed cable", kUnsteadySteps, kGateway,
-     seen_unsteady},
-    {"drive.silent", Scope::station, Rank::stands, "the drive answered and does not any more",
-     "The drive has fallen silent: power, cable, or its port was set otherwise", kSilentSteps, kGateway,
+    {"drive.never", Rank::stands, "the drive has never answered",
+     "The drive was never heard: cable, unit, rate or format",
+     "Check the cable, its plug and the power of the drive. If there are several lines: check that their "
+     "cables are not swapped.\n"
+     "Compare the port of the drive with the configuration: protocol, group and unit, rate, format.\n"
+     "Run dpctl doctor --probe. It tries other rates, formats and units, and names what answers.",
+     kGateway, seen_never},
+    {"drive.late", Rank::stands, "answers of the drive come after timeout_ms",
+     "The drive answers later than timeout_ms allows",
+     "Set timeout_ms of its [[line]] above what was measured. Then: dpctl reload\n"
+     "Look for a response delay in the menu of the drive, and for a converter between.",
+     kGateway, seen_late},
+    {"drive.unsteady", Rank::stands, "the drive is lost and answers again, more than once",
+     "The drive comes and goes: a loose plug, its power, or a disturbed cable",
+     "Check the plugs at both ends. Check the supply of the drive, and of a converter between.\n"
+     "Check the cable: screen, routing away from motor cables, the common of the port (0 V).\n"
+     "If one tag alone is not answered: take it out of the master's project. Look whether the rest is "
+     "steady.",
+     kGateway, seen_unsteady},
+    {"drive.silent", Rank::stands, "the drive answered once, and does not answer now",
+     "The drive has fallen silent: power, cable, or other settings of its port", kSilentSteps, kGateway,
      seen_silent},
-    {"drive.not_asked", Scope::station, Rank::stands, "the drive was not asked yet",
-     "The line does not come to this drive", kSilentSteps, kGateway, seen_unknown},
-    {"drive.foreign", Scope::station, Rank::recent, "answers of the drive are not to what was asked",
-     "Another device answers on this line", kForeignSteps, kGateway, seen_foreign},
-    {"drive.damaged", Scope::station, Rank::recent, "answers of the drive are damaged",
+    {"drive.not_asked", Rank::stands, "the drive was not asked yet", "The line has not asked this drive yet",
+     kSilentSteps, kGateway, seen_unknown},
+    {"drive.foreign", Rank::recent, "answers of the drive are not to what was asked",
+     "Another device answers on this line",
+     "Check that no other drive of this line has the same unit.\n"
+     "Check that no other master (a PC tool, an operator station) asks on this line.",
+     kGateway, seen_foreign},
+    {"drive.damaged", Rank::recent, "answers of the drive are damaged",
      "The cable from the drive is disturbed, or its format is another one", kNoiseSteps, kGateway,
      seen_damaged},
-    {"drive.not_accepted", Scope::station, Rank::recent,
-     "the drive refuses requests for their checksum (EE 02)",
-     "Checksum refused: the cable to the drive is disturbed", kNotAcceptedSteps, kGateway, seen_not_accepted},
-    {"drive.not_understood", Scope::station, Rank::recent,
-     "the drive cannot take requests for another reason",
-     "The drive cannot read what it gets: format of the line, or a disturbed cable", kNotUnderstoodSteps,
+    {"drive.not_accepted", Rank::recent, "the drive refuses requests for their checksum (EE 02)",
+     "Checksum refused: the cable to the drive is disturbed",
+     "Check the cable from the gateway to the drive. This direction is disturbed.\n"
+     "RS-485: check A and B, the bias, and a terminator at both ends of a long cable. Check that the "
+     "transceiver does not cut off the first character.\n"
+     "Look whether drive_not_accepted still grows: dpctl counters",
+     kGateway, seen_not_accepted},
+    {"drive.not_understood", Rank::recent, "the drive cannot take requests for another reason",
+     "The drive cannot read what it gets: format of the line, or a disturbed cable",
+     "Look at the EE of the drive: journalctl -u dpslaved. 03 is framing, 07 is the format of the message.\n"
+     "Compare [[line]] format with that of the drive. With another parity it cannot read what it gets.\n"
+     "Check the cable from the gateway to the drive.",
      kGateway, seen_not_understood},
-    {"drive.noise", Scope::station, Rank::recent, "more than one request in a hundred is not answered",
+    {"drive.noise", Rank::recent, "more than one request in a hundred is not answered",
      "The cable of the drive is disturbed, or the drive is overloaded", kNoiseSteps, kGateway, seen_noise},
 });
 

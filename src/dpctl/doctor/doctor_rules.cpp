@@ -161,6 +161,22 @@ std::string not_asked(const Facts& f)
     return "telegrams are heard, but no master asks address " + number(f.station, "address");
 }
 
+bool is_of_bus(const Rule& rule)
+{
+    return rule.name.starts_with("bus.");
+}
+
+std::vector<std::string_view> steps_of(const Rule& rule)
+{
+    std::vector<std::string_view> steps;
+    for (std::string_view rest = rule.steps; !rest.empty();) {
+        const std::size_t end = std::min(rest.find('\n'), rest.size());
+        steps.push_back(rest.substr(0, end));
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    return steps;
+}
+
 std::span<const Rule> rules()
 {
     static const std::vector<Rule> all = [] {

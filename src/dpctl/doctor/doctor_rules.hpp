@@ -17,6 +17,12 @@ std::span<const Rule> box_rules();
 std::span<const Rule> controller_rules();
 std::span<const Rule> station_rules();
 
+// Where a rule comes from.
+inline constexpr std::string_view kGateway = "dpslaved";
+inline constexpr std::string_view kBoard = "HA389815 chapter 9";
+inline constexpr std::string_view kBox = "HA463561U002, Troubleshooting";
+inline constexpr std::string_view kHandbook = "2408f/2404f handbook chapter 6";
+
 bool is_in(const Facts& f, std::string_view state);
 bool exchanges(const Facts& f);
 

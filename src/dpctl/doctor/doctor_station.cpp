@@ -10,134 +10,6 @@
 namespace dpslave::dpctl {
 namespace {
 
-constexpr std::string_view kBox = "HA463561U002, Troubleshooting";
-constexpr std::string_view kGateway = "dpslaved";
-
-constexpr std::array kPrmSteps = std::to_array<std::string_view>({
-    "dpctl diag shows what came and what was expected, octet by octet.",
-    "dpctl decode --as prm OCTETS explains each octet.",
-    "Compare the slave in the master's project with the GSD that dpctl gsd make writes for this device.",
-});
-constexpr std::array kCfgSteps = std::to_array<std::string_view>({
-    "dpctl diag shows what came and what was expected, identifier by identifier.",
-    "Put the modules of the slave in the master's project in the order of the tags, one for each tag.",
-});
-constexpr std::array kStartedSteps = std::to_array<std::string_view>({
-    "Wait 15 seconds, then ask again: dpctl doctor",
-});
-constexpr std::array kTwoMastersSteps = std::to_array<std::string_view>({
-    "journalctl -u dpslaved names the other master.",
-    "Take this slave out of the project of one of the two masters, or give it another address there.",
-});
-constexpr std::array kLengthSteps = std::to_array<std::string_view>({
-    "Compare the modules of the slave in the master's project with those that dpctl io shows.",
-    "Load the project into the master again: its configuration and its program may be of two versions.",
-});
-constexpr std::array kRestartsSteps = std::to_array<std::string_view>({
-    "Look at the diagnosis buffer of the PLC: it says why the master stops the exchange.",
-    "Look for a download, for a change between STOP and RUN, and for a second master with this slave.",
-});
-constexpr std::array kOtherDeviceSteps = std::to_array<std::string_view>({
-    "Compare the type of the drive with the profile of the station: dpctl info.",
-    "Check that the unit and the line are those of this drive, and not of another one.",
-    "Check that the tag table is the one of this type of drive.",
-});
-constexpr std::array kOtherTypeSteps = std::to_array<std::string_view>({
-    "Correct type and decimals of the tag in the tag table, from the drive's product manual. Then: dpctl "
-    "reload",
-    "Check that the drive is of the type that the table is for: dpctl info.",
-});
-constexpr std::array kNotAskedSteps = std::to_array<std::string_view>({
-    "Check that the slave is in the master's project, under this address, and that the project was loaded "
-    "into the master.",
-    "Check that the master is in operation and its bus is started.",
-});
-constexpr std::array kAskedOnlySteps = std::to_array<std::string_view>({
-    "Check that the replies reach the master: the driver enable ([bus] direction), power of the transceiver, "
-    "both wires, termination.",
-    "Look whether a diagnosis tool asks (master class 2): it starts no slave.",
-    "Check that the slave is switched on in the master's project and the master is not in STOP.",
-});
-constexpr std::array kReadOnlySteps = std::to_array<std::string_view>({
-    "Put the modules in the master's project in the order of the tags: the first module belongs to the first "
-    "tag.",
-    "Take an input module for a tag that the drive only lets read: dpctl tag NUMBER says which.",
-});
-constexpr std::array kRangeSteps = std::to_array<std::string_view>({
-    "Let the master send a value within the limits of the tag: dpctl tag NUMBER has them.",
-    "Check the scaling in the master's program: 12.34 with two decimals goes over the bus as 1234.",
-});
-constexpr std::array kTagSteps = std::to_array<std::string_view>({
-    "Check the tag numbers in the master's project, and those of Demand Data in the PLC program: dpctl tag "
-    "NUMBER, dpctl io.",
-    "Check that the profile of the station is that of the drive: dpctl info.",
-});
-constexpr std::array kStateSteps = std::to_array<std::string_view>({
-    "Stop the drive, or put it into its configuration mode, as the tag wants it: dpctl tag NUMBER.",
-});
-constexpr std::array kRefusedSteps = std::to_array<std::string_view>({
-    "dpctl diag says what the drive answered.",
-    "dpctl tag NUMBER tells type, limits and access of the tag.",
-});
-constexpr std::array kClearSteps = std::to_array<std::string_view>({
-    "Put the master into RUN (Operate). Many masters go to Clear when the PLC is in STOP, or when one slave "
-    "of "
-    "the project is missing (Auto-Clear).",
-});
-constexpr std::array kWatchdogSteps = std::to_array<std::string_view>({
-    "Set the watchdog of this slave in the master's project to several times the bus cycle.",
-    "Look whether the master pauses: a download, a restart, a slave that is missing and is asked for again.",
-});
-constexpr std::array kRestlessSteps = std::to_array<std::string_view>({
-    "Check wiring: continuity of A and B to the master, the correct terminals, the integrity of the "
-    "screening.",
-    "Ensure that the maximum line length for the baud rate is not exceeded (below).",
-    "Ensure that the last unit on the line is terminated correctly.",
-    "Look at the master too: does it go to STOP, or is its watchdog time for this slave too short?",
-});
-constexpr std::array kRideSteps = std::to_array<std::string_view>({
-    "The outputs of the lost master still stand at the drive: keep clear of the machine.",
-    "dpctl tec set RIDE_THROUGH 0 ends it.",
-});
-constexpr std::array kStandsSteps = std::to_array<std::string_view>({
-    "The outputs of this master still stand at the drive: keep clear of the machine.",
-    "Switch the watchdog of this slave on in the master's project: then the outputs go to their safe state "
-    "when the "
-    "master is lost.",
-    "Look why the master is silent; systemctl stop dpslaved puts the outputs into their safe state.",
-});
-constexpr std::array kSyncSteps = std::to_array<std::string_view>({
-    "The master has sent Sync: new outputs count with its next Sync, or from Unsync on.",
-    "If that is not wanted: take this slave out of the group in the master's project.",
-});
-constexpr std::array kFreezeSteps = std::to_array<std::string_view>({
-    "The master has sent Freeze: inputs are read anew with its next Freeze, or from Unfreeze on.",
-    "If that is not wanted: take this slave out of the group in the master's project.",
-});
-constexpr std::array kScaleSteps = std::to_array<std::string_view>({
-    "dpctl io names each tag and what the drive has answered.",
-    "Give each tag a row with type and decimals, from the drive's product manual; where a survey made the "
-    "row, compare it "
-    "and set confirmed to yes.",
-    "Or set unlisted_decimals of the station, if all tags without a row have the same decimals.",
-    "dpctl reload",
-});
-constexpr std::array kNoTableSteps = std::to_array<std::string_view>({
-    "Make a tag table with dpctl survey and the drive's product manual, and name it with 'tags' in "
-    "[[station]]; then dpctl reload.",
-});
-constexpr std::array kNoTripSteps = std::to_array<std::string_view>({
-    "Set trip_tag in [station.tec] to the tag of the trip code, or to a bit that is set while the drive has "
-    "tripped "
-    "(\"272.3\").",
-});
-constexpr std::array kPendingSteps = std::to_array<std::string_view>({
-    "The changed address takes effect at the next start: systemctl restart dpslaved",
-});
-constexpr std::array kLowAddressSteps = std::to_array<std::string_view>({
-    "Addresses 0, 1 and 2 are usually those of masters: choose another one if you can.",
-});
-
 /// Has the master tried to start this station within the last minute?
 bool is_tried(const Facts& f)
 {
@@ -368,77 +240,151 @@ std::string seen_low_address(const Facts& f)
 }
 
 constexpr std::array kRules = std::to_array<Rule>({
-    {"station.prm_refused", Scope::station, Rank::stands, "the master's Set_Prm is refused",
-     "The master's project does not fit this device: parameters", kPrmSteps, kGateway, seen_prm},
-    {"station.cfg_refused", Scope::station, Rank::stands, "the master's Chk_Cfg is refused",
-     "The master's project does not fit this device: modules", kCfgSteps, kGateway, seen_cfg},
-    {"station.just_started", Scope::station, Rank::stands,
-     "the station waits for its master, and dpslaved has just started",
-     "dpslaved has just started: wait for the master", kStartedSteps, kGateway, seen_just_started},
-    {"station.not_asked", Scope::station, Rank::stands,
-     "telegrams are heard, and no master asks this address",
-     "No master has this address in its project, or the master is not running", kNotAskedSteps, kGateway,
-     seen_not_asked},
-    {"station.asked_only", Scope::station, Rank::stands, "the diagnosis is read, and no Set_Prm comes",
+    {"station.prm_refused", Rank::stands, "the master's Set_Prm is refused",
+     "The master's project does not fit this device: parameters",
+     "Compare what came with what was expected, octet by octet: dpctl diag\n"
+     "Look what each octet means: dpctl decode --as prm OCTETS\n"
+     "Compare the slave in the master's project with the GSD that dpctl gsd make writes for this device.",
+     kGateway, seen_prm},
+    {"station.cfg_refused", Rank::stands, "the master's Chk_Cfg is refused",
+     "The master's project does not fit this device: modules",
+     "Compare what came with what was expected, identifier by identifier: dpctl diag\n"
+     "Put the modules of the slave in the master's project in the order of the tags, one for each tag.",
+     kGateway, seen_cfg},
+    {"station.just_started", Rank::stands, "the station waits for its master, and dpslaved has just started",
+     "dpslaved has just started: wait for the master", "Wait 15 seconds. Then ask again: dpctl doctor",
+     kGateway, seen_just_started},
+    {"station.not_asked", Rank::stands, "telegrams are heard, and no master asks this address",
+     "No master has this address in its project, or the master is not running",
+     "Check that the slave is in the master's project, with this address. Load the project into the master.\n"
+     "Check that the master is in operation and its bus is started.",
+     kGateway, seen_not_asked},
+    {"station.asked_only", Rank::stands, "the diagnosis is read, and no Set_Prm comes",
      "The master asks, but does not start this slave: it does not hear the replies, or it is a tool",
-     kAskedOnlySteps, kGateway, seen_asked_only},
-    {"station.two_masters", Scope::station, Rank::stands, "a second master sends Set_Prm to this slave",
-     "Two masters have this slave in their projects", kTwoMastersSteps, kGateway, seen_two_masters},
-    {"station.output_length", Scope::station, Rank::stands,
+     "Check that the replies reach the master: driver enable ([bus] direction), power of the transceiver, "
+     "both wires, termination.\n"
+     "Look whether a diagnosis tool asks (master class 2). It starts no slave.\n"
+     "Check that the slave is switched on in the master's project and the master is not in STOP.",
+     kGateway, seen_asked_only},
+    {"station.two_masters", Rank::stands, "a second master sends Set_Prm to this slave",
+     "Two masters have this slave in their projects",
+     "Look which master it is: journalctl -u dpslaved\n"
+     "Take this slave out of the project of one of the two masters, or give it another address there.",
+     kGateway, seen_two_masters},
+    {"station.output_length", Rank::stands,
      "Data_Exch is left more than once in a minute, for outputs of a wrong length",
-     "The master sends outputs of a wrong length", kLengthSteps, kGateway, seen_length},
-    {"station.restarts", Scope::station, Rank::stands,
+     "The master sends outputs of a wrong length",
+     "Compare the modules of the slave in the master's project with those that dpctl io shows.\n"
+     "Load the project into the master again. Its configuration and its program may be of two versions.",
+     kGateway, seen_length},
+    {"station.restarts", Rank::stands,
      "the master ends the exchange more than once in a minute, and starts again",
-     "The master ends the exchange by itself and starts again", kRestartsSteps, kGateway, seen_restarts},
-    {"station.clear", Scope::station, Rank::stands, "Data_Exch, and the last Global_Control was Clear_Data",
-     "The master is in Clear (STOP): the drive gets 0", kClearSteps, kGateway, seen_clear},
-    {"station.stands", Scope::station, Rank::stands,
-     "Data_Exch without watchdog, and no telegram for ten seconds",
-     "The master is gone and its outputs stand: the watchdog is off", kStandsSteps, kGateway, seen_stands},
-    {"station.ride_through", Scope::station, Rank::stands, "the master is lost and the outputs stand",
-     "RIDE THROUGH is running", kRideSteps, "HA463561U002, MMI parameter descriptions", seen_ride},
-    {"station.watchdog", Scope::station, Rank::stands, "the watchdog expires and the master starts again",
-     "The watchdog of this slave is shorter than the master's cycle, or the master pauses", kWatchdogSteps,
+     "The master ends the exchange by itself and starts again",
+     "Read the diagnosis buffer of the PLC. It says why the master ends the exchange.\n"
+     "Look for a download, for a change between STOP and RUN, and for a second master with this slave.",
+     kGateway, seen_restarts},
+    {"station.clear", Rank::stands, "Data_Exch, and the last Global_Control was Clear_Data",
+     "The master is in Clear (STOP): the drive gets 0",
+     "Put the PLC into RUN. Then its master goes to Operate.\n"
+     "Look for a missing slave. Some masters go to Clear when one slave of the project is missing "
+     "(Auto-Clear).",
+     kGateway, seen_clear},
+    {"station.stands", Rank::stands, "Data_Exch without watchdog, and no telegram for ten seconds",
+     "The master is gone and its outputs stand: the watchdog is off",
+     "Keep clear of the machine. The outputs of this master still stand at the drive.\n"
+     "Switch the watchdog of this slave on in the master's project. Then the outputs go to their safe state "
+     "when the master is lost.\n"
+     "Look why the master is silent.\n"
+     "Put the outputs into their safe state: systemctl stop dpslaved",
+     kGateway, seen_stands},
+    {"station.ride_through", Rank::stands, "the master is lost and the outputs stand",
+     "RIDE THROUGH is running",
+     "Keep clear of the machine. The outputs of the lost master still stand at the drive.\n"
+     "End it with: dpctl tec set RIDE_THROUGH 0",
+     "HA463561U002, MMI parameter descriptions", seen_ride},
+    {"station.watchdog", Rank::stands, "the watchdog expires and the master starts again",
+     "The watchdog of this slave is shorter than the master's cycle, or the master pauses",
+     "Set the watchdog of this slave in the master's project to ten times the bus cycle.\n"
+     "Look whether the master pauses: a download, a restart, a slave that is missing.",
      kGateway, seen_watchdog},
-    {"station.read_only", Scope::station, Rank::stands, "an output word belongs to a tag that is read only",
-     "Modules in the wrong order, or an output where the drive has only something to read", kReadOnlySteps,
+    {"station.read_only", Rank::stands, "an output word belongs to a tag that is read only",
+     "Modules in the wrong order, or an output module for a tag that is read only",
+     "Put the modules in the master's project in the order of the tags. The first module is that of the "
+     "first tag.\n"
+     "Take an input module for a tag that is read only: dpctl tag NUMBER",
      kGateway, seen_read_only},
-    {"station.range", Scope::station, Rank::stands, "an output word is outside the limits of its tag",
-     "The master sends a value outside the limits", kRangeSteps, kGateway, seen_range},
-    {"station.other_device", Scope::station, Rank::stands, "the drive knows none of the chosen tags",
-     "The drive is of another type than the station: profile, tag table or unit is wrong", kOtherDeviceSteps,
+    {"station.range", Rank::stands, "an output word is outside the limits of its tag",
+     "The master sends a value outside the limits",
+     "Send a value within the limits of the tag: dpctl tag NUMBER\n"
+     "Check the scaling in the master's program. 12.34 with two decimals is 1234 on the bus.",
+     kGateway, seen_range},
+    {"station.other_device", Rank::stands, "the drive knows none of the chosen tags",
+     "The drive is of another type than the station: profile, tag table or unit is wrong",
+     "Compare the type of the drive with the profile of the station: dpctl info\n"
+     "Check that the unit and the line are those of this drive, and not of another one.\n"
+     "Check that the tag table is the one of this type of drive.",
      kGateway, seen_other_device},
-    {"station.other_type", Scope::station, Rank::stands,
-     "the drive answers in another form than its row says", "The tag table gives another type than the drive",
-     kOtherTypeSteps, kGateway, seen_other_type},
-    {"station.tags", Scope::station, Rank::stands, "the drive does not know a tag", "A tag number is wrong",
-     kTagSteps, kGateway, seen_invalid},
-    {"station.unscaled", Scope::station, Rank::stands,
-     "a chosen tag answers with a number whose scale is not known",
-     "The tag table does not say the decimals of a tag, or says too few", kScaleSteps, kGateway,
-     seen_unscaled},
-    {"station.sync", Scope::station, Rank::note, "the master has sent Sync", "The outputs are held by Sync",
-     kSyncSteps, kGateway, seen_sync},
-    {"station.freeze", Scope::station, Rank::note, "the master has sent Freeze",
-     "The inputs are held by Freeze", kFreezeSteps, kGateway, seen_freeze},
-    {"station.no_table", Scope::station, Rank::note, "the station has no tag table",
-     "The scale of the drive's numbers is not known", kNoTableSteps, kGateway, seen_no_table},
-    {"station.no_trip", Scope::station, Rank::note, "no tag tells the trip of the drive",
-     "Trips are not known: the diagnosis says no trip whatever the drive does", kNoTripSteps,
+    {"station.other_type", Rank::stands, "the drive answers in another form than its row says",
+     "The tag table gives another type than the drive",
+     "Correct type and decimals of the tag in the tag table, from the drive's product manual. Then: dpctl "
+     "reload\n"
+     "Check that the table is for this type of drive: dpctl info",
+     kGateway, seen_other_type},
+    {"station.tags", Rank::stands, "the drive does not know a tag", "A tag number is wrong",
+     "Check the tag numbers in the master's project, and those of Demand Data in the PLC program: dpctl io, "
+     "dpctl tag NUMBER\n"
+     "Check that the profile of the station is that of the drive: dpctl info",
+     kGateway, seen_invalid},
+    {"station.unscaled", Rank::stands, "a chosen tag answers with a number whose scale is not known",
+     "The tag table gives no decimals for a tag, or too few",
+     "Look at each tag and at what the drive has answered: dpctl io\n"
+     "Give each tag a row with type and decimals, from the drive's product manual. If a survey made the row: "
+     "compare it, and set confirmed to yes.\n"
+     "Or set unlisted_decimals of the station, if all tags without a row have the same decimals.\n"
+     "dpctl reload",
+     kGateway, seen_unscaled},
+    {"station.sync", Rank::note, "the master has sent Sync", "The outputs are held by Sync",
+     "Wait for the next Sync or Unsync of the master. Until then new outputs do not count.\n"
+     "If that is not wanted: take this slave out of the group in the master's project.",
+     kGateway, seen_sync},
+    {"station.freeze", Rank::note, "the master has sent Freeze", "The inputs are held by Freeze",
+     "Wait for the next Freeze or Unfreeze of the master. Until then the inputs are old.\n"
+     "If that is not wanted: take this slave out of the group in the master's project.",
+     kGateway, seen_freeze},
+    {"station.no_table", Rank::note, "the station has no tag table",
+     "The scale of the drive's numbers is not known",
+     "Make a tag table with dpctl survey and the drive's product manual. Name it with 'tags' in [[station]]. "
+     "Then: dpctl reload",
+     kGateway, seen_no_table},
+    {"station.no_trip", Rank::note, "no tag tells the trip of the drive",
+     "Trips are not known: the diagnosis never says a trip",
+     "Set trip_tag in [station.tec] to the tag of the trip code, or to a bit that is set while the drive has "
+     "tripped (\"272.3\").",
      "HA463561U002, PROFIBUS Diagnostics", seen_no_trip},
-    {"station.not_now", Scope::station, Rank::stands, "a tag cannot be written in this state of the drive",
-     "The drive takes this parameter only stopped, or in configuration mode", kStateSteps, kGateway,
-     seen_not_now},
-    {"station.refused", Scope::station, Rank::stands, "the drive refuses a tag for another reason",
-     "The drive refuses a parameter", kRefusedSteps, kGateway, seen_other_refusal},
-    {"station.restless", Scope::station, Rank::recent, "data exchange is left more than once in a minute",
-     "Intermittent failure", kRestlessSteps, kBox, seen_restless},
-    {"station.address_pending", Scope::station, Rank::note,
-     "the address was changed in the configuration file", "A changed address waits for the next start",
-     kPendingSteps, "HA389815 chapter 5", seen_pending},
-    {"station.low_address", Scope::station, Rank::note, "the address is 0, 1 or 2",
-     "The address may be that of a master", kLowAddressSteps, "HA463561U002, MMI parameter descriptions",
-     seen_low_address},
+    {"station.not_now", Rank::stands, "a tag cannot be written in this state of the drive",
+     "The drive takes this parameter only stopped, or in configuration mode",
+     "Stop the drive, or put it into its configuration mode. Look which of the two: dpctl tag NUMBER",
+     kGateway, seen_not_now},
+    {"station.refused", Rank::stands, "the drive refuses a tag for another reason",
+     "The drive refuses a parameter",
+     "Look what the drive answered: dpctl diag\n"
+     "Check type, limits and access of the tag: dpctl tag NUMBER",
+     kGateway, seen_other_refusal},
+    {"station.restless", Rank::recent, "data exchange is left more than once in a minute",
+     "Intermittent failure",
+     "Check wiring: continuity of A and B to the master, the correct terminals, the integrity of the "
+     "screening.\n"
+     "Ensure that the maximum line length for the baud rate is not exceeded (below).\n"
+     "Ensure that the last unit on the line is terminated correctly.\n"
+     "Look at the master too. Does it go to STOP? Is its watchdog time for this slave too short?",
+     kBox, seen_restless},
+    {"station.address_pending", Rank::note, "the address was changed in the configuration file",
+     "A changed address waits for the next start",
+     "Restart the service: systemctl restart dpslaved. Then the changed address counts.",
+     "HA389815 chapter 5", seen_pending},
+    {"station.low_address", Rank::note, "the address is 0, 1 or 2", "The address may be that of a master",
+     "Choose another address if you can. 0, 1 and 2 are usually those of masters.",
+     "HA463561U002, MMI parameter descriptions", seen_low_address},
 });
 
 } // namespace

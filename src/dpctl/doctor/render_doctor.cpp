@@ -74,7 +74,7 @@ std::string picture(const Replies& replies, const std::string& wanted, Look look
 std::string steps(const Rule& rule, Look look)
 {
     std::string out;
-    for (const std::string_view step : rule.steps) out += paragraph("   - ", step, look.width);
+    for (const std::string_view step : steps_of(rule)) out += paragraph("   - ", step, look.width);
     return out;
 }
 
@@ -134,7 +134,7 @@ std::string earlier_lines(const std::vector<Earlier>& earlier, Look look)
 Json rule_json(const Rule& rule)
 {
     Json steps = Json::array();
-    for (const std::string_view step : rule.steps) steps.push_back(step);
+    for (const std::string_view step : steps_of(rule)) steps.push_back(step);
     return {{"rule", rule.name},
             {"condition", rule.condition},
             {"cause", rule.cause},
