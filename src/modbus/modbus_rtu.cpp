@@ -31,9 +31,9 @@ std::string ModbusRtu::last_trouble() const
     return line_->is_open() ? client_->last_trouble() : line_->path() + " has gone";
 }
 
-std::vector<PortNews> ModbusRtu::take_port_news()
+std::vector<PortMessage> ModbusRtu::take_port_messages()
 {
-    return line_->take_news();
+    return line_->take_messages();
 }
 
 int ModbusRtu::fd() const

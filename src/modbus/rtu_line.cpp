@@ -66,11 +66,11 @@ bool RtuLine::ready()
 {
     if (port_.is_open()) return true;
     const bool is_back = port_.ready(now());
-    if (const auto why = port_.take_trouble()) news_.push_back({true, *why + "; it is tried again"});
+    if (const auto why = port_.take_trouble()) messages_.push_back({true, *why + "; it is tried again"});
     if (!is_back) return false;
     use_port();
     is_open_.store(true, std::memory_order_relaxed);
-    news_.push_back({false, settings_.port + " is back"});
+    messages_.push_back({false, settings_.port + " is back"});
     return true;
 }
 
@@ -79,7 +79,7 @@ void RtuLine::lose()
     modbus_set_socket(context_.get(), -1);
     port_.lose(now());
     is_open_.store(false, std::memory_order_relaxed);
-    news_.push_back({true, settings_.port + " has gone; it is opened again as soon as it returns"});
+    messages_.push_back({true, settings_.port + " has gone; it is opened again as soon as it returns"});
 }
 
 Instant RtuLine::now() const

@@ -37,7 +37,7 @@ public:
     bool is_open() const { return port_.is_open(); }
     int fd() { return port_.is_open() ? port_.tty().fd() : -1; } ///< -1: the port is gone
     /// What happened to the port since the last call, oldest first.
-    std::vector<PortNews> take_news() { return std::exchange(news_, {}); }
+    std::vector<PortMessage> take_messages() { return std::exchange(messages_, {}); }
     const std::string& path() const { return settings_.port; }
     /// How long the open port may keep octets back.
     std::chrono::nanoseconds hold_back() const { return hold_back_; }
@@ -61,7 +61,7 @@ private:
     Context context_;
     io::Port port_;
     std::atomic<bool>& is_open_;
-    std::vector<PortNews> news_;
+    std::vector<PortMessage> messages_;
     FrameReceiver receiver_;
     std::array<std::uint8_t, 256> buffer_{};
     std::chrono::nanoseconds hold_back_{};

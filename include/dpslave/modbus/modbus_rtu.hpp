@@ -30,7 +30,7 @@ struct RtuSettings {
 };
 
 /// What happened to the port, a sentence with its path for the log.
-struct PortNews {
+struct PortMessage {
     bool is_trouble = false; ///< else it is good again
     std::string text;
 };
@@ -64,9 +64,9 @@ public:
     drive::AnswerCounts counts(drive::UnitAddress unit) const override { return client_->counts(unit); }
     void listen() override { client_->listen(); }
 
-    /// What happened to the port since the last call, oldest first. A port that comes and goes has endless
-    /// news: who writes the log keeps it short.
-    std::vector<PortNews> take_port_news();
+    /// What happened to the port since the last call, oldest first. A port that comes and goes has them
+    /// without end: the log has to limit them.
+    std::vector<PortMessage> take_port_messages();
     int fd() const; ///< -1: the port is gone
 
 private:

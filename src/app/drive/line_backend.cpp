@@ -65,11 +65,11 @@ int LineBackend::fd() const
     return tty_ ? tty_->fd() : modbus_->fd();
 }
 
-/// Of EI-ASCII the port itself has said it.
-void LineBackend::say_port_news(LimitedLog& log, Instant now)
+/// Of EI-ASCII the port itself has logged it.
+void LineBackend::log_port_messages(LimitedLog& log, Instant now)
 {
     if (modbus_ == nullptr) return;
-    for (modbus::PortNews& one : modbus_->take_port_news())
+    for (modbus::PortMessage& one : modbus_->take_port_messages())
         log.say(one.is_trouble ? LimitedLog::Level::error : LimitedLog::Level::info, std::move(one.text),
                 now);
 }

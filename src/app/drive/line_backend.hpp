@@ -19,7 +19,7 @@ namespace dpslave::app {
 
 class LineBackend {
 public:
-    /// Opens the port. `is_open` is told when it vanishes and returns in service, not that it was opened
+    /// Opens the port. `is_open` says when it vanishes and returns in service, not that it was opened
     /// now, which may be a trial; it outlives the back-end. The error is a sentence.
     static Result<std::unique_ptr<LineBackend>, std::string> open(const config::LineConfig& line,
                                                                   std::atomic<bool>& is_open);
@@ -28,11 +28,10 @@ public:
     static drive::BlockRule block_rule(const config::LineConfig& line);
 
     drive::Backend& backend() { return *backend_; }
-    /// Becomes readable when something comes that nobody waits for: Backend::listen() is due. -1: the port is
-    /// gone.
+    /// Readable between two questions: Backend::listen() is due. -1: the port is gone.
     int fd() const;
     /// What happened to the port since the last call goes to `log`.
-    void say_port_news(LimitedLog& log, Instant now);
+    void log_port_messages(LimitedLog& log, Instant now);
     /// The drives from now on.
     void set_units(const std::vector<DriveUnit>& units);
 
