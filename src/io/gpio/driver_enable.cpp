@@ -53,24 +53,6 @@ GpioRequest request_of(const DriverEnableSettings& settings)
             .consumer = "dpslaved driver enable"};
 }
 
-/// "direction = "kernel", or ...": what would work with this port, but for `but`.
-std::string other_ways(int fd, Direction but)
-{
-    std::string ways;
-    if (but != Direction::kernel && can_rs485(fd)) ways += "direction = \"kernel\", ";
-    if (but != Direction::rts && rts(fd)) ways += "direction = \"rts\", ";
-    if (but != Direction::gpio) ways += "direction = \"gpio\" with a line of a GPIO chip, ";
-    if (but != Direction::none) ways += "direction = \"none\" with a transceiver that switches by itself, ";
-    ways.resize(ways.size() - 2);
-    return ways;
-}
-
-std::string cannot(int fd, Direction direction, const std::string& why)
-{
-    return name_of_port(fd) + " cannot do direction = \"" + std::string{text(direction)} + "\" (" + why +
-           "); it can do: " + other_ways(fd, direction);
-}
-
 std::string cannot_switch(const DriverEnableSettings& settings, const std::error_code& error)
 {
     const std::string how = error.message();

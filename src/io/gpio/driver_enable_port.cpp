@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "driver_enable_port.hpp"
 
-#include "dpslave/io/driver_enable.hpp"
-
 #include <asm/ioctls.h>
 #include <asm/termbits.h>
 #include <sys/ioctl.h>
@@ -93,6 +91,23 @@ std::string name_of_port(int fd)
 {
     char name[256] = {};
     return ::ttyname_r(fd, name, sizeof name) == 0 ? name : "the port";
+}
+
+std::string other_ways(int fd, Direction but)
+{
+    std::string ways;
+    if (but != Direction::kernel && can_rs485(fd)) ways += "direction = \"kernel\", ";
+    if (but != Direction::rts && rts(fd)) ways += "direction = \"rts\", ";
+    if (but != Direction::gpio) ways += "direction = \"gpio\" with a line of a GPIO chip, ";
+    if (but != Direction::none) ways += "direction = \"none\" with a transceiver that switches by itself, ";
+    ways.resize(ways.size() - 2);
+    return ways;
+}
+
+std::string cannot(int fd, Direction direction, const std::string& why)
+{
+    return name_of_port(fd) + " cannot do direction = \"" + std::string{text(direction)} + "\" (" + why +
+           "); it can do: " + other_ways(fd, direction);
 }
 
 } // namespace dpslave::io

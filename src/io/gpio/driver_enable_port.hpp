@@ -3,14 +3,14 @@
 /// (asm/termbits.h) clashes with <termios.h>.
 #pragma once
 
+#include "dpslave/io/driver_enable.hpp"
+
 #include <linux/serial.h>
 
 #include <optional>
 #include <string>
 
 namespace dpslave::io {
-
-struct DriverEnableSettings;
 
 /// As bit rate, parity and the rest are: what the program asks for, and what the driver made of it.
 serial_rs485 rs485_wanted(const DriverEnableSettings& settings);
@@ -32,5 +32,9 @@ std::optional<bool> rts(int fd);
 int drop_rts_on_close(int fd, bool drop);
 
 std::string name_of_port(int fd);
+/// "direction = "kernel", or ...": what would work with this port, but for `but`.
+std::string other_ways(int fd, Direction but);
+/// A sentence: the port cannot do `direction`, why, and what it can do.
+std::string cannot(int fd, Direction direction, const std::string& why);
 
 } // namespace dpslave::io
