@@ -76,18 +76,10 @@ std::optional<std::uint16_t> instrument_ident(std::string_view name)
 
 Instrument::Instrument(std::uint8_t unit, std::uint16_t ident, const std::vector<SimTag>& tags,
                        unsigned programs)
-    : Device(fmt::format("{}", unit), registers_of(tags, programs)), unit_(unit)
-{
-    start_values(ident, programs);
-}
+    : InstrumentModel(unit, ident, registers_of(tags, programs), programs), unit_(unit)
+{}
 
 // ---- values ----
-
-std::int32_t Instrument::counts_at(std::uint16_t tag)
-{
-    const Parameter* const p = find(tag);
-    return p == nullptr ? 0 : p->value.counts;
-}
 
 std::uint8_t Instrument::fast_status()
 {

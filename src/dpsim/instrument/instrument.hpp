@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A 2408f or 2404f in memory: what its registers hold, who may write them, and what follows from it
-/// (handbook chapters 7 and 8; EI-ASCII and Modbus reference, section 5). Pure; knows no telegram.
+/// A 2408f or 2404f as its line and its front panel see it: words of registers, and who may write them
+/// (handbook chapter 7; EI-ASCII and Modbus reference, section 5). Pure; knows no telegram.
 #pragma once
 
-#include "dpsim/common/device.hpp"
+#include "instrument_model.hpp"
 #include "modbus_frame.hpp"
 
 #include <span>
@@ -32,11 +32,9 @@ struct InstrumentCounters {
     std::uint64_t exceptions = 0;
 };
 
-class Instrument final : public Device {
+class Instrument final : public InstrumentModel {
 public:
-    /// `unit`: 1 to 254. `ident`: of tag 122. `programs`: 0, 1 or 4 in the program store; program 0, the copy
-    /// of the running one, comes with them. Registers are the tags of the table; of those without a start
-    /// value some get a sensible one.
+    /// As InstrumentModel. Registers are the tags of the table.
     Instrument(std::uint8_t unit, std::uint16_t ident, const std::vector<SimTag>& tags, unsigned programs);
 
     std::uint8_t unit() const { return unit_; }
@@ -53,12 +51,6 @@ public:
     /// As the operator does at the front panel: what is read only or beyond its limits is refused.
     Exception panel(std::uint16_t tag, std::int32_t counts, Instant now);
 
-    void settle(Instant now) override;
-    void changed(std::uint16_t tag, Instant now) override;
-
-    /// How long the next autotune takes, and whether it fails.
-    void prepare_tune(std::chrono::nanoseconds takes, bool fails);
-
     std::vector<std::string> take_log() { return std::exchange(log_, {}); }
     std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
 
@@ -66,7 +58,6 @@ public:
     InstrumentCounters counters{};
 
 private:
-    void start_values(std::uint16_t ident, unsigned programs);
     Exception read_ieee(std::uint16_t address, std::uint16_t count, std::vector<std::uint16_t>& words,
                         Instant now);
     Exception write_block_ieee(std::uint16_t address, std::span<const std::uint16_t> words, Instant now);
@@ -88,22 +79,7 @@ private:
     std::int32_t counts_of(const Parameter& parameter, std::uint16_t word);
     bool integer_resolution();
 
-    std::int32_t counts_at(std::uint16_t tag);
-    void put(std::uint16_t tag, std::int32_t counts); ///< nothing happens if there is no such tag
-    void put_bit(std::uint16_t tag, unsigned bit, bool on);
-    void follow(std::uint16_t from, std::uint16_t to); ///< `to` takes the value of `from`
-
-    void autotune(Instant now);
-    void end_tune(bool completed, bool failed);
-    void run_program();
-    void set_decimals(unsigned decimals);
-    std::uint16_t selected_setpoint();
-
     std::uint8_t unit_;
-    std::chrono::nanoseconds tune_takes_ = std::chrono::seconds{3};
-    bool tune_fails_ = false;
-    std::optional<Instant> tune_ends_;
-    std::int32_t program_status_ = 0; ///< tag 23 before it changed
     std::vector<std::string> log_, warnings_;
 };
 

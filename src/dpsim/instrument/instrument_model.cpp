@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a 2408f/2404f does by itself: where it begins, and what follows from a value.
-#include "instrument.hpp"
+#include "instrument_model.hpp"
+
 #include "instrument_registers.hpp"
 
 #include <algorithm>
@@ -39,7 +39,20 @@ constexpr std::array kProgram{
 
 } // namespace
 
-void Instrument::start_values(std::uint16_t ident, unsigned programs)
+InstrumentModel::InstrumentModel(std::uint8_t unit, std::uint16_t ident, std::vector<Parameter> registers,
+                                 unsigned programs)
+    : Device(std::to_string(unit), std::move(registers))
+{
+    start_values(ident, programs);
+}
+
+std::int32_t InstrumentModel::counts_at(std::uint16_t tag)
+{
+    const Parameter* const p = find(tag);
+    return p == nullptr ? 0 : p->value.counts;
+}
+
+void InstrumentModel::start_values(std::uint16_t ident, unsigned programs)
 {
     const auto start = [this](std::uint16_t tag, std::int32_t value, unsigned decimals) {
         Parameter* const p = find(tag);
@@ -56,19 +69,19 @@ void Instrument::start_values(std::uint16_t ident, unsigned programs)
     program_status_ = counts_at(kProgramStatus);
 }
 
-void Instrument::put(std::uint16_t tag, std::int32_t counts)
+void InstrumentModel::put(std::uint16_t tag, std::int32_t counts)
 {
     if (Parameter* const p = find(tag)) p->put({counts, {}});
 }
 
-void Instrument::put_bit(std::uint16_t tag, unsigned bit, bool on)
+void InstrumentModel::put_bit(std::uint16_t tag, unsigned bit, bool on)
 {
     const std::int32_t mask = 1 << bit;
     put(tag, on ? counts_at(tag) | mask : counts_at(tag) & ~mask);
     if (tag == kSummaryStatus) put(kFastStatus, counts_at(kSummaryStatus) & 0xFF);
 }
 
-void Instrument::follow(std::uint16_t from, std::uint16_t to)
+void InstrumentModel::follow(std::uint16_t from, std::uint16_t to)
 {
     const Parameter *const source = find(from), *const target = find(to);
     if (source == nullptr || target == nullptr || source == target) return;
@@ -78,7 +91,7 @@ void Instrument::follow(std::uint16_t from, std::uint16_t to)
 
 // ---- what follows from a value ----
 
-void Instrument::changed(std::uint16_t tag, Instant now)
+void InstrumentModel::changed(std::uint16_t tag, Instant now)
 {
     const std::int32_t value = counts_at(tag);
     switch (tag) {
@@ -100,20 +113,20 @@ void Instrument::changed(std::uint16_t tag, Instant now)
 }
 
 /// Tag 15 counts from 0; setpoints 3 to 16 lie together.
-std::uint16_t Instrument::selected_setpoint()
+std::uint16_t InstrumentModel::selected_setpoint()
 {
     const std::int32_t choice = std::clamp(counts_at(kSelectSetpoint), 0, 15);
     if (choice < 2) return choice == 0 ? kSetpoint1 : kSetpoint2;
     return static_cast<std::uint16_t>(kSetpoint3 + choice - 2);
 }
 
-void Instrument::prepare_tune(std::chrono::nanoseconds takes, bool fails)
+void InstrumentModel::prepare_tune(std::chrono::nanoseconds takes, bool fails)
 {
     tune_takes_ = takes;
     tune_fails_ = fails;
 }
 
-void Instrument::autotune(Instant now)
+void InstrumentModel::autotune(Instant now)
 {
     if (counts_at(kAutotune) == 0) {
         if (tune_ends_) end_tune(false, false);
@@ -127,7 +140,7 @@ void Instrument::autotune(Instant now)
     put_bit(kSummaryStatus, kSummaryTuning, true);
 }
 
-void Instrument::end_tune(bool completed, bool failed)
+void InstrumentModel::end_tune(bool completed, bool failed)
 {
     tune_ends_.reset();
     put(kAutotune, 0);
@@ -137,13 +150,13 @@ void Instrument::end_tune(bool completed, bool failed)
     if (failed) put_bit(kControlStatus, kTuneFailed, true);
 }
 
-void Instrument::settle(Instant now)
+void InstrumentModel::settle(Instant now)
 {
     if (tune_ends_ && now >= *tune_ends_) end_tune(!tune_fails_, tune_fails_);
 }
 
 /// From reset or complete into run: program 0 becomes a copy of the program that is chosen.
-void Instrument::run_program()
+void InstrumentModel::run_program()
 {
     const std::int32_t before = std::exchange(program_status_, counts_at(kProgramStatus));
     if (program_status_ != kRun || (before != kReset && before != kComplete)) return;
@@ -155,7 +168,7 @@ void Instrument::run_program()
 }
 
 /// Values that follow the display keep their size and take its number of decimals.
-void Instrument::set_decimals(unsigned decimals)
+void InstrumentModel::set_decimals(unsigned decimals)
 {
     decimals = std::min(decimals, kDisplayDecimals);
     for (Parameter& p : parameters_) {
