@@ -4,36 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 namespace dpslave::sim {
 namespace {
 
-constexpr Tbit kTid1{37}; ///< pause after an answer: T_SYN 33 and the safety margin 4 (wire reference 1.3)
-constexpr Tbit kTsyn{33};
-/// A station that never stops talking is heard no longer than this.
-constexpr std::size_t kLongestBabble = 1024;
-
-constexpr std::uint8_t kFcFdlStatus = 0x49, kFcSdnHigh = 0x46, kFcSrdHigh = 0x4D, kFcb = 0x20, kFcv = 0x10;
-
-/// Default slot time (wire reference 1.3).
-Tbit slot_time(Baud baud)
-{
-    if (baud == Baud::k1500) return Tbit{300};
-    return baud == Baud::k500 ? Tbit{200} : Tbit{100};
-}
-
-/// Pause after a request that nobody answers: the largest T_SDR of the class.
-Tbit pause_after_sdn(Baud baud)
-{
-    if (baud == Baud::k1500) return Tbit{150};
-    return baud == Baud::k500 ? Tbit{100} : Tbit{60};
-}
-
-Tbit characters(std::size_t count)
-{
-    return Tbit{static_cast<std::uint32_t>(count) * kCharacter.count};
-}
+/// A slave that refuses is asked again after this time: fast enough to be seen healing, slow enough to be
+/// read.
+constexpr auto kRefusalPause = std::chrono::milliseconds{500};
 
 } // namespace
 
@@ -47,75 +24,32 @@ Master::Master(MasterSettings settings) : settings_(std::move(settings))
 
 void Master::on_bytes(Bytes octets, Instant now)
 {
-    if (!pending_ || to_send_ || !pending_->answered) {
-        counters_.unasked_octets += octets.size();
-        if (unasked_at_ == Instant::min() || now - unasked_at_ > std::chrono::seconds{1})
-            complain("octets that nobody asked for, or that came too late: " + hex(octets));
-        unasked_at_ = now;
-        return;
-    }
-    if (rx_.size() > kLongestBabble) return;
-    rx_.insert(rx_.end(), octets.begin(), octets.end());
-    pending_->give_up = now + duration_of(characters(1) + kTsyn, settings_.baud) + settings_.allowance;
-    if (!rx_flaw_.empty()) return;
-
-    const auto length = frame_length(rx_);
-    if (!length) {
-        rx_flaw_ = length.error();
-    } else if (*length != 0 && rx_.size() >= *length) {
-        const Octets whole(rx_.begin(), rx_.begin() + static_cast<std::ptrdiff_t>(*length));
-        const std::size_t more = rx_.size() - whole.size();
-        heard_ = rx_;
-        rx_.clear();
-        if (more > 0) {
-            counters_.unasked_octets += more;
-            complain("octets after the answer: " + hex(Bytes{heard_}.subspan(whole.size())));
-        }
-        whole_answer(whole, now);
-    }
+    const auto outcome = requester_.on_bytes(octets, now);
+    for (std::string& words : requester_.take_complaints()) complain(std::move(words));
+    if (outcome) take(*outcome, now);
 }
 
 void Master::on_time(Instant now)
 {
-    if (to_send_) return;
-    if (pending_) {
-        if (now < pending_->give_up) return;
-        if (pending_->answered) return no_answer(now);
-        if (pending_->one_shot) report({pending_->order.service, {}, {}, "sent"});
-        pending_.reset();
-    }
-    if (now < idle_until_) return;
+    const auto outcome = requester_.on_time(now);
+    for (std::string& words : requester_.take_complaints()) complain(std::move(words));
+    if (outcome) take(*outcome, now);
+    if (!requester_.ready(now) || (outcome && !outcome->was_sent_only)) return;
     if (!orders_.empty()) {
         Order order = std::move(orders_.front());
         orders_.pop_front();
-        begin(std::move(order), true);
+        requester_.begin(std::move(order), true);
     } else if (now >= next_cycle_) {
-        if (auto order = cyclic_order()) begin(std::move(*order), false);
+        if (auto order = cyclic_order()) requester_.begin(std::move(*order), false);
         next_cycle_ = now + settings_.cycle;
     }
 }
 
-std::optional<Octets> Master::take_transmit(Instant now)
-{
-    if (!to_send_) return std::nullopt;
-    to_send_ = false;
-    rx_.clear();
-    rx_flaw_.clear();
-    pending_->sent = now;
-    const Instant end = now + duration_of(characters(pending_->wire.size()), settings_.baud);
-    pending_->give_up =
-        pending_->answered
-            ? end + duration_of(slot_time(settings_.baud) + kCharacter, settings_.baud) + settings_.allowance
-            : end + duration_of(pause_after_sdn(settings_.baud), settings_.baud);
-    return pending_->wire;
-}
-
 Instant Master::next_deadline() const
 {
-    if (to_send_) return Instant::min();
-    if (pending_) return pending_->give_up;
-    if (!orders_.empty()) return idle_until_;
-    return state_ == MasterState::stopped ? kNever : std::max(idle_until_, next_cycle_);
+    if (requester_.busy()) return requester_.next_deadline();
+    if (!orders_.empty()) return requester_.idle_until();
+    return state_ == MasterState::stopped ? kNever : std::max(requester_.idle_until(), next_cycle_);
 }
 
 std::optional<MasterEvent> Master::take_event()
@@ -138,11 +72,7 @@ void Master::start()
 
 void Master::stop()
 {
-    if (pending_ && !pending_->one_shot && to_send_) {
-        pending_.reset();
-        to_send_ = false;
-    }
-    first_ = true;
+    requester_.give_up_cyclic();
     if (state_ != MasterState::stopped) enter(MasterState::stopped);
 }
 
@@ -152,9 +82,7 @@ void Master::clear(bool on)
     order({Service::global_control, {static_cast<std::uint8_t>(on ? 0x02 : 0x00), 0x00}});
 }
 
-// ---- requests ----
-
-std::optional<Order> Master::cyclic_order()
+std::optional<Order> Master::cyclic_order() const
 {
     switch (state_) {
         case MasterState::stopped: return std::nullopt;
@@ -169,111 +97,195 @@ std::optional<Order> Master::cyclic_order()
     return Order{Service::data_exchange, clear_ ? Octets(outputs_.size(), 0) : outputs_};
 }
 
-Frame Master::frame_of(const Order& order)
-{
-    Frame frame{.da = settings_.slave, .sa = settings_.address, .data = order.data};
-    if (order.service == Service::fdl_status) {
-        frame.fc = kFcFdlStatus;
-        return frame;
-    }
-    if (order.service != Service::data_exchange) {
-        frame.dsap = sap_of(order.service);
-        frame.ssap = kSapMaster;
-    }
-    if (order.service == Service::global_control) {
-        frame.da = kBroadcast;
-        frame.fc = kFcSdnHigh;
-        return frame;
-    }
-    frame.fc = static_cast<std::uint8_t>(first_ ? kFcSrdHigh | kFcb : kFcSrdHigh | kFcv | (fcb_ ? kFcb : 0));
-    return frame;
-}
+// ---- what comes of a request ----
 
-void Master::begin(Order order, bool one_shot)
+void Master::take(const Requester::Outcome& outcome, Instant now)
 {
-    Pending next{.order = std::move(order), .one_shot = one_shot};
-    const Service service = next.order.service;
-    if (service == Service::raw) {
-        next.wire = next.order.data;
-    } else {
-        next.wire = encode(frame_of(next.order), settings_.fixed);
-        next.counted = service != Service::fdl_status && service != Service::global_control;
-        next.answered = service != Service::global_control;
-    }
-    pending_ = std::move(next);
-    to_send_ = true;
-}
-
-void Master::no_answer(Instant now)
-{
-    heard_ = rx_;
-    if (rx_.empty()) return bad_answer({}, now);
-    bad_answer(rx_flaw_.empty() ? std::string{"it ends too early"} : rx_flaw_, now);
-}
-
-/// No answer (`why` empty) or one that is no telegram: the same request again, then give up.
-void Master::bad_answer(std::string why, Instant now)
-{
-    if (!why.empty()) {
-        ++counters_.invalid;
-        complain(
-            fmt::format("answer to {} is invalid, {}: {}", text(pending_->order.service), why, hex(heard_)));
-    }
-    const bool wanted = pending_->one_shot || state_ != MasterState::stopped;
-    if (wanted && pending_->counted && pending_->tries < settings_.retries) {
-        ++pending_->tries;
-        ++counters_.retries;
-        to_send_ = true;
+    const Service service = outcome.order.service;
+    if (outcome.was_sent_only) {
+        if (outcome.one_shot) report({service, {}, {}, "sent"});
         return;
     }
-    const Pending lost = std::move(*pending_);
-    pending_.reset();
-    rx_.clear();
-    idle_until_ = now;
-    if (lost.counted) {
-        ++counters_.missing;
-        first_ = true;
+    if (service == Service::raw && outcome.is_whole)
+        return report({service, outcome.answer, outcome.heard,
+                       outcome.answer ? describe(*outcome.answer) : "invalid: " + outcome.flaw});
+    if (!outcome.answer) return lost(outcome);
+    const Frame& frame = *outcome.answer;
+    if (outcome.one_shot) report({service, frame, outcome.heard, describe(frame)});
+    const bool negative =
+        frame.kind == FrameKind::no_data && (frame.fc & 0x0F) >= 1 && (frame.fc & 0x0F) <= 3;
+    if (negative) return on_negative(outcome, now);
+    switch (service) {
+        case Service::fdl_status:
+            if (state_ == MasterState::searching && !outcome.one_shot && frame.kind == FrameKind::no_data) {
+                requester_.begin_sequence();
+                enter(MasterState::asking);
+            }
+            return;
+        case Service::slave_diag: return on_slave_diag(outcome, now);
+        case Service::set_prm:
+        case Service::chk_cfg:
+            if (frame.kind != FrameKind::short_ack)
+                complain(fmt::format("{} is answered with {} instead of SC", text(service), describe(frame)));
+            else if (!outcome.one_shot && state_ == MasterState::parameterising)
+                enter(MasterState::configuring);
+            else if (!outcome.one_shot && state_ == MasterState::configuring)
+                enter(MasterState::awaiting_ready);
+            return;
+        case Service::data_exchange: return on_data_exchange(outcome);
+        case Service::get_cfg:
+        case Service::global_control:
+        case Service::raw: return;
     }
-    if (lost.one_shot) {
-        report({lost.order.service,
-                {},
-                why.empty() ? Octets{} : heard_,
-                why.empty() ? "no answer" : "invalid answer: " + why});
-    } else if (state_ != MasterState::searching && state_ != MasterState::stopped) {
+}
+
+void Master::lost(const Requester::Outcome& outcome)
+{
+    const Service service = outcome.order.service;
+    if (outcome.one_shot)
+        return report({service,
+                       {},
+                       outcome.heard,
+                       outcome.flaw.empty() ? "no answer" : "invalid answer: " + outcome.flaw});
+    if (state_ != MasterState::searching && state_ != MasterState::stopped)
         leave_exchange(fmt::format("station {} no longer answers (no answer to {} after {} attempts)",
-                                   settings_.slave, text(lost.order.service), lost.tries + 1),
+                                   settings_.slave, text(service), outcome.tries + 1),
                        MasterState::searching);
+}
+
+void Master::on_negative(const Requester::Outcome& outcome, Instant now)
+{
+    ++counters_.refused;
+    if (outcome.one_shot || state_ == MasterState::stopped) return;
+    auto words =
+        fmt::format("{} is answered with {}", text(outcome.order.service), describe(*outcome.answer));
+    if (state_ == MasterState::data_exchange)
+        return leave_exchange(words + ": the slave is not in data exchange any more", MasterState::asking);
+    if (state_ != MasterState::configuring) return refuse(std::move(words), now);
+    cfg_refusal_ = std::move(words); // the reason stands in the diagnosis
+    enter(MasterState::awaiting_ready);
+}
+
+void Master::on_slave_diag(const Requester::Outcome& outcome, Instant now)
+{
+    const Frame& frame = *outcome.answer;
+    ++counters_.diagnosis_reads;
+    if (frame.kind == FrameKind::short_ack || frame.kind == FrameKind::no_data || (frame.fc & 0x0F) != 0x08)
+        return complain("Slave_Diag is answered with " + describe(frame) + " instead of DL");
+    auto diagnosis = parse_diagnosis(frame.data);
+    if (!diagnosis) return complain(diagnosis.error());
+    diagnosis_ = std::move(*diagnosis);
+    if (outcome.one_shot && state_ != MasterState::data_exchange) return;
+    if (state_ == MasterState::data_exchange && told_diagnosis_ != diagnosis_->octets) {
+        told_diagnosis_ = diagnosis_->octets;
+        if (!outcome.one_shot) events_.push_back({MasterEvent::Kind::diagnosis, {}, std::nullopt});
+    }
+    judge_start_up(*diagnosis_, now);
+}
+
+void Master::judge_start_up(const Diagnosis& d, Instant now)
+{
+    const bool foreign = d.master != 0xFF && d.master != settings_.address;
+    switch (state_) {
+        case MasterState::asking:
+            if (foreign) return refuse(fmt::format("the slave belongs to master {}", d.master), now);
+            cfg_refusal_.clear();
+            return enter(MasterState::parameterising);
+        case MasterState::awaiting_ready:
+            if (d.prm_fault() && d.ident != settings_.ident)
+                return refuse(
+                    fmt::format(
+                        "Set_Prm was refused: its ident is 0x{:04X}, the slave's is 0x{:04X} (--ident)",
+                        settings_.ident, d.ident),
+                    now);
+            if (d.prm_fault())
+                return refuse(
+                    fmt::format("Set_Prm was refused: the slave does not like User_Prm_Data ({} octets: {})",
+                                settings_.user_prm.size(), hex(settings_.user_prm)),
+                    now);
+            if (d.not_supported())
+                return refuse("Set_Prm was refused: Sync or Freeze is not supported (--no-sync-freeze)", now);
+            if (d.cfg_fault())
+                return refuse("Chk_Cfg was refused: Cfg_Data " + hex(settings_.cfg) + " does not fit", now);
+            if (foreign) return refuse(fmt::format("the slave now belongs to master {}", d.master), now);
+            if (d.prm_required()) return refuse("the slave has dropped its parameters again", now);
+            if (!cfg_refusal_.empty()) return refuse(cfg_refusal_, now);
+            if (d.not_ready() || d.stat_diag()) return;
+            enter(MasterState::data_exchange);
+            orders_.push_front(
+                {Service::global_control, {static_cast<std::uint8_t>(clear_ ? 0x02 : 0x00), 0x00}});
+            return;
+        case MasterState::data_exchange:
+            diagnosis_due_ = d.stat_diag();
+            if (d.not_ready() || d.prm_required() || foreign)
+                leave_exchange("diagnosis says that the slave is not in data exchange any more",
+                               MasterState::asking);
+            return;
+        default: return;
     }
 }
 
-void Master::whole_answer(Bytes octets, Instant now)
+void Master::on_data_exchange(const Requester::Outcome& outcome)
 {
-    const auto frame = decode(octets);
-    if (pending_->order.service == Service::raw) {
-        report({Service::raw, frame ? std::optional{*frame} : std::nullopt, heard_,
-                frame ? describe(*frame) : "invalid: " + frame.error()});
-        return finished(now);
+    const Frame& frame = *outcome.answer;
+    const unsigned function = frame.fc & 0x0FU;
+    const bool high_priority = frame.kind != FrameKind::short_ack && function == 0x0A;
+    const bool data = frame.kind == FrameKind::variable || frame.kind == FrameKind::fixed;
+    const bool fits = lengths_.inputs == 0 ? !data : data && frame.data.size() == lengths_.inputs;
+    if (state_ != MasterState::data_exchange) return;
+    if (!fits || (data && function != 0x08 && !high_priority))
+        return leave_exchange(
+            fmt::format("Data_Exchange should bring {} octets, but {}", lengths_.inputs, describe(frame)),
+            MasterState::asking);
+    inputs_ = frame.data;
+    if (high_priority) {
+        ++counters_.diagnosis_pending;
+        diagnosis_due_ = true;
     }
-    const std::string flaw = frame ? flaw_of(*frame) : frame.error();
-    if (!flaw.empty()) { // once the line has fallen idle, the request is repeated
-        rx_flaw_ = flaw;
-        rx_ = heard_;
-        return;
-    }
-    if (pending_->counted) { // confirmed: the next one carries the other frame count bit
-        fcb_ = first_ ? false : !fcb_;
-        first_ = false;
-    }
-    if (pending_->one_shot) report({pending_->order.service, *frame, heard_, describe(*frame)});
-    handle(*frame, now);
-    finished(now);
+    counters_.answer_min =
+        counters_.cycles == 0 ? outcome.took : std::min(counters_.answer_min, outcome.took);
+    counters_.answer_max = std::max(counters_.answer_max, outcome.took);
+    counters_.answer_sum += outcome.took;
+    ++counters_.cycles;
 }
 
-void Master::finished(Instant now)
+void Master::refuse(std::string why, Instant now)
 {
-    pending_.reset();
-    rx_.clear();
-    idle_until_ = now + duration_of(kTid1, settings_.baud);
+    if (why != last_refusal_) events_.push_back({MasterEvent::Kind::refused, why, std::nullopt});
+    last_refusal_ = std::move(why);
+    next_cycle_ = now + kRefusalPause;
+    state_ = MasterState::asking;
+}
+
+void Master::leave_exchange(std::string why, MasterState to)
+{
+    if (state_ == MasterState::data_exchange) ++counters_.exchanges_lost;
+    events_.push_back({MasterEvent::Kind::lost, std::move(why), std::nullopt});
+    enter(to);
+}
+
+void Master::enter(MasterState state)
+{
+    if (state == state_) return;
+    if (state_ == MasterState::data_exchange) inputs_.clear(); // old values must not pass for present ones
+    state_ = state;
+    if (state == MasterState::data_exchange) {
+        diagnosis_due_ = false;
+        told_diagnosis_.clear();
+        last_refusal_.clear();
+    }
+    events_.push_back({MasterEvent::Kind::state, std::string{text(state)}, std::nullopt});
+}
+
+void Master::complain(std::string words)
+{
+    events_.push_back({MasterEvent::Kind::complaint, std::move(words), std::nullopt});
+}
+
+void Master::report(Answer answer)
+{
+    std::string words = answer.words;
+    events_.push_back({MasterEvent::Kind::answer, std::move(words), std::move(answer)});
 }
 
 } // namespace dpslave::sim

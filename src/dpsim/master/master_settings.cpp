@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master.hpp"
+#include "master_settings.hpp"
 
 #include <fmt/format.h>
 
@@ -42,7 +42,7 @@ double microseconds(std::chrono::nanoseconds t)
 std::vector<std::string> in_words(const MasterCounters& c)
 {
     std::vector<std::string> lines{fmt::format("{} cycles, {} retries, {} requests without answer, {} "
-                                               "invalid answers, {} octets nobody asked for",
+                                               "invalid answers, {} octets that were not asked for",
                                                c.cycles, c.retries, c.missing, c.invalid, c.unasked_octets),
                                    fmt::format("{} diagnosis reads, {} answers with diagnosis pending, {} "
                                                "refusals, {} times out of data exchange",
