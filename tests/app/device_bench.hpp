@@ -21,7 +21,7 @@ public:
         station.profile = profile_;
         station.personality = personality_;
         station.tags = std::make_shared<const drive::TagTable>();
-        view.config = &station;
+        view.config = {std::shared_ptr<void>{}, &station};
         view.line = &line;
         view.line_open = true;
         bus.valid = true;
@@ -87,7 +87,7 @@ public:
 
     config::StationConfig station;
     config::LineConfig line;
-    app::StationView view;
+    app::Station view;
     app::BusSnapshot bus;
 
 private:

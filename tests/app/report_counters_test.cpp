@@ -80,14 +80,14 @@ TEST(CountersReport, TellsTheDelayOfADriveThatIsAlwaysLateAndTheTimeOutThatItNee
     config::StationConfig config;
     config.name = "unwinder";
     View view;
-    StationView station{};
-    station.config = &config;
+    Station station{};
+    station.config = std::make_shared<const config::StationConfig>(config);
     station.drive.heard = {.damaged = 1,
                            .late = 2,
                            .foreign = 3,
                            .late_in_a_row = drive::kAlwaysLate,
                            .delay = std::chrono::milliseconds{420}};
-    view.stations.push_back(station);
+    view.stations = {&station, 1};
     const json group = counters_json(view, Instant{}).at("groups").at(1);
     const auto value = [&](const std::string& name) {
         for (const json& one : group.at("counters"))

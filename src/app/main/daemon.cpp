@@ -4,7 +4,8 @@
 #include "app/bus/bus_thread.hpp"
 #include "app/bus/driver_guard.hpp"
 #include "main_thread.hpp"
-#include "plant.hpp"
+#include "runtime.hpp"
+#include "self_test.hpp"
 
 #include "dpslave/app/service.hpp"
 #include "dpslave/app/version.hpp"
@@ -66,6 +67,19 @@ std::string rate_in_words(const config::BusConfig& bus)
     return fmt::format("{} bit/s", static_cast<std::uint32_t>(*bus.baud));
 }
 
+/// Runs the self-test and logs what has failed.
+bool passes_self_test()
+{
+    constexpr int kReadings = 1'000'000; // of a clock that may be a coarse one
+    const Instant earlier = io::monotonic_now();
+    Instant later = earlier;
+    for (int i = 0; i < kReadings && later <= earlier; ++i) later = io::monotonic_now();
+    const auto failures = self_test(kKnownTelegram, earlier, later);
+    for (const std::string& failure : failures) spdlog::error("self-test: {}", failure);
+    if (!failures.empty()) spdlog::error("the self-test has failed: every station stays silent on the bus");
+    return failures.empty();
+}
+
 /// Tells the bus thread to end and waits for it. False: it hangs in a call of the system.
 bool end(std::jthread& thread, io::EventFd& wake, const BusLink& link)
 {
@@ -99,30 +113,30 @@ ExitStatus run_daemon(const config::Config& config, const std::filesystem::path&
     if (const auto trouble = keep({config.bus.driver_enable, config.bus.port}, runtime_folder()))
         spdlog::warn("{}", *trouble);
     BusLink link;
-    Plant plant{link.failed};
+    Runtime runtime{link.failed, passes_self_test()};
     const auto give_up = [&driver] {
         driver->detach(); // the port goes before it
         return ExitStatus::device_not_opened;
     };
-    if (const auto trouble = plant.open(config)) {
+    if (const auto trouble = runtime.open(config)) {
         spdlog::error("{}", *trouble);
         return give_up();
     }
     DriverGuard guard{*driver, link.baud};
-    MainThread main_thread(config, profiles, plant, link, guard, signals);
+    MainThread main_thread(config, profiles, runtime, link, guard, signals);
     if (const auto trouble = main_thread.open_socket()) {
         spdlog::error("{}: [control] socket: {}; set it to a place where this user may write",
                       config.file.string(), *trouble);
         return give_up();
     }
 
-    BusThread bus(config.bus, std::move(*port), *driver, plant.bus_stations(), link);
+    BusThread bus(config.bus, std::move(*port), *driver, runtime.bus_stations(), link);
     io::make_stacks_small();
     if (config.realtime.lock_memory) say_warnings(io::lock_memory());
     spdlog::info("dpslaved {}: {} station(s) on {} at {}", kVersion, config.stations.size(), config.bus.port,
                  rate_in_words(config.bus));
 
-    plant.start();
+    runtime.start();
     guard.start(config.realtime.priority);
     io::EventFd bus_wake;
     std::jthread bus_thread([&](const std::stop_token& stop) {
@@ -139,12 +153,12 @@ ExitStatus run_daemon(const config::Config& config, const std::filesystem::path&
     if (!end(bus_thread, bus_wake, link)) {
         spdlog::critical("the bus thread hangs in a call of the system for {}: the program ends without it",
                          config.bus.port);
-        plant.end(); // meanwhile the guard has the driver enable
-        main_thread.go_dark();
+        runtime.end(); // meanwhile the guard has the driver enable
+        main_thread.release();
         std::_Exit(static_cast<int>(ExitStatus::device_not_opened)); // what it uses cannot be taken away
     }
     static_cast<void>(driver->set(false, io::monotonic_now())); // also after a bus thread that had to give up
-    plant.end();
+    runtime.end();
     spdlog::info("ended");
     return by_signal ? ExitStatus::ended_by_signal : ExitStatus::device_not_opened;
 }

@@ -105,7 +105,7 @@ void DeviceState::adopt(const config::StationConfig& config)
     config_ = &config;
 }
 
-void DeviceState::look(const StationView& station, const BusSnapshot& bus)
+void DeviceState::look(const Station& station, const BusSnapshot& bus)
 {
     look_at_drive(station.drive);
     condition_.data_exchange = station.bus.state == dp::State::data_exch && !station.bus.holds;
@@ -362,7 +362,7 @@ void DeviceState::say_trip()
 }
 
 /// Once for each set of tags: what holds the start, what reads 0, and what to do.
-void DeviceState::say_scales(const StationView& station)
+void DeviceState::say_scales(const Station& station)
 {
     std::string now = scale_words(station).value_or("");
     if (station.bus.state != dp::State::data_exch) scales_said_.clear(); // nothing is chosen any more

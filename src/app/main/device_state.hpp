@@ -38,7 +38,7 @@ public:
     void adopt(const config::StationConfig& config);
 
     /// What is the case now: the snapshots of `station` and of the bus.
-    void look(const StationView& station, const BusSnapshot& bus);
+    void look(const Station& station, const BusSnapshot& bus);
 
     /// The address in force: the one that is set, while it is one.
     std::uint8_t address() const { return address_; }
@@ -93,7 +93,7 @@ private:
     void say_fault();
     void say_trip();
     void say_status();
-    void say_scales(const StationView& station);
+    void say_scales(const Station& station);
 
     const config::StationConfig* config_;
     tec::Settings settings_;

@@ -28,7 +28,7 @@ json optional_json(const std::optional<std::string>& value)
     return value ? json(*value) : json(nullptr);
 }
 
-std::string_view link_text(const StationView& station)
+std::string_view link_text(const Station& station)
 {
     if (!station.line_open) return "silent";
     if (!station.drive.known) return "unknown";
@@ -50,7 +50,7 @@ std::string_view text(WordState state)
     return "?";
 }
 
-json drive_json(const StationView& station)
+json drive_json(const Station& station)
 {
     const drive::UnitSnapshot& drive = station.drive;
     return {{"line", station.line->name},
@@ -74,7 +74,7 @@ json drive_json(const StationView& station)
 }
 
 /// Null: the outputs do not outlive a master. `ends_in_ms` null: they do for ever.
-json ride_json(const StationView& station, Instant now)
+json ride_json(const Station& station, Instant now)
 {
     const auto ends = station.drive.ride_ends;
     if (!ends) return nullptr;
@@ -142,7 +142,7 @@ std::string with_article(std::string_view type)
 }
 
 /// A master exchanges data with it. Held at the start it is in the state and exchanges nothing.
-bool exchanges(const StationView& station)
+bool exchanges(const Station& station)
 {
     return station.bus.state == dp::State::data_exch && !station.bus.holds;
 }
@@ -153,7 +153,7 @@ std::ptrdiff_t exchanging(const View& view)
 }
 
 /// As a controller shows it in its Comms list (C-007).
-json comms_status(const StationView& station)
+json comms_status(const Station& station)
 {
     if (station.config->profile->leds != led::Language::controller) return nullptr;
     return station.bus.state == dp::State::data_exch ? "run" : "rdY";
@@ -211,7 +211,7 @@ json bus_json(const View& view, Instant now)
             {"last_telegram_age_ms", age_json(view.bus.last_telegram, now)}};
 }
 
-json station_json(const StationView& station, Instant now)
+json station_json(const Station& station, Instant now)
 {
     const dp::Snapshot& bus = station.bus;
     return {{"name", station.config->name},
@@ -244,11 +244,11 @@ json station_json(const StationView& station, Instant now)
 json stations_json(const View& view, Instant now)
 {
     json all = json::array();
-    for (const StationView& one : view.stations) all.push_back(station_json(one, now));
+    for (const Station& one : view.stations) all.push_back(station_json(one, now));
     return all;
 }
 
-json info_json(const StationView& station, std::optional<std::uint8_t> pending,
+json info_json(const Station& station, std::optional<std::uint8_t> pending,
                const std::vector<std::string>& notes)
 {
     const config::StationConfig& config = *station.config;
@@ -294,7 +294,7 @@ json info_json(const StationView& station, std::optional<std::uint8_t> pending,
         {"notes", notes}};
 }
 
-json words_json(const StationView& station, Instant now)
+json words_json(const Station& station, Instant now)
 {
     const dp::Snapshot& bus = station.bus;
     const drive::UnitSnapshot& drive = station.drive;
@@ -329,7 +329,7 @@ json words_json(const StationView& station, Instant now)
     return words;
 }
 
-json io_json(const StationView& station, Instant now)
+json io_json(const Station& station, Instant now)
 {
     const dp::Snapshot& bus = station.bus;
     json demand = nullptr;
@@ -352,7 +352,7 @@ std::string status_line(const View& view)
 {
     std::string line = fmt::format("{} of {} in Data_Exch", exchanging(view), view.stations.size());
     if (view.bus.valid && !view.bus.port_open) line += "; port of the bus gone";
-    for (const StationView& one : view.stations) {
+    for (const Station& one : view.stations) {
         line += fmt::format("; {}: {}", one.config->name, dp::text(one.bus.state));
         if (one.bus.master != 0xFF) line += fmt::format(" with master {}", one.bus.master);
         if (one.bus.holds) line += ", held: the scale of a tag is not known";
@@ -413,7 +413,7 @@ std::string bad_value_words(const drive::Tag& tag, AccessError error)
     }
 }
 
-json diagnosis_json(const StationView& station)
+json diagnosis_json(const Station& station)
 {
     json refusal = nullptr;
     if (station.bus.refusal.why != dp::Refusal::none) {

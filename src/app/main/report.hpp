@@ -3,7 +3,7 @@
 /// (org.dpslaved.Control.varlink). Nothing here asks another thread; the time is a parameter.
 #pragma once
 
-#include "app/links.hpp"
+#include "station.hpp"
 
 #include "dpslave/base/recent_count.hpp"
 #include "dpslave/config/config.hpp"
@@ -12,26 +12,13 @@
 
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace dpslave::app {
 
 class DeviceState;
-
-/// One station as the main thread sees it now.
-struct StationView {
-    std::uint32_t number = 0; ///< DriveUnit::number
-    const config::StationConfig* config = nullptr;
-    const config::LineConfig* line = nullptr;
-    std::uint8_t address = 0; ///< in force
-    dp::Snapshot bus{};
-    drive::UnitSnapshot drive{};
-    bool line_open = false;
-    bool ever_answered = false;    ///< the drive, since the station is there
-    std::string silent_because;    ///< why it is kept off the bus (FAULT of TEC OPTION), and what to do
-    std::vector<Trouble> troubles; ///< what the drive or the tag table said no to, newest last
-};
 
 struct View;
 
@@ -55,27 +42,27 @@ private:
 struct View {
     const config::Config* config = nullptr;
     BusSnapshot bus{};
-    std::vector<StationView> stations;
-    std::uint64_t lost_events = 0; ///< events that no log could take
+    std::span<const Station> stations; ///< in the order of config.stations
+    std::uint64_t lost_events = 0;     ///< events that no log could take
     CounterHistory history;
 };
 
 nlohmann::json bus_json(const View& view, Instant now);
-nlohmann::json station_json(const StationView& station, Instant now);
+nlohmann::json station_json(const Station& station, Instant now);
 nlohmann::json stations_json(const View& view, Instant now);
 /// `pending`: the address in the configuration file now, when it differs from the active one. `notes`: of
 /// DeviceState.
-nlohmann::json info_json(const StationView& station, std::optional<std::uint8_t> pending,
+nlohmann::json info_json(const Station& station, std::optional<std::uint8_t> pending,
                          const std::vector<std::string>& notes);
-nlohmann::json io_json(const StationView& station, Instant now);
-nlohmann::json words_json(const StationView& station, Instant now);
+nlohmann::json io_json(const Station& station, Instant now);
+nlohmann::json words_json(const Station& station, Instant now);
 /// Which chosen tags have no scale, what becomes of them, and what to do; nothing: none.
-std::optional<std::string> scale_words(const StationView& station);
+std::optional<std::string> scale_words(const Station& station);
 /// The same as values: [{tag, direction, answer, contradicted}].
-nlohmann::json unscaled_json(const StationView& station);
+nlohmann::json unscaled_json(const Station& station);
 /// What the tag table lacks for this tag, and what to do; empty: nothing.
 std::string row_advice(const config::StationConfig& station, std::uint16_t tag);
-nlohmann::json diagnosis_json(const StationView& station);
+nlohmann::json diagnosis_json(const Station& station);
 /// The whole reply of GetCounters.
 nlohmann::json counters_json(const View& view, Instant now);
 /// Of a station that has the function block.

@@ -64,7 +64,7 @@ Group bus_counters(const View& view)
     return {"bus", std::move(c)};
 }
 
-Group station_counters(const StationView& station)
+Group station_counters(const Station& station)
 {
     const dp::Counters& dp = station.bus.counters;
     const drive::UnitSnapshot& drive = station.drive;
@@ -116,7 +116,7 @@ Group station_counters(const StationView& station)
 std::vector<Group> groups_of(const View& view)
 {
     std::vector<Group> groups{bus_counters(view)};
-    for (const StationView& one : view.stations) groups.push_back(station_counters(one));
+    for (const Station& one : view.stations) groups.push_back(station_counters(one));
     return groups;
 }
 
@@ -161,7 +161,7 @@ void CounterHistory::sample(const View& view, Instant now)
     std::vector<std::vector<RecentCount>> next;
     const std::vector<Group> groups = groups_of(view);
     std::vector<std::uint32_t> owners{kOfBus};
-    for (const StationView& one : view.stations) owners.push_back(one.number);
+    for (const Station& one : view.stations) owners.push_back(one.number);
     for (std::size_t i = 0; i < groups.size(); ++i) {
         const auto known = std::find(owners_.begin(), owners_.end(), owners[i]);
         std::vector<RecentCount>& counts = next.emplace_back(

@@ -17,7 +17,7 @@ struct Unscaled {
 };
 
 /// Of the present layout, as far as the drive side has it.
-std::vector<Unscaled> unscaled_of(const StationView& station)
+std::vector<Unscaled> unscaled_of(const Station& station)
 {
     std::vector<Unscaled> found;
     const drive::UnitSnapshot& drive = station.drive;
@@ -43,7 +43,7 @@ std::string listed(const std::vector<Unscaled>& all, bool is_contradicted)
 
 } // namespace
 
-std::optional<std::string> scale_words(const StationView& station)
+std::optional<std::string> scale_words(const Station& station)
 {
     const std::vector<Unscaled> all = unscaled_of(station);
     if (all.empty()) return std::nullopt;
@@ -79,7 +79,7 @@ std::string row_advice(const config::StationConfig& station, std::uint16_t tag)
     return {};
 }
 
-json unscaled_json(const StationView& station)
+json unscaled_json(const Station& station)
 {
     json all = json::array();
     for (const Unscaled& one : unscaled_of(station))

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plant.hpp"
+#include "runtime.hpp"
 
 #include "app/drive/line_backend.hpp"
+#include "device_state.hpp"
 
 #include "dpslave/io/realtime.hpp"
 #include "dpslave/io/tty.hpp"
@@ -24,7 +25,7 @@ std::vector<DriveUnit> units_on(const DriveLine& line, const std::vector<Station
 {
     std::vector<DriveUnit> units;
     for (const Station& station : stations)
-        if (station.line.get() == &line) units.push_back(unit_of(station));
+        if (station.drive_line.get() == &line) units.push_back(unit_of(station));
     return units;
 }
 
@@ -59,33 +60,40 @@ void guarded(std::atomic<bool>& failed, const char* name, const std::function<vo
     }
 }
 
-void DriveLine::tell_to_end()
+void DriveLine::request_stop()
 {
     thread.request_stop();
     wake.ring();
 }
 
-void Plant::end()
+void Runtime::end()
 {
-    for (auto* const lines : {&lines_, &leaving_})
-        for (const auto& line : *lines) line->tell_to_end();
-    for (auto* const lines : {&lines_, &leaving_})
+    for (auto* const lines : {&lines_, &leaving_lines_})
+        for (const auto& line : *lines) line->request_stop();
+    for (auto* const lines : {&lines_, &leaving_lines_})
         for (const auto& line : *lines)
             if (line->thread.joinable()) line->thread.join();
 }
 
-Station Plant::new_station(const config::StationConfig& config, const std::shared_ptr<DriveLine>& line)
+Station Runtime::new_station(const config::StationConfig& config, const std::shared_ptr<DriveLine>& line)
 {
     Station station;
     station.number = ++last_number_;
     station.config = std::make_shared<const config::StationConfig>(config);
     station.link = std::make_shared<StationLink>();
-    station.bus = std::make_shared<BusStation>(*station.config, station.link);
-    station.line = line;
+    station.bus_station = std::make_shared<BusStation>(*station.config, station.link);
+    station.drive_line = line;
+    station.line = &line->config;
+    station.device = std::make_shared<DeviceState>(*station.config, self_test_passed_);
+    station.address = station.device->address();
+    // Before the bus has the station: one that is to be silent never answers.
+    station.ordered = station.device->bus_orders();
+    station.link->bus_orders.publish(station.ordered);
+    station.link->zero_after_ms.store(station.device->zero_after_ms(), std::memory_order_relaxed);
     return station;
 }
 
-std::optional<std::string> Plant::open(const config::Config& config)
+std::optional<std::string> Runtime::open(const config::Config& config)
 {
     std::vector<std::unique_ptr<LineBackend>> backends;
     for (const config::LineConfig& line : config.lines) {
@@ -102,36 +110,36 @@ std::optional<std::string> Plant::open(const config::Config& config)
     return std::nullopt;
 }
 
-void Plant::start()
+void Runtime::start()
 {
     for (const auto& line : lines_) start(*line);
 }
 
-void Plant::start(DriveLine& line)
+void Runtime::start(DriveLine& line)
 {
     line.thread = std::jthread([this, &line](const std::stop_token& stop) {
         guarded(failed_, "drive", [&] { line.work->run(stop, line.wake); });
     });
 }
 
-std::unique_ptr<BusStations> Plant::bus_stations() const
+std::unique_ptr<BusStations> Runtime::bus_stations() const
 {
     auto all = std::make_unique<BusStations>();
-    for (const Station& station : stations_) all->push_back(station.bus);
+    for (const Station& station : stations_) all->push_back(station.bus_station);
     return all;
 }
 
 // ---- the exchange
 
-struct Plant::Next {
+struct Runtime::Next {
     std::vector<std::shared_ptr<DriveLine>> lines;
     std::vector<std::unique_ptr<LineBackend>> backends; ///< opened as a trial, in the order of `lines`
     std::vector<Station> stations;
     std::vector<Work> works;
 };
 
-/// A port that we have cannot be opened for a trial: its present line lets go of it first.
-bool Plant::has_port(const std::string& port) const
+/// A port that a present line has cannot be opened as a trial: that line closes it first.
+bool Runtime::has_port(const std::string& port) const
 {
     const std::string wanted = config::canonical(port);
     return std::any_of(lines_.begin(), lines_.end(), [&wanted](const auto& line) {
@@ -139,13 +147,13 @@ bool Plant::has_port(const std::string& port) const
     });
 }
 
-bool Plant::opens_for_a_trial(const Plan& plan, std::size_t line) const
+bool Runtime::opens_for_a_trial(const Plan& plan, std::size_t line) const
 {
     const Plan::Line& planned = plan.lines[line];
     return (!planned.before || planned.is_opened_anew) && !has_port(plan.config.lines[line].port);
 }
 
-std::optional<std::string> Plant::trouble_of(const Plan& plan) const
+std::optional<std::string> Runtime::trouble_of(const Plan& plan) const
 {
     for (std::size_t i = 0; i < plan.lines.size(); ++i) {
         const config::LineConfig& line = plan.config.lines[i];
@@ -155,7 +163,7 @@ std::optional<std::string> Plant::trouble_of(const Plan& plan) const
     return std::nullopt;
 }
 
-std::optional<std::string> Plant::make_lines(const Plan& plan, Next& next) const
+std::optional<std::string> Runtime::make_lines(const Plan& plan, Next& next) const
 {
     for (std::size_t i = 0; i < plan.lines.size(); ++i) {
         const config::LineConfig& config = plan.config.lines[i];
@@ -170,7 +178,7 @@ std::optional<std::string> Plant::make_lines(const Plan& plan, Next& next) const
     return std::nullopt;
 }
 
-void Plant::make_stations(const Plan& plan, Next& next)
+void Runtime::make_stations(const Plan& plan, Next& next)
 {
     for (std::size_t i = 0; i < plan.stations.size(); ++i) {
         const config::StationConfig& config = plan.config.stations[i];
@@ -185,7 +193,7 @@ void Plant::make_stations(const Plan& plan, Next& next)
 }
 
 /// What a line that goes on has to do with its port. Two names may be those of one port.
-void Plant::plan_port(const Plan& plan, std::size_t index, LineWork& work) const
+void Runtime::plan_port(const Plan& plan, std::size_t index, LineWork& work) const
 {
     const Plan::Line& planned = plan.lines[index];
     if (!planned.is_changed) return;
@@ -201,7 +209,7 @@ void Plant::plan_port(const Plan& plan, std::size_t index, LineWork& work) const
 }
 
 /// What is new for each line that goes on; lines that are new get their threads.
-void Plant::make_works(const Plan& plan, Next& next) const
+void Runtime::make_works(const Plan& plan, Next& next) const
 {
     for (std::size_t i = 0; i < next.lines.size(); ++i) {
         DriveLine& line = *next.lines[i];
@@ -219,7 +227,7 @@ void Plant::make_works(const Plan& plan, Next& next) const
     }
 }
 
-std::optional<std::string> Plant::exchange(const Plan& plan)
+std::optional<std::string> Runtime::exchange(const Plan& plan)
 {
     Next next;
     if (auto trouble = make_lines(plan, next)) return trouble;
@@ -228,18 +236,32 @@ std::optional<std::string> Plant::exchange(const Plan& plan)
     for (std::size_t i = 0; i < next.lines.size(); ++i)
         if (!plan.lines[i].before) start(*next.lines[i]);
 
-    // From here on nothing can fail.
-    for (const auto& line : lines_)
-        if (std::find(next.lines.begin(), next.lines.end(), line) == next.lines.end())
-            leaving_.push_back(line);
-    for (std::size_t i = 0; i < next.lines.size(); ++i) next.lines[i]->config = plan.config.lines[i];
-    lines_ = std::move(next.lines);
-    stations_ = std::move(next.stations);
-    works_ = std::move(next.works);
+    commit(plan, std::move(next));
     return std::nullopt;
 }
 
-void Plant::finish()
+/// Nothing can fail any more.
+void Runtime::commit(const Plan& plan, Next next)
+{
+    for (const auto& line : lines_)
+        if (std::find(next.lines.begin(), next.lines.end(), line) == next.lines.end())
+            leaving_lines_.push_back(line);
+    for (std::size_t i = 0; i < next.lines.size(); ++i) next.lines[i]->config = plan.config.lines[i];
+    std::vector<bool> stays(stations_.size());
+    for (std::size_t i = 0; i < next.stations.size(); ++i) {
+        const auto before = plan.stations[i].stays;
+        if (!before) continue;
+        stays[*before] = true;
+        if (plan.stations[i].is_changed) next.stations[i].device->adopt(*next.stations[i].config);
+    }
+    for (std::size_t i = 0; i < stations_.size(); ++i)
+        if (!stays[i]) leaving_stations_.push_back(std::move(stations_[i]));
+    lines_ = std::move(next.lines);
+    stations_ = std::move(next.stations);
+    works_ = std::move(next.works);
+}
+
+void Runtime::finish()
 {
     for (Work& work : works_) {
         ++work.line->works_offered;
@@ -247,17 +269,17 @@ void Plant::finish()
         work.line->wake.ring();
     }
     works_.clear();
-    for (const auto& line : leaving_) line->tell_to_end();
+    for (const auto& line : leaving_lines_) line->request_stop();
 }
 
-bool Plant::is_settled()
+bool Runtime::is_settled()
 {
-    std::erase_if(leaving_,
+    std::erase_if(leaving_lines_,
                   [](const auto& line) { return line->link.ended.load(std::memory_order_acquire); });
     const bool done = std::all_of(lines_.begin(), lines_.end(), [](const auto& line) {
         return line->link.work_done.load(std::memory_order_acquire) == line->works_offered;
     });
-    return done && leaving_.empty() && works_.empty();
+    return done && leaving_lines_.empty() && works_.empty();
 }
 
 } // namespace dpslave::app

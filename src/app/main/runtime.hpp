@@ -7,6 +7,7 @@
 #include "app/drive/drive_thread.hpp"
 #include "app/links.hpp"
 #include "reload_plan.hpp"
+#include "station.hpp"
 
 #include "dpslave/config/config.hpp"
 
@@ -17,36 +18,31 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace dpslave::app {
 
-/// A drive line at work. Ends its thread when it goes.
+/// A drive line and its thread, which ends with it.
 struct DriveLine {
     explicit DriveLine(config::LineConfig line) : config(std::move(line)) {}
-    void tell_to_end();
+    void request_stop();
 
     config::LineConfig config;
     LineLink link;
     std::unique_ptr<DriveThread> work;
     io::EventFd wake;
     std::uint32_t works_offered = 0;
-    std::jthread thread; ///< last: it ends before what it uses goes
+    std::jthread thread; ///< last: it ends before what it uses is destroyed
 };
 
-/// A station at work.
-struct Station {
-    std::uint32_t number = 0; ///< DriveUnit::number
-    std::shared_ptr<const config::StationConfig> config;
-    std::shared_ptr<StationLink> link;
-    std::shared_ptr<BusStation> bus;
-    std::shared_ptr<DriveLine> line;
-};
-
-class Plant {
+class Runtime {
 public:
-    /// `failed` is set when a thread had to give up; it outlives the plant.
-    explicit Plant(std::atomic<bool>& failed) : failed_(failed) {}
+    /// `failed` is set when a thread had to end early; it outlives this object. After a failed self-test
+    /// every station stays silent.
+    Runtime(std::atomic<bool>& failed, bool self_test_passed)
+        : failed_(failed), self_test_passed_(self_test_passed)
+    {}
 
     /// Opens the lines and makes the stations, before there are any. Nothing: done; else which port cannot be
     /// opened, a sentence with its place in the file.
@@ -57,22 +53,27 @@ public:
     /// before.
     void end();
 
+    /// In the order of the configuration. The main thread keeps in them what it knows.
+    std::vector<Station>& stations() { return stations_; }
     const std::vector<Station>& stations() const { return stations_; }
+    /// Stations that bus and drives are not yet done with. They are kept until take_leaving().
+    const std::vector<Station>& leaving() const { return leaving_stations_; }
+    std::vector<Station> take_leaving() { return std::exchange(leaving_stations_, {}); }
     const std::vector<std::shared_ptr<DriveLine>>& lines() const { return lines_; }
     /// For the bus: those that are there now.
     std::unique_ptr<BusStations> bus_stations() const;
 
-    /// Makes what `plan` asks for and takes over what stays. Ports that nobody of ours has are opened as a
-    /// trial. Nothing: done, stations() and lines() are the new ones, and finish() is to come when the bus
-    /// has let go of those that left. Else why not, a sentence with its place in the file, and all is as
-    /// before. Precondition: is_settled().
+    /// Makes what `plan` asks for and takes over what stays. Ports that none of the present lines has are
+    /// opened as a trial. Nothing: done, stations() and lines() are the new ones, and finish() is due when
+    /// the bus has removed the stations that left. Else why not, a sentence with its place in the file, and
+    /// all is as before. Precondition: is_settled().
     std::optional<std::string> exchange(const Plan& plan);
     /// Why exchange() would refuse `plan`, as far as the file system tells; its sentence. Opens nothing.
     std::optional<std::string> trouble_of(const Plan& plan) const;
-    /// The bus has let go of the stations that left: their drives and lines say farewell, and only then the
-    /// new drives are asked. Nobody waits for that.
+    /// The bus has removed the stations that left: the lines write the safe state of drives that left, then
+    /// they ask the new drives. Does not wait.
     void finish();
-    /// Everybody has said farewell. Ends the threads of lines that have.
+    /// True: every line has done its work, and the threads of lines that left have ended.
     bool is_settled();
 
 private:
@@ -89,12 +90,15 @@ private:
     void make_stations(const Plan& plan, Next& next);
     void plan_port(const Plan& plan, std::size_t index, LineWork& work) const;
     void make_works(const Plan& plan, Next& next) const;
+    void commit(const Plan& plan, Next next);
     void start(DriveLine& line);
 
     std::atomic<bool>& failed_;
+    bool self_test_passed_;
     std::vector<std::shared_ptr<DriveLine>> lines_;
     std::vector<Station> stations_;
-    std::vector<std::shared_ptr<DriveLine>> leaving_;
+    std::vector<Station> leaving_stations_;
+    std::vector<std::shared_ptr<DriveLine>> leaving_lines_;
     std::vector<Work> works_; ///< to be offered by finish()
     std::uint32_t last_number_ = 0;
 };
@@ -102,7 +106,8 @@ private:
 /// "FILE:LINE: ", where the key stands that named a device.
 std::string place(const config::Config& config, unsigned line);
 
-/// What a thread does, under its name. A failure of the system sets `failed`, and the program ends in order.
+/// Runs `work` under the thread name `name`. An exception is logged and sets `failed`: the program then ends
+/// in order.
 void guarded(std::atomic<bool>& failed, const char* name, const std::function<void()>& work);
 
 } // namespace dpslave::app

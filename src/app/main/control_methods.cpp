@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control_methods.hpp"
+
+#include "device_state.hpp"
+
+#include "dpslave/app/version.hpp"
+#include "dpslave/io/clock.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <utility>
+
+namespace dpslave::app {
+
+using control::Caller;
+using control::Done;
+using control::Error;
+using control::Json;
+using control::Reply;
+
+namespace {
+
+/// As the function block shows it; empty: there is no such row.
+std::string input_value(const DeviceState& device, const std::string& parameter)
+{
+    for (const tec::Row& row : device.rows())
+        if (tec::is_called(row, parameter)) return row.shown;
+    return {};
+}
+
+} // namespace
+
+control::Handlers ControlMethods::handlers()
+{
+    const auto with = [](auto method) {
+        return [method](const Json&, const Caller&) -> Reply { return Done{method()}; };
+    };
+    const auto each = [this](auto one) {
+        return [this, one](const Json& parameters, const Caller&) -> Reply {
+            const View& view = parts_.monitor.view();
+            const auto choice = parts_.monitor.choose(parameters, false);
+            if (choice.error) return *choice.error;
+            Json all = Json::array();
+            for (const Station& station : view.stations)
+                if (choice.station == nullptr || choice.station == &station) all.push_back(one(station));
+            return Done{{{"stations", std::move(all)}}};
+        };
+    };
+    const auto one = [this](auto method) {
+        return [this, method](const Json& parameters, const Caller& caller) -> Reply {
+            const auto choice = parts_.monitor.choose(parameters, true);
+            if (choice.error) return *choice.error;
+            return method(*choice.station, parameters, caller);
+        };
+    };
+    const auto now = [] { return io::monotonic_now(); };
+    const Monitor& monitor = parts_.monitor;
+    return {
+        {"GetVersion", with([] {
+             return Json{{"program", "dpslaved"}, {"version", kVersion}, {"interface", control::kInterface}};
+         })},
+        {"GetStatus", [this](const Json&, const Caller&) { return status(); }},
+        {"ListStations", with([&monitor, now] {
+             return Json{{"stations", stations_json(monitor.view(), now())}};
+         })},
+        {"GetInfo", each([this](const Station& station) { return info(station); })},
+        {"GetIo", each([now](const Station& station) { return io_json(station, now()); })},
+        {"GetDiagnosis", each([](const Station& station) { return diagnosis_json(station); })},
+        {"GetCounters", with([&monitor, now] { return counters_json(monitor.view(), now()); })},
+        {"GetLeds", each([this](const Station& station) { return leds(station); })},
+        {"GetTec", [this](const Json& parameters, const Caller&) { return tec(parameters); }},
+        {"Watch", [this](const Json& parameters, const Caller&) { return watch(parameters); }},
+        {"ProbeDrive", one([this](const Station& station, const Json& parameters, const Caller& caller) {
+             return parts_.probes.start(station, parameters, caller);
+         })},
+        {"ReadTag", one([this](const Station& station, const Json& parameters, const Caller& caller) {
+             return parts_.accesses.read(station, parameters, caller);
+         })},
+        {"GetSurveyScope", one([this](const Station& station, const Json&, const Caller&) {
+             return parts_.accesses.survey_scope(station);
+         })},
+        {"Survey", one([this](const Station& station, const Json& parameters, const Caller& caller) {
+             return parts_.accesses.survey(station, parameters, caller);
+         })},
+        {"WriteTag", one([this](const Station& station, const Json& parameters, const Caller& caller) {
+             return parts_.accesses.write(station, parameters, caller);
+         })},
+        {"SetTec", one([this](const Station& station, const Json& parameters, const Caller& caller) {
+             return set_tec(station, parameters, caller);
+         })},
+        {"Reload",
+         [this](const Json& parameters, const Caller&) {
+             return parts_.reload.request(parameters.value("dry_run", false));
+         }},
+    };
+}
+
+Reply ControlMethods::status() const
+{
+    const Instant now = io::monotonic_now();
+    const View& view = parts_.monitor.view();
+    return Done{{{"bus", bus_json(view, now)},
+                 {"stations", stations_json(view, now)},
+                 {"uptime_ms", std::chrono::duration_cast<std::chrono::milliseconds>(now - started_).count()},
+                 {"pid", ::getpid()}}};
+}
+
+Json ControlMethods::info(const Station& station) const
+{
+    auto pending = parts_.file.address_of(station.config->name);
+    if (pending == station.address) pending.reset();
+    return info_json(station, pending, station.device->notes());
+}
+
+Json ControlMethods::leds(const Station& station) const
+{
+    const auto index = static_cast<std::size_t>(&station - parts_.monitor.view().stations.data());
+    return leds_json(*station.config, parts_.lamps.condition(index), io::monotonic_now());
+}
+
+Reply ControlMethods::watch(const Json& parameters)
+{
+    const auto choice = parts_.monitor.choose(parameters, false);
+    if (choice.error) return *choice.error;
+    return parts_.watchers.add(parameters.contains("station") ? choice.station : nullptr);
+}
+
+Reply ControlMethods::tec(const Json& parameters) const
+{
+    const View& view = parts_.monitor.view();
+    const auto choice = parts_.monitor.choose(parameters, false);
+    if (choice.error) return *choice.error;
+    if (parameters.contains("station") && !choice.station->device->has_tec())
+        return Error{"NoTecOption", {{"station", choice.station->config->name}}};
+    Json all = Json::array();
+    for (const Station& station : view.stations)
+        if ((choice.station == nullptr || choice.station == &station) && station.device->has_tec())
+            all.push_back(tec_json(station.config->name, *station.device));
+    return Done{{{"stations", std::move(all)}}};
+}
+
+Reply ControlMethods::set_tec(const Station& station, const Json& parameters, const Caller& caller)
+{
+    const std::string& name = station.config->name;
+    DeviceState& device = *station.device;
+    if (!device.has_tec()) return Error{"NoTecOption", {{"station", name}}};
+
+    const auto parameter = parameters["parameter"].get<std::string>();
+    const auto value = parameters["value"].get<std::string>();
+    const auto refused = [&](const std::string& reason) {
+        return Error{"BadTecValue", {{"parameter", parameter}, {"value", value}, {"reason", reason}}};
+    };
+    // Two stations at one address would answer at the same time.
+    if (const auto address = device.address_after(parameter, value))
+        for (const Station& other : parts_.monitor.view().stations)
+            if (&other != &station && other.address == *address)
+                return refused(fmt::format("address {} is that of station {}: choose another", *address,
+                                           other.config->name));
+    const bool exchanges = station.bus.state == dp::State::data_exch;
+    if (const auto fault = device.fault_after(parameter, value);
+        exchanges && !parameters.value("yes", false) && fault && *fault != OptionFault::none)
+        return Error{"WouldSilence",
+                     {{"station", name},
+                      {"parameter", parameter},
+                      {"value", value},
+                      {"reason", fmt::format("FAULT would be {}", dpslave::text(*fault))}}};
+    const std::string before = input_value(device, parameter);
+    if (const auto reason = device.set(parameter, value)) return refused(*reason);
+    spdlog::info("{}: {} set to {} by {}, before {}", name, parameter, input_value(device, parameter),
+                 words_of(caller), before);
+    parts_.monitor.update_device(station);
+    Json all = Json::array();
+    all.push_back(tec_json(name, device));
+    return Done{{{"stations", std::move(all)}}};
+}
+
+} // namespace dpslave::app

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The methods of org.dpslaved.Control: which one is answered by what. Main thread only.
+#pragma once
+
+#include "lamps.hpp"
+#include "pending_accesses.hpp"
+#include "pending_probes.hpp"
+#include "reload.hpp"
+#include "watchers.hpp"
+
+namespace dpslave::app {
+
+class ControlMethods {
+public:
+    /// What the methods ask. All outlive this object and its handlers.
+    struct Parts {
+        Monitor& monitor;
+        const Lamps& lamps;
+        const ConfigFile& file;
+        PendingAccesses& accesses;
+        PendingProbes& probes;
+        Watchers& watchers;
+        Reload& reload;
+    };
+    /// `started`: of the program.
+    ControlMethods(const Parts& parts, Instant started) : parts_(parts), started_(started) {}
+
+    /// One for each method. They refer to this object.
+    control::Handlers handlers();
+
+private:
+    control::Reply status() const;
+    control::Json info(const Station& station) const;
+    control::Json leds(const Station& station) const;
+    control::Reply watch(const control::Json& parameters);
+    control::Reply tec(const control::Json& parameters) const;
+    control::Reply set_tec(const Station& station, const control::Json& parameters,
+                           const control::Caller& caller);
+
+    Parts parts_;
+    Instant started_;
+};
+
+} // namespace dpslave::app

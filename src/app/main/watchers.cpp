@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "watchers.hpp"
+
+#include "dpslave/io/clock.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dpslave::app {
+
+using control::Json;
+
+Json Watchers::reply(const Station* station, Instant now) const
+{
+    Json stations = Json::array();
+    Json words = Json::array();
+    for (const Station& one : monitor_.view().stations) {
+        if (station != nullptr && station != &one) continue;
+        stations.push_back(station_json(one, now));
+        words.push_back({{"name", one.config->name}, {"words", words_json(one, now)}});
+    }
+    return {{"bus", bus_json(monitor_.view(), now)},
+            {"stations", std::move(stations)},
+            {"words", std::move(words)}};
+}
+
+/// What counts as a change: states, links and values, but no age and no counter.
+std::string Watchers::fingerprint(const Station* station) const
+{
+    std::string all;
+    for (const Station& one : monitor_.view().stations) {
+        if (station != nullptr && station != &one) continue;
+        all += fmt::format("{}/{}/{}/{}/{}/{}/{}/{}:", one.address, static_cast<int>(one.bus.state),
+                           one.bus.master, one.bus.clear, one.drive.known, one.drive.answers, one.line_open,
+                           one.drive.ride_ends.has_value());
+        for (std::size_t k = 0; k < one.bus.layout.count; ++k)
+            all += fmt::format("{}.{}.{}.{};", one.bus.layout.parameters[k].tag, one.bus.inputs[k],
+                               one.bus.outputs[k], static_cast<int>(one.drive.states[k]));
+    }
+    return all;
+}
+
+control::Reply Watchers::add(const Station* station)
+{
+    const std::uint64_t number = replies_.next_stream++;
+    Watcher& watcher = watchers_[number];
+    if (station != nullptr) watcher.station = station->config->name;
+    watcher.sent = fingerprint(station);
+    return control::Stream{.stream = number, .first = reply(station, io::monotonic_now())};
+}
+
+void Watchers::push(Instant now)
+{
+    const auto open = replies_.server->streams();
+    std::erase_if(watchers_, [&open](const auto& one) {
+        return !std::binary_search(open.begin(), open.end(), one.first);
+    });
+    struct Picture {
+        std::string print;
+        Json reply;
+    };
+    std::map<const Station*, Picture> pictures; // many watchers cost no more than a few
+    for (auto& [number, watcher] : watchers_) {
+        const Station* const station = watcher.station ? monitor_.find(*watcher.station) : nullptr;
+        if (watcher.station && station == nullptr) {
+            replies_.server->end_stream(number, monitor_.no_such_station(*watcher.station));
+            continue;
+        }
+        Picture& picture = pictures[station];
+        if (picture.print.empty()) picture.print = fingerprint(station);
+        if (picture.print == watcher.sent) continue;
+        watcher.sent = picture.print;
+        if (picture.reply.is_null()) picture.reply = reply(station, now);
+        replies_.server->push(number, picture.reply);
+    }
+}
+
+} // namespace dpslave::app
