@@ -35,7 +35,7 @@ struct Client::Impl {
     Result<std::optional<std::size_t>, ClientError> read_some(int wake,
                                                               std::optional<std::chrono::milliseconds> limit);
 
-    Descriptor fd;
+    io::Fd fd;
     std::filesystem::path path;
     std::chrono::milliseconds timeout{};
     Framer in{kMaxReply};

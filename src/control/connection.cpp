@@ -61,7 +61,7 @@ std::uint32_t Connection::wanted_events() const noexcept
 {
     std::uint32_t events = 0; // EPOLLHUP and EPOLLERR come unasked
     if (!out_.empty()) events |= EPOLLOUT;
-    // A call that is here already: he has his next turn as soon as a reply to it could be sent.
+    // A call is in the buffer already: its turn comes as soon as a reply to it could be sent.
     if (idle() && holds_calls) events |= EPOLLOUT;
     if (idle() && !holds_calls && !ended_) events |= EPOLLIN;
     return events;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// One caller: octets in, octets out, and what he waits for. Bounded in both directions.
+/// One connection: octets in, octets out, and what its caller waits for. Bounded in both directions.
 #pragma once
 
-#include "descriptor.hpp"
-
 #include "dpslave/control/server.hpp"
+#include "dpslave/io/fd.hpp"
 
 #include <cstdint>
 #include <string>
@@ -14,12 +13,12 @@ namespace dpslave::control {
 
 class Connection {
 public:
-    /// What the caller waits for. While he waits, his further calls stay unread.
+    /// What the caller waits for. Until then its further calls stay unread.
     enum class Waits : std::uint8_t { nothing, later, stream };
 
     /// `id`: the server's number of this connection.
-    Connection(std::uint64_t number_of_connection, Descriptor fd, Caller who, bool operator_rights)
-        : id(number_of_connection), caller(std::move(who)), operates(operator_rights), fd_(std::move(fd))
+    Connection(std::uint64_t number_of_connection, io::Fd fd, Caller peer, bool operator_rights)
+        : id(number_of_connection), caller(std::move(peer)), operates(operator_rights), fd_(std::move(fd))
     {}
 
     int fd() const noexcept { return fd_.get(); }
@@ -28,7 +27,7 @@ public:
     /// Dead, without what waits; epoll reports it once more, so that it is forgotten.
     void cut();
     bool ended() const noexcept { return ended_; }
-    /// Ready for his next call: replies are fetched, nothing is awaited.
+    /// Ready for the next call: replies are fetched, nothing is awaited.
     bool idle() const noexcept { return !dead_ && waits == Waits::nothing && out_.empty(); }
 
     bool all_sent() const noexcept { return out_.empty(); }
@@ -43,7 +42,7 @@ public:
     void drop_output() { std::string{}.swap(out_); }
     std::size_t unsent() const noexcept { return out_.size(); }
 
-    /// What epoll shall report of him now.
+    /// What epoll shall report of it now.
     std::uint32_t wanted_events() const noexcept;
 
     const std::uint64_t id;
@@ -52,14 +51,14 @@ public:
     Framer in{kMaxCall};
     bool holds_calls = false; ///< there may be a whole call in `in`
     Waits waits = Waits::nothing;
-    std::uint64_t number = 0;       ///< the token or stream he waits for
-    std::uint64_t used = 0;         ///< the server's count of uses at his last call or reply
-    std::uint32_t known_events = 0; ///< what epoll was told last
+    std::uint64_t number = 0;       ///< the token or stream that the caller waits for
+    std::uint64_t used = 0;         ///< the server's count of uses at the last call or reply
+    std::uint32_t known_events = 0; ///< as given to epoll last
 
 private:
-    Descriptor fd_;
+    io::Fd fd_;
     std::string out_;
-    bool ended_ = false; ///< he sends no more
+    bool ended_ = false; ///< the caller sends no more
     bool dead_ = false;
 };
 

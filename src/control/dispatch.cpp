@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a call to its reply: which interface, which method, may he, are the parameters right, what does the
-// handler say.
+// From a call to its reply: which interface, which method, is it permitted, are the parameters right, what
+// does the handler say.
 #include "server_impl.hpp"
 
 #include <algorithm>
@@ -36,8 +36,7 @@ void Server::Impl::dispatch(Connection& connection, Call& call)
     Reply reply;
     try {
         reply = answer(connection, call);
-    } catch (
-        const std::exception&) { // a fault of ours costs this caller his connection, not the bus its slave
+    } catch (const std::exception&) { // a fault of ours ends this connection, not the bus its slave
         ++counters.handler_failures;
         return connection.kill();
     }
@@ -92,7 +91,7 @@ Reply Server::Impl::answer_own(const Connection& connection, Call& call)
 void Server::Impl::deliver(Connection& connection, const Call& call, const Reply& reply)
 {
     if (std::holds_alternative<Error>(reply)) ++counters.errors;
-    if (call.oneway) return; // and nobody waits for what comes later
+    if (call.oneway) return; // a later reply has no receiver
     if (const auto* later = std::get_if<Later>(&reply)) {
         if (!laters.emplace(later->token, &connection).second) return send_final(connection, Error{"Busy"});
         connection.waits = Connection::Waits::later;
@@ -127,7 +126,7 @@ void Server::Impl::send(Connection& connection, const std::string& message)
     }
 }
 
-/// Many callers who do not read are no more than a few: the one for whom most waits is ended.
+/// Bounds what waits for all callers together: the connection for which most waits is ended.
 void Server::Impl::bound_unsent()
 {
     for (;;) {

@@ -17,7 +17,7 @@ namespace dpslave::control {
 
 /// Who may call a method.
 enum class Right : std::uint8_t {
-    look,    ///< everybody who reaches the socket
+    look,    ///< every caller
     operate, ///< root and the operator group
 };
 

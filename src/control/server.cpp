@@ -45,25 +45,25 @@ void Server::Impl::accept_callers()
         if (!accept_one()) return;
 }
 
-/// False: nobody waits any more, or nobody can be taken in.
+/// False: no connection waits, or none can be accepted.
 bool Server::Impl::accept_one()
 {
-    Descriptor fd{::accept4(listener.fd(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC)};
+    io::Fd fd{::accept4(listener.fd(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC)};
     if (fd) {
         take_in(std::move(fd));
         return true;
     }
     if (errno == EINTR || errno == ECONNABORTED) return true;
-    if (errno == EMFILE || errno == ENFILE) { // else epoll would report this caller for ever
+    if (errno == EMFILE || errno == ENFILE) { // else epoll would report this connection for ever
         spare.reset();
-        const Descriptor turned_away{::accept4(listener.fd(), nullptr, nullptr, SOCK_CLOEXEC)};
+        const io::Fd turned_away{::accept4(listener.fd(), nullptr, nullptr, SOCK_CLOEXEC)};
         if (turned_away) ++counters.turned_away;
     }
     if (!spare) spare = open_spare();
     return false;
 }
 
-void Server::Impl::take_in(Descriptor fd)
+void Server::Impl::take_in(io::Fd fd)
 {
     Caller caller = settings.identify ? settings.identify(fd.get()) : peer_of(fd.get());
     const bool operates = may_operate(caller, settings.operator_group);
@@ -81,18 +81,17 @@ void Server::Impl::take_in(Descriptor fd)
     connections.emplace(connection->id, std::move(connection));
 }
 
-/// A place for `newcomer`. A user at his share gives up one of his own; when all places are taken, the user
-/// who has the most gives up one. False: there is none to be had.
-bool Server::Impl::make_room(const Connection& newcomer)
+/// A place for a new connection. A user with a full share loses an idle connection; when all places are
+/// taken, the user with the most loses one. False: there is none.
+bool Server::Impl::make_room(const Connection& added)
 {
-    const uid_t uid = newcomer.caller.uid;
+    const uid_t uid = added.caller.uid;
     const bool is_root = uid == 0;
     const std::size_t held = held_by(uid);
     if (!is_root && held >= std::max<std::size_t>(1, settings.max_clients / 4)) return end_idle_of(uid);
-    const std::size_t kept =
-        newcomer.operates ? 0 : std::min(settings.kept_for_operators, settings.max_clients);
+    const std::size_t kept = added.operates ? 0 : std::min(settings.kept_for_operators, settings.max_clients);
     if (connections.size() < settings.max_clients - kept) return true;
-    const auto other = fullest(newcomer.operates);
+    const auto other = fullest(added.operates);
     return other && (is_root || held_by(*other) > held + 1) && end_idle_of(*other);
 }
 
@@ -135,7 +134,7 @@ bool Server::Impl::end_idle_of(uid_t uid)
 void Server::Impl::serve(Connection& connection, std::uint32_t events)
 {
     const bool gone =
-        (events & (EPOLLHUP | EPOLLERR)) != 0; // both directions: nobody reads our replies any more
+        (events & (EPOLLHUP | EPOLLERR)) != 0; // both directions: our replies are not read any more
     if (gone && connection.waits != Connection::Waits::nothing) return connection.kill();
     if (gone) connection.drop_output();
     connection.flush();
@@ -174,8 +173,6 @@ void Server::Impl::settle(Connection& connection)
     event.data.u64 = connection.id;
     ::epoll_ctl(epoll.get(), EPOLL_CTL_MOD, connection.fd(), &event);
 }
-
-// ---------------------------------------------------------------- the door
 
 Result<Server, std::string> Server::open(ServerSettings settings, Handlers handlers)
 {

@@ -30,13 +30,13 @@ struct Server::Impl {
     bool listen();
     void accept_callers();
     bool accept_one();
-    void take_in(Descriptor fd);
-    bool make_room(const Connection& newcomer);
+    void take_in(io::Fd fd);
+    bool make_room(const Connection& added);
     std::size_t held_by(uid_t uid) const;
     std::optional<uid_t> fullest(bool with_operators) const;
     bool end_idle_of(uid_t uid);
     void serve(Connection& connection, std::uint32_t events);
-    /// After anything was done with a connection: tells epoll what to watch, or forgets the connection.
+    /// After anything was done with a connection: tells epoll what to watch, or deletes the connection.
     void settle(Connection& connection);
 
     // dispatch.cpp
@@ -49,15 +49,14 @@ struct Server::Impl {
     void send_final(Connection& connection, const Reply& reply);
     void bound_unsent();
 
-    static Descriptor open_spare() { return Descriptor{::open("/dev/null", O_RDONLY | O_CLOEXEC)}; }
+    static io::Fd open_spare() { return io::Fd{::open("/dev/null", O_RDONLY | O_CLOEXEC)}; }
 
     ServerSettings settings;
     Handlers handlers;
     ListeningSocket listener;
     Interface own_interface, service_interface;
-    Descriptor epoll{::epoll_create1(EPOLL_CLOEXEC)};
-    Descriptor spare =
-        open_spare(); ///< given up for a moment when descriptors run out, to turn a caller away
+    io::Fd epoll{::epoll_create1(EPOLL_CLOEXEC)};
+    io::Fd spare = open_spare(); ///< given up for a moment when descriptors run out, to turn a caller away
     std::map<std::uint64_t, std::unique_ptr<Connection>> connections;
     std::map<std::uint64_t, Connection*> laters, streams; ///< by the application's number
     std::uint64_t last_id = 0;

@@ -31,7 +31,7 @@ const sockaddr* generic(const sockaddr_un& address)
     return static_cast<const sockaddr*>(any);
 }
 
-/// Makes way at `path`: removes a socket that nobody answers on. The reason of a failure is a sentence.
+/// Removes a socket at `path` on which no process answers. The reason of a failure is a sentence.
 Result<bool, std::string> remove_stale(const std::filesystem::path& path)
 {
     struct stat status {};
@@ -66,7 +66,7 @@ Result<ListeningSocket, std::string> ListeningSocket::open(const std::filesystem
     if (!make_address(path, address))
         return Failure{fmt::format("'{}': the path of a socket has 1 to {} characters", path.native(),
                                    sizeof address.sun_path - 1)};
-    Descriptor fd{::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)};
+    io::Fd fd{::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)};
     if (!fd) return Failure{fmt::format("control socket: {}", error_text(errno))};
     if (const auto free = remove_stale(path); !free) return Failure{free.error()};
     if (::bind(fd.get(), generic(address), sizeof address) < 0)
@@ -89,11 +89,11 @@ ListeningSocket::~ListeningSocket()
         ::unlink(path_.c_str());
 }
 
-Result<Descriptor, int> connect_to(const std::filesystem::path& path, std::chrono::milliseconds timeout)
+Result<io::Fd, int> connect_to(const std::filesystem::path& path, std::chrono::milliseconds timeout)
 {
     sockaddr_un address;
     if (!make_address(path, address)) return Failure{ENAMETOOLONG};
-    Descriptor fd{::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0)};
+    io::Fd fd{::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0)};
     if (!fd) return Failure{errno};
     const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(timeout);
     timeval wait{};

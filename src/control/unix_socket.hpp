@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Unix stream sockets: listening at a path, connecting to it, who is at the other end.
+/// Unix stream sockets: listening at a path, connecting to it, the credentials of the other end.
 #pragma once
-
-#include "descriptor.hpp"
 
 #include "dpslave/base/result.hpp"
 #include "dpslave/control/server.hpp"
+#include "dpslave/io/fd.hpp"
 
 #include <sys/types.h>
 
@@ -19,8 +18,7 @@ namespace dpslave::control {
 /// one.
 class ListeningSocket {
 public:
-    /// Mode 0666: everybody may look, and what else a caller may do is asked of the kernel for each
-    /// connection.
+    /// Mode 0666: every user may look. What else a caller may do follows from peer_of().
     static Result<ListeningSocket, std::string> open(const std::filesystem::path& path);
     ListeningSocket(ListeningSocket&&) noexcept = default;
     ListeningSocket& operator=(ListeningSocket&&) = delete;
@@ -29,8 +27,8 @@ public:
     int fd() const noexcept { return fd_.get(); }
 
 private:
-    ListeningSocket(Descriptor fd, std::filesystem::path path) : fd_(std::move(fd)), path_(std::move(path)) {}
-    Descriptor fd_;
+    ListeningSocket(io::Fd fd, std::filesystem::path path) : fd_(std::move(fd)), path_(std::move(path)) {}
+    io::Fd fd_;
     std::filesystem::path path_;
     dev_t device_ = 0;
     ino_t inode_ = 0;
@@ -38,9 +36,9 @@ private:
 
 /// A blocking socket connected to `path`, whose waits in the kernel last at most `timeout`. The reason is an
 /// errno.
-Result<Descriptor, int> connect_to(const std::filesystem::path& path, std::chrono::milliseconds timeout);
+Result<io::Fd, int> connect_to(const std::filesystem::path& path, std::chrono::milliseconds timeout);
 
-/// Who is at the other end of a connected socket. When the kernel does not say: nobody with any right.
+/// The credentials of the other end of a connected socket. Unknown to the kernel: a caller without any right.
 Caller peer_of(int fd);
 
 /// "connection refused" and the like, of an errno.

@@ -16,7 +16,7 @@ namespace dpslave::control {
 /// Why there is no reply.
 struct ClientError {
     enum class Kind : std::uint8_t {
-        no_daemon, ///< nobody serves this socket
+        no_daemon, ///< no process serves this socket
         no_access, ///< the socket is there, but its folder or file is closed to us
         timeout,   ///< the daemon said nothing for the whole time-out
         ended,     ///< the daemon ended the connection

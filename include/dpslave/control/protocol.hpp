@@ -26,7 +26,7 @@ inline constexpr std::size_t kMaxReply = 1024 * 1024;
 inline constexpr int kMaxDepth = 16;
 
 /// Why a run of octets is no message. Counted by the server, which then ends the connection: after one of
-/// these nobody knows where the next message starts or what the caller meant.
+/// these it is unknown where the next message starts and what the caller meant.
 enum class Flaw : std::uint8_t {
     too_long,    ///< no NUL within the limit
     too_deep,    ///< nested deeper than kMaxDepth
@@ -46,7 +46,7 @@ struct Call {
     Json parameters;       ///< an object, empty when the caller sent none
     bool more = false;     ///< the caller takes several replies
     bool oneway = false;   ///< the caller takes no reply
-    bool upgrade = false;  ///< the caller wants another protocol on this connection; nobody here has one
+    bool upgrade = false;  ///< the caller wants another protocol on this connection; there is none
 };
 
 /// A reply as it came.

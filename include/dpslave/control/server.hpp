@@ -2,7 +2,7 @@
 /// The control socket: a Varlink service on a Unix stream socket, without a thread and without a wait of its
 /// own. The main thread puts fd() into its epoll and calls on_ready(). Every caller is bounded: how many
 /// there are, how many of one user, how long a call is, how many calls a round, how much may wait to be read
-/// by him. A caller who is too slow or speaks nonsense loses his connection, and no other one notices.
+/// by it. A caller that is too slow or sends no Varlink loses its connection; others go on undisturbed.
 #pragma once
 
 #include "control/interface.hpp"
@@ -23,7 +23,7 @@
 
 namespace dpslave::control {
 
-/// Who calls, as the kernel says (SO_PEERCRED, SO_PEERGROUPS at the moment of connect).
+/// The caller, as the kernel says (SO_PEERCRED, SO_PEERGROUPS at the moment of connect).
 struct Caller {
     uid_t uid = 65534;
     gid_t gid = 65534;
@@ -67,8 +67,8 @@ struct ServerSettings {
     std::size_t max_clients = 32;           ///< one user id that is not root: a quarter of them at most
     std::size_t kept_for_operators = 4;     ///< of max_clients: they always get in
     std::size_t max_unsent = 2 * kMaxReply; ///< octets that may wait for one slow caller
-    std::size_t max_unsent_of_all = 4 * kMaxReply; ///< above it the one who owes most loses his connection
-    /// Who is at the other end of a connected socket; none: the kernel is asked.
+    std::size_t max_unsent_of_all = 4 * kMaxReply; ///< above it the connection with most is ended
+    /// The credentials of the other end of a connection; none: peer_of().
     std::function<Caller(int fd)> identify;
 };
 
@@ -91,8 +91,8 @@ struct ServerCounters {
 
 class Server {
 public:
-    /// Listens. A socket file that nobody serves is replaced; one that somebody answers on is left alone. The
-    /// reason of a failure is a sentence with the path.
+    /// Listens. A socket file that no process serves is replaced; one on which a process answers is left
+    /// alone. The reason of a failure is a sentence with the path.
     static Result<Server, std::string> open(ServerSettings settings, Handlers handlers);
     Server(Server&&) noexcept;
     Server& operator=(Server&&) noexcept;
@@ -114,7 +114,7 @@ public:
     /// Open streams, by their numbers in ascending order.
     std::vector<std::uint64_t> streams() const;
 
-    /// Who may operate, of those who connect from now on.
+    /// The group that may operate, for connections from now on.
     void set_operators(std::optional<gid_t> group, std::string name);
 
     std::size_t clients() const noexcept;
