@@ -14,7 +14,7 @@ namespace dpslave::control {
 namespace {
 
 constexpr std::uint64_t kListener = 0; ///< epoll's name for the listening socket; connections count from 1
-constexpr int kAcceptedAtOnce = 8;     ///< a flood of callers does not hold the main thread
+constexpr int kAcceptedAtOnce = 64;    ///< a few ms at most: a flood does not hold the main thread
 
 } // namespace
 

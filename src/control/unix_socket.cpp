@@ -13,7 +13,8 @@
 namespace dpslave::control {
 namespace {
 
-constexpr int kBacklog = 32;
+/// A user with many connections at once does not fill it; net.core.somaxconn is above it since Linux 5.4.
+constexpr int kBacklog = 1024;
 
 bool make_address(const std::filesystem::path& path, sockaddr_un& address)
 {

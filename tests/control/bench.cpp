@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench.hpp"
 
-#include <fcntl.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -46,7 +45,7 @@ control::Handlers quiet_handlers()
 }
 
 RawCaller::RawCaller(const std::filesystem::path& socket)
-    : fd_(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0))
+    : fd_(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0))
 {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
@@ -54,7 +53,6 @@ RawCaller::RawCaller(const std::filesystem::path& socket)
     const void* any = &address;
     if (::connect(fd_, static_cast<const sockaddr*>(any), sizeof address) < 0)
         throw std::runtime_error("connect");
-    ::fcntl(fd_, F_SETFL, O_NONBLOCK);
 }
 RawCaller::RawCaller(RawCaller&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
 RawCaller::~RawCaller()

@@ -105,6 +105,19 @@ TEST_F(Fairness, ARoundHasAnEndHoweverManyCallersSendHoweverMuch)
     EXPECT_EQ(calls(), 20u * 50u) << "and none is lost";
 }
 
+TEST_F(Fairness, WhoConnectsBehindAFloodIsTakenInWithinAFewRounds)
+{
+    constexpr std::size_t kFlood = 500;
+    std::vector<RawCaller> flood;
+    for (std::size_t i = 0; i < kFlood; ++i) flood.push_back(bench.caller()); // none of them waits
+    const RawCaller one = bench.caller();
+
+    for (int round = 0; round < 10; ++round) bench.server->on_ready();
+
+    const ServerCounters& counters = bench.server->counters();
+    EXPECT_EQ(counters.connections + counters.turned_away, kFlood + 1);
+}
+
 TEST_F(Fairness, ACallerWithOneCallDoesNotWaitForThoseWithMany)
 {
     std::vector<RawCaller> busy = callers(kShare, 1000);
