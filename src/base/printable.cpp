@@ -11,18 +11,6 @@ std::uint8_t octet_of(char c)
     return static_cast<std::uint8_t>(c);
 }
 
-/// Of a whole character in UTF-8.
-std::uint32_t code_point(std::string_view character)
-{
-    const std::uint8_t first = octet_of(character[0]);
-    std::uint32_t code = first;
-    if (character.size() == 2) code = first & 0x1FU;
-    if (character.size() == 3) code = first & 0x0FU;
-    if (character.size() == 4) code = first & 0x07U;
-    for (const char next : character.substr(1)) code = code << 6 | (octet_of(next) & 0x3FU);
-    return code;
-}
-
 bool is_control(std::uint32_t code)
 {
     const auto within = [code](std::uint32_t from, std::uint32_t to) { return from <= code && code <= to; };
@@ -73,6 +61,17 @@ std::size_t character_length(std::string_view rest) noexcept
         return follows(1) && follows(2) && follows(3) && !overlong && !too_large ? 4 : 0;
     }
     return 0;
+}
+
+std::uint32_t code_point(std::string_view character) noexcept
+{
+    const std::uint8_t first = octet_of(character[0]);
+    std::uint32_t code = first;
+    if (character.size() == 2) code = first & 0x1FU;
+    if (character.size() == 3) code = first & 0x0FU;
+    if (character.size() == 4) code = first & 0x07U;
+    for (const char next : character.substr(1)) code = code << 6 | (octet_of(next) & 0x3FU);
+    return code;
 }
 
 bool is_control(std::string_view character) noexcept

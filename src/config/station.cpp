@@ -2,6 +2,7 @@
 // [[station]]: one PROFIBUS slave address, its device type and its drive.
 #include "parts.hpp"
 
+#include "dpslave/base/printable.hpp"
 #include "dpslave/io/led_sink.hpp"
 #include "dpslave/toml/wording.hpp"
 
@@ -48,6 +49,32 @@ bool is_number(std::string_view name)
     return !digits.empty() && digits.find_first_not_of(legal) == std::string_view::npos;
 }
 
+/// A letter of any language counts where a terminal shows it in one word: no space, no sign of punctuation.
+bool is_letter(std::uint32_t code)
+{
+    const auto within = [code](std::uint32_t from, std::uint32_t to) { return from <= code && code <= to; };
+    const bool is_sign = code == 0xD7 || code == 0xF7 || code == 0x061C || code == 0x1680 || code == 0x180E;
+    return within('A', 'Z') || within('a', 'z') ||
+           (!is_sign && (within(0xC0, 0x1FFF) || within(0x2C00, 0x2DFF) || within(0x3005, 0xD7FF)));
+}
+
+/// What stands on a command line as it is, and never looks like an option.
+bool is_station_name(std::string_view name)
+{
+    constexpr std::size_t longest = 32;
+    if (name.starts_with('-')) return false;
+    std::size_t count = 0;
+    while (!name.empty()) {
+        const std::size_t length = character_length(name);
+        const char first = name.front();
+        const bool is_other = (first >= '0' && first <= '9') || first == '_' || first == '-' || first == '.';
+        if (length == 0 || (!is_other && !is_letter(code_point(name.substr(0, length))))) return false;
+        name.remove_prefix(length);
+        ++count;
+    }
+    return count <= longest;
+}
+
 class StationReader {
 public:
     StationReader(Document& document, const BusConfig& bus, const std::filesystem::path& sysfs,
@@ -64,6 +91,10 @@ public:
             table.refuse("name",
                          "station name " + in_quotes(station.name) +
                              " is a number, which dpctl would take for an address: begin it with a letter.");
+        else if (!is_station_name(station.name))
+            table.refuse("name", "station name " + in_quotes(station.name) +
+                                     " cannot be given on a command line: take letters, digits, '_', '-' and "
+                                     "'.', 32 at most, and do not begin with '-'.");
         if (!station.name.empty())
             names_.check(table, "name", station.name, "station name " + in_quotes(station.name),
                          "give each station a name of its own");

@@ -767,7 +767,23 @@ TEST_F(ConfigFile, a_station_name_that_is_a_number_is_refused)
         EXPECT_THAT(short_forms(bad(with(kGood, "\"unwinder\"", name))),
                     ElementsAre(AllOf(StartsWith("15:8: "), HasSubstr("is a number"))))
             << name;
-    EXPECT_EQ(good(with(kGood, "\"unwinder\"", "\"winder 5\"")).stations[0].name, "winder 5");
+    EXPECT_EQ(good(with(kGood, "\"unwinder\"", "\"winder-5\"")).stations[0].name, "winder-5");
+}
+
+TEST_F(ConfigFile, a_station_name_has_letters_digits_and_three_signs_and_begins_with_no_minus)
+{
+    const std::string longest(32, 'x');
+    for (const std::string& name : {std::string{" "}, std::string{"winder 5"}, std::string{"-h"},
+                                    std::string{"a/b"}, std::string{"a=b"}, std::string{"a\u00A0b"},
+                                    std::string{"a\u2003b"}, std::string{"a\u00D7"}, longest + "x"})
+        EXPECT_THAT(short_forms(bad(with(kGood, "\"unwinder\"", "\"" + name + "\""))),
+                    ElementsAre(AllOf(StartsWith("15:8: "),
+                                      HasSubstr("letters, digits, '_', '-' and '.', 32 at most"))))
+            << name;
+    for (const std::string& name :
+         {longest, std::string{"Abwickler_\u00FC.1"}, std::string{"\u0440\u043E\u043B\u0438\u043A"},
+          std::string{"\u5DFB\u53D6"}})
+        EXPECT_EQ(good(with(kGood, "\"unwinder\"", "\"" + name + "\"")).stations[0].name, name);
 }
 
 TEST_F(ConfigFile, a_control_character_in_a_name_is_refused)
@@ -776,7 +792,7 @@ TEST_F(ConfigFile, a_control_character_in_a_name_is_refused)
         EXPECT_THAT(short_forms(bad(with(kGood, "\"unwinder\"", name))),
                     ElementsAre(AllOf(StartsWith("15:8: "), HasSubstr("control character"))))
             << name;
-    EXPECT_EQ(good(with(kGood, "\"unwinder\"", "\"Abwickler \u00fc\"")).stations[0].name, "Abwickler \u00fc");
+    EXPECT_EQ(good(with(kGood, "\"unwinder\"", "\"Abwickler-\u00fc\"")).stations[0].name, "Abwickler-\u00fc");
 }
 
 /// A machine whose chip of 32 lines begins at 512 in sysfs.

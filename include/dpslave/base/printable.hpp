@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -12,6 +13,9 @@ namespace dpslave {
 /// Octets of the UTF-8 character at the start of `rest`; 0 = none is there (overlong forms and surrogates
 /// included). Source: RFC 3629.
 std::size_t character_length(std::string_view rest) noexcept;
+
+/// The number of a whole character in UTF-8, as character_length() found it.
+std::uint32_t code_point(std::string_view character) noexcept;
 
 /// A control character of C0 (the tab and the ends of lines too) or C1, DEL, a separator of lines, or one
 /// that changes the direction of writing. `character`: one in UTF-8, as character_length() found it.

@@ -95,7 +95,7 @@ struct TecConfig {
 };
 
 struct StationConfig {
-    std::string name;
+    std::string name; ///< letters, digits, "_-.", no "-" first, 32 characters at most; unlike all others
     std::uint8_t address = 0;
     std::shared_ptr<const profile::Profile> profile;
     std::shared_ptr<const dp::Personality>
