@@ -75,7 +75,7 @@ def main():
         os.setgroups([])
         os.setgid(uid)
         os.setuid(uid)
-    callers = [Caller(path, habit) for habit, _ in zip(itertools.cycle(HABITS), range(40))]
+    callers = [Caller(path, habit) for habit, _ in zip(itertools.cycle(HABITS), range(200))]
     for turn in itertools.count():
         for one in callers:
             one.act()
