@@ -28,7 +28,7 @@
 
 namespace dpslave::app {
 
-/// What the main thread wants of a station on the bus.
+/// What a station on the bus is to be, main -> bus.
 struct BusOrders {
     bool enabled = true; ///< false: the station is silent (TEC OPTION: FAULT is not NONE)
     std::uint8_t address = 0;
@@ -57,8 +57,8 @@ struct StationLink {
     Mailbox<DemandAnswer> demand_answer;
     // bus -> drive
     /// Every layout up to this generation has ended. Stored before the outputs of the next layout are
-    /// published, read after them: whoever sees a new layout also sees the end of the old one. It only grows,
-    /// so no end is overwritten.
+    /// published, read after them: a thread that sees a new layout also sees the end of the old one. It only
+    /// grows, so no end is overwritten.
     std::atomic<Generation> ended{0};
     Mailbox<OutputImage> outputs;
     Ring<DemandOrder, 16> demand_orders;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// A Varlink interface description, read: what methods there are and whether a JSON value has the described
-/// type. Pure. The server judges calls with it; the tests of other rooms can judge their replies with it.
+/// type. Pure. The server judges calls with it; the tests of other libraries can judge their replies with it.
 #pragma once
 
 #include "dpslave/control/protocol.hpp"

@@ -33,7 +33,7 @@ public:
     bool may_ask(std::uint8_t unit, Bytes request, bool gave_data);
     /// Judges what has come since the last question.
     void listen() { fall_silent(); }
-    /// Did the unit that was asked last say anything since then, whatever it answered?
+    /// Whether anything came from the unit that was asked last.
     bool heard_unit() const { return heard_unit_; }
     drive::AnswerCounts counts(std::uint8_t unit) const { return owed_.counts(unit); }
 

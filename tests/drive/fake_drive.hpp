@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// An EI-ASCII drive in memory on a serial line with simulated time. Written from the EI-ASCII
-/// reference, sections 1 and 4, by a second hand: it shares no encoder with the room under test. Values are
-/// kept as the text that travels.
+/// reference, sections 1 and 4, by a second hand: it shares no encoder with the library under test. Values
+/// are kept as the text that travels.
 #pragma once
 
 #include "dpslave/base/units.hpp"

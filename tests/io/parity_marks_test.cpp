@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The marks of PARMRK, as termios(3) describes them, undone again.
-#include "dpslave/io/parity_marks.hpp"
+#include "io/tty/parity_marks.hpp"
 
 #include <gtest/gtest.h>
 

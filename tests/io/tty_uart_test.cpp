@@ -289,7 +289,7 @@ TEST(UartTrigger, OfAChipWithoutFifoIsNoneAndNoWarning)
     Uart uart = uart_of(PORT_16450, 115'200, "serial8250");
     uart.folder = fs::temp_directory_path() / "dpslave-no-such-folder";
 
-    EXPECT_THAT(hand_on_at_once(uart), IsEmpty());
+    EXPECT_THAT(set_prompt(uart), IsEmpty());
 }
 
 TEST(UartLatencyTimer, OfAnFtdiAdapterIsSetToOneMillisecond)

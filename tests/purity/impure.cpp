@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Does what a pure room must not: the check of the symbols has to find it.
+/// Does what a pure library must not: the check of the symbols has to find it.
 #include <chrono>
 #include <string>
 

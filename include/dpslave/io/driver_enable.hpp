@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Who switches the RS-485 transceiver to sending, and how. Inactive but while a reply is on the line: at
-/// start, at the end, and when the port goes. Source: wire reference 11.3; rows.
+/// The driver enable of the RS-485 transceiver. Active only while a reply is on the line; inactive at start,
+/// at the end, and when the port is closed. Source: wire reference 11.3; rows.
 ///
-/// What releases it when the program dies without a word (SIGKILL): with `gpio` the next start, or
-/// `dpslaved --release`, which the service unit runs as ExecStopPost, for most chips keep the level of a line
-/// that nobody holds any more. With `kernel` the UART's driver, at the end of what it still has to send. With
-/// `rts` the kernel, as it closes the port; where RTS is low while sending, `dpslaved --release`.
+/// What makes it inactive after SIGKILL: with `gpio` the next start, or `dpslaved --release`, which the
+/// service unit runs as ExecStopPost, for most chips keep the level of a line that was closed. With `kernel`
+/// the UART's driver, at the end of what it still has to send. With `rts` the kernel, as it closes the port;
+/// where RTS is low while sending, `dpslaved --release`.
 #pragma once
 
 #include "dpslave/base/result.hpp"
@@ -25,9 +25,9 @@ class Tty;
 
 enum class Direction : std::uint8_t {
     none,   ///< the transceiver switches by itself
-    gpio,   ///< a line of a GPIO chip, by us
+    gpio,   ///< the program, by a line of a GPIO chip
     kernel, ///< the UART's driver, by TIOCSRS485
-    rts,    ///< the RTS line of the port, by us
+    rts,    ///< the program, by the RTS line of the port
 };
 std::string_view text(Direction direction) noexcept;
 
@@ -38,8 +38,8 @@ struct DriverEnableSettings {
     /// Of the GPIO, or of RTS: RTS is asserted while sending, and with active_low it is not. (The pin of a
     /// bare UART is low while RTS is asserted.)
     bool active_low = false;
-    /// With Direction::kernel: the receiver stays on while sending, so that our own octets come back to be
-    /// compared (echo = "on"). Off: the driver keeps them from us.
+    /// With Direction::kernel: the receiver stays on while sending, so that the echo of a reply is read
+    /// (echo = "on"). Off: the driver drops it.
     bool receive_own = false;
     friend bool operator==(const DriverEnableSettings&, const DriverEnableSettings&) = default;
 };
@@ -48,9 +48,9 @@ class DriverEnable {
 public:
     /// Takes the GPIO line, inactive, if there is one. The error is a sentence.
     static Result<DriverEnable, std::string> open(const DriverEnableSettings& settings);
-    /// After a program that died: makes inactive what that one may have left active, and lets go of it.
-    /// Harmless at any time. `port`: the PROFIBUS tty. The error is a sentence, for example that a program
-    /// has the line.
+    /// After a program that was killed: makes the line inactive that it may have left active, and closes it.
+    /// At any time. `port`: the PROFIBUS tty. The error is a sentence, for example that a program has the
+    /// line.
     static std::optional<std::string> release(const DriverEnableSettings& settings, const std::string& port);
 
     DriverEnable(DriverEnable&&) noexcept;
@@ -61,10 +61,11 @@ public:
     /// the driver took it, and leaves the line inactive. `port` stays where it is until detach(). The error
     /// is a sentence that says which ways this port could do; the port is then not fit to send.
     std::optional<std::string> attach(const Tty& port);
-    /// The port is about to go.
+    /// Before the port is closed.
     void detach() noexcept;
 
-    /// True: set() has to be called around each reply. False: somebody else switches, and set() does nothing.
+    /// True: set() has to be called around each reply. False: transceiver or kernel switch, and set() does
+    /// nothing.
     bool by_hand() const noexcept;
 
     /// Before the first octet is written, and after the last stop bit has gone. No allocation; one system
@@ -89,8 +90,8 @@ public:
     bool drop_if_stuck(Instant now, std::chrono::nanoseconds limit) noexcept;
 
     /// At start, after attach() and before the first set(): whether the line can be switched, and how long an
-    /// edge takes (the middle of several, measured without making the line active: the bus may be alive). The
-    /// error is a sentence.
+    /// edge takes (the median of several, measured without making the line active: the bus may be in use).
+    /// The error is a sentence.
     std::optional<std::string> self_check();
     /// For the log, after self_check(): which way works, how long an edge takes, and which other ways the
     /// port could do.

@@ -12,8 +12,8 @@
 
 namespace dpslave::io {
 
-/// Errors here (a descriptor that cannot be waited for, none left) are mistakes of the program or the end of
-/// the system's means: std::system_error.
+/// Errors here (a descriptor that cannot be waited for, none left) are faults of the program or
+/// of the system: std::system_error.
 class Epoll {
 public:
     Epoll();
@@ -26,10 +26,10 @@ public:
     /// Before the descriptor is closed.
     void remove(int fd);
 
-    /// What is ready, in the first places of `room` (which has at least one). Empty: `timeout` is over, or a
+    /// What is ready, at the begin of `events` (which has at least one). Empty: `timeout` is over, or a
     /// signal interrupted. A timeout of zero or less looks without waiting; nanoseconds::max() waits for
     /// ever.
-    std::span<epoll_event> wait(std::span<epoll_event> room, std::chrono::nanoseconds timeout);
+    std::span<epoll_event> wait(std::span<epoll_event> events, std::chrono::nanoseconds timeout);
 
 private:
     void control(int operation, int fd, std::uint32_t events, std::uint64_t key);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A bell between threads: rung in one, seen by epoll in the other.
+/// A signal from any thread to one that waits in epoll (eventfd(2)).
 #pragma once
 
 #include "dpslave/io/fd.hpp"
@@ -12,7 +12,7 @@ public:
     EventFd();
     int fd() const { return fd_.get(); } ///< readable from ring() to clear()
 
-    /// From any thread; never waits. Rung twice before it is cleared is rung once.
+    /// From any thread; never waits. Twice before clear() is once.
     void ring() noexcept;
     void clear() noexcept;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// One output line of a GPIO character device, through libgpiod (version 1 on Debian 12, 2 on Debian 13:
-/// CMake chooses the source behind this door).
+/// CMake chooses the source).
 #pragma once
 
 #include "dpslave/base/result.hpp"
@@ -28,10 +28,10 @@ public:
 
     GpioLine(GpioLine&&) noexcept;
     GpioLine& operator=(GpioLine&&) noexcept;
-    ~GpioLine(); ///< inactive, then given back
+    ~GpioLine(); ///< inactive, then closed
 
     /// One system call, no allocation. May be called from any thread, though two at a time only where both
-    /// want the same. An error: the chip has gone, and this object stays dead even if the chip comes back.
+    /// want the same. An error: the chip has gone; every later call fails, too, even if the chip comes back.
     std::error_code set(bool active) noexcept;
 
 private:

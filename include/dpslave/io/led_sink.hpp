@@ -19,7 +19,7 @@ public:
     LedSink() = default;
     LedSink(const LedSink&) = delete;
     LedSink& operator=(const LedSink&) = delete;
-    virtual ~LedSink() = default; ///< leaves the lamp dark
+    virtual ~LedSink() = default; ///< the lamp is off then
 
     /// Writes only what changes. A lamp that has gone is tried again with the next change, or when kPause has
     /// passed: each try may wait for a bus (I2C), and the main loop comes here every few ms.
@@ -49,7 +49,7 @@ std::optional<std::string> judge_led_sink(const std::string& sink);
 /// The line that a sink of the kind "line:" asks for; nothing: another kind, or its form is wrong.
 std::optional<GpioRequest> line_of_led_sink(const std::string& sink);
 
-/// What `sink` shines on, the same for each of its names as far as <sysfs> tells: two spellings of a path,
+/// What `sink` shines on, the same for each of its names as far as <sysfs> shows: two spellings of a path,
 /// "gpio:N" and "line:CHIP:LINE" of one line. For comparison only. Opens no device.
 std::string led_sink_target(const std::string& sink, const std::filesystem::path& sysfs);
 

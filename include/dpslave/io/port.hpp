@@ -31,14 +31,14 @@ public:
     /// opened. The waits are the first one, twice, four and then always eight times it: 0.5, 1, 2, 4, 4 ...
     /// s. It may block as long as open(2) does, and allocates.
     bool ready(Instant now);
-    /// Closes it: its owner saw that it has gone. The waits begin anew if it was open for as long as the
+    /// Closes it: it has gone. The waits begin anew if it was open for as long as the
     /// longest of them.
     void lose(Instant now);
     /// Closes it: it can be opened, and is of no use for the reason `why`, a sentence with the path. The
     /// waits go on to grow.
     void refuse(Instant now, std::string why);
     /// Why it could not be opened again, or was refused: a sentence with the path. Each reason once, until it
-    /// has changed or the port was lost anew; nothing: there is none, or it was told.
+    /// has changed or the port was lost anew; nothing: there is none, or it was given out.
     std::optional<std::string> take_trouble();
     /// When ready() will try again; kNever while it is open.
     Instant next_try() const { return next_try_; }

@@ -7,7 +7,6 @@
 #include "dpslave/base/result.hpp"
 #include "dpslave/base/units.hpp"
 #include "dpslave/io/fd.hpp"
-#include "dpslave/io/parity_marks.hpp"
 
 #include <bitset>
 #include <chrono>
@@ -23,14 +22,14 @@
 namespace dpslave::io {
 
 struct TtySettings {
-    std::uint32_t baud = 0;        ///< bit/s, any number: what the UART makes of it is read back and judged
-    int data_bits = 8;             ///< 7 or 8
-    char parity = 'E';             ///< 'N', 'E', 'O'
-    int stop_bits = 1;             ///< 1 or 2
-    bool mark_errors = false;      ///< tell bad characters (parity, framing, break) by Chunk::bad_character;
-                                   ///< without it one with wrong parity reads as 00
-    bool drop_rts_at_close = true; ///< open(2) raises RTS; the kernel drops it again, whoever closes the port
-    bool prompt = false; ///< every octet is to be handed on as soon as it has come: receive trigger 1
+    std::uint32_t baud = 0;   ///< bit/s, any number: what the UART makes of it is read back and judged
+    int data_bits = 8;        ///< 7 or 8
+    char parity = 'E';        ///< 'N', 'E', 'O'
+    int stop_bits = 1;        ///< 1 or 2
+    bool mark_errors = false; ///< report bad characters (parity, framing, break) by Chunk::bad_character;
+                              ///< without it one with wrong parity reads as 00
+    bool drop_rts_at_close = true; ///< open(2) raises RTS; the kernel drops it at close, also after a kill
+    bool prompt = false;           ///< read() gives every octet as soon as it has come: receive trigger 1
 };
 
 /// What one read gave.
@@ -48,11 +47,11 @@ struct TtyBauds {
     std::string why_not;
 };
 
-/// Why `path` cannot be opened as a port, as far as the file system tells: it is not there, is a plain file,
+/// Why `path` cannot be opened as a port, as far as the file system shows: it is not there, is a plain file,
 /// or this user may not. A sentence with what to do; nothing is opened and nothing is changed on the line.
 std::optional<std::string> port_trouble(const std::string& path);
 
-struct Uart; // what is behind it; only the room looks into it
+struct Uart; // src/io/tty/uart.hpp
 
 class Tty {
 public:
@@ -69,7 +68,7 @@ public:
     /// What `prompt` did not reach, and what that costs: sentences without the path, for the log.
     const std::vector<std::string>& warnings() const { return warnings_; }
     /// How long a received octet may lie in the port before read() gives it, as far as is known; a USB
-    /// adapter keeps it for up to 16 ms unless it lets itself be told otherwise.
+    /// adapter keeps it for up to 16 ms unless its driver can shorten that.
     std::chrono::nanoseconds hold_back() const;
 
     /// Another rate from now on. What was not sent or read yet is thrown away, and so is what comes within
@@ -97,7 +96,7 @@ public:
     /// Waits until read() has something to say, a hang-up included. False: the time is over.
     bool wait_readable(std::chrono::nanoseconds timeout);
 
-    /// Whether the last stop bit of what was written has gone. Nothing: the driver does not tell (a pty, most
+    /// Whether the last stop bit of what was written has gone. Nothing: the driver does not know (a pty, most
     /// USB adapters); it is not asked again then.
     std::optional<bool> transmitter_empty() const;
     /// The cable of a USB adapter was pulled, the other end of a pty closed.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the Modbus client needs of a line: frames, one way and the other. The line knows no question, the
-/// client knows no descriptor.
+/// What the Modbus client needs of a line: frames, one way and the other. The line does not know what a frame
+/// means, the client has no descriptor.
 #pragma once
 
 #include "dpslave/base/bytes.hpp"

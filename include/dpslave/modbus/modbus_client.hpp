@@ -57,8 +57,8 @@ public:
     AccessError read(drive::UnitAddress unit, const drive::Tag& tag, std::span<std::uint16_t> words) override;
 
     /// One word: function 6, whose answer is sure. Several words and the IEEE area, which refuses function 6:
-    /// function 16; there the drive may accept a register that it does not have, and drop the value in
-    /// silence.
+    /// function 16; there the drive may accept a register that it does not have, and drop the value
+    /// without an error.
     AccessError write(drive::UnitAddress unit, const drive::Tag& tag,
                       std::span<const std::uint16_t> words) override;
 

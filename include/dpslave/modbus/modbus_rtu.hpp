@@ -41,7 +41,7 @@ class RtuLine;
 class ModbusRtu final : public drive::Backend {
 public:
     /// Opens the port. The error is a sentence for the log with path, reason and what to do. `is_open`
-    /// is told when the port vanishes and returns in service; it outlives the back-end.
+    /// says when the port vanishes and returns in service; it outlives the back-end.
     static Result<std::unique_ptr<ModbusRtu>, std::string> open(const RtuSettings& settings,
                                                                 std::atomic<bool>& is_open);
     ~ModbusRtu() override;

@@ -23,7 +23,7 @@ drive::UnitSettings unit_settings(const config::StationConfig& station, const co
     unit.unscaled_holds = station.unscaled_holds;
     unit.output_refresh = station.output_refresh;
     unit.zero_after = station.zero_after;
-    // Modbus instruments keep what they are told in a memory that wears: only what differs is written.
+    // Modbus instruments store each write in a memory that wears: only what differs is written.
     unit.compare_outputs = line.protocol == config::kModbusRtu;
     unit.never_written = station.profile->never_written;
     unit.watched = station.watched;

@@ -24,9 +24,9 @@ class LineUnit : public DriveUnit {
 public:
     explicit LineUnit(const DriveUnit& made_of);
 
-    /// Hands what the bus and the main thread want to the poller, where it is unit `index`.
+    /// From the links to the poller, where the drive is unit `index`.
     void fetch(drive::Poller& poller, std::size_t index);
-    /// Hands to bus and main thread what the poller has. `heard`: of the back-end, if there is one.
+    /// From the poller to the links. `heard`: of the back-end, if there is one.
     void publish(drive::Poller& poller, std::size_t index, const std::optional<drive::AnswerCounts>& heard);
     /// Whether the drive answers, when that has changed.
     void log_link(const drive::UnitSnapshot& now, LimitedLog& log);

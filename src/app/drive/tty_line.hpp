@@ -15,7 +15,7 @@ namespace dpslave::app {
 
 class TtyLine final : public drive::SerialLine {
 public:
-    /// `port` is open. `is_open` tells the main thread when it goes and returns; it outlives the line.
+    /// `port` is open. `is_open` says when it goes and returns, for the main thread; it outlives the line.
     TtyLine(io::Port port, std::atomic<bool>& is_open);
 
     bool write(Bytes octets) override;

@@ -91,9 +91,9 @@ struct DriverEnable::Held {
     ~Held() { static_cast<void>(edge(false)); }
 
     const DriverEnableSettings settings;
-    /// Held while line or port come and go, and by the guard while it uses them. set() needs it not: it runs
-    /// in the same thread as what makes them come and go.
-    std::mutex coming_and_going;
+    /// Held while line or port are exchanged, and by the guard while it uses them. set() does not need it: it
+    /// runs in the thread that exchanges them.
+    std::mutex exchange_mutex;
     std::optional<GpioLine> line; ///< nothing: the chip has gone
     int port = kNoPort;
     serial_rs485 took{}; ///< what the UART's driver made of Direction::kernel
@@ -165,10 +165,11 @@ std::error_code DriverEnable::Held::fall(Instant now) noexcept
     return {};
 }
 
-/// A line of a chip that went is dead, also when the chip is back: it is taken anew, and is inactive by that.
+/// A line of a chip that went stays useless when the chip is back: it is requested anew, and is inactive by
+/// that.
 bool DriverEnable::Held::get_back()
 {
-    const std::lock_guard lock(coming_and_going);
+    const std::lock_guard lock(exchange_mutex);
     if (settings.direction == Direction::gpio) {
         line.reset(); // first, or it would be in use, by ourselves
         auto again = GpioLine::request(request_of(settings));
@@ -233,7 +234,7 @@ std::optional<std::string> DriverEnable::release(const DriverEnableSettings& set
     // anew.
     if (settings.direction != Direction::rts || !settings.active_low) return std::nullopt;
     const Fd fd{::open(port.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)};
-    // Whoever has the port has a lock on it (Tty::open), and RTS in hand.
+    // A program that has the port has a lock on it (Tty::open), and switches RTS.
     int error = !fd || ::flock(fd.get(), LOCK_EX | LOCK_NB) < 0 ? errno : 0;
     if (error == 0) error = drop_rts_on_close(fd.get(), false);
     if (error == 0) error = set_rts(fd.get(), true);
@@ -250,7 +251,7 @@ std::optional<std::string> DriverEnable::attach(const Tty& port)
     if (h.settings.direction == Direction::kernel) trouble = h.attach_kernel(port.fd());
     if (trouble) return "driver enable: " + *trouble;
 
-    const std::lock_guard lock(h.coming_and_going);
+    const std::lock_guard lock(h.exchange_mutex);
     h.port = port.fd();
     if (h.settings.direction == Direction::rts) {
         h.forget();
@@ -264,7 +265,7 @@ void DriverEnable::detach() noexcept
 {
     Held& h = *held_;
     static_cast<void>(h.fall(monotonic_now()));
-    const std::lock_guard lock(h.coming_and_going);
+    const std::lock_guard lock(h.exchange_mutex);
     h.port = kNoPort;
     if (h.settings.direction == Direction::rts) h.forget(); // the line goes with its port
 }
@@ -320,8 +321,8 @@ bool DriverEnable::drop_if_stuck(Instant now, std::chrono::nanoseconds limit) no
     Held& h = *held_;
     const auto since = active_since();
     if (!since || now - *since <= limit) return false;
-    const std::unique_lock lock(h.coming_and_going, std::try_to_lock);
-    if (!lock) return false; // whoever has it makes the line inactive
+    const std::unique_lock lock(h.exchange_mutex, std::try_to_lock);
+    if (!lock) return false; // the other thread makes the line inactive
     std::int64_t seen = ticks(*since);
     if (!h.since.compare_exchange_strong(seen, kGuardAtWork, std::memory_order_acq_rel)) return false;
     const bool dropped = !h.edge(false);

@@ -21,7 +21,7 @@ std::vector<std::string> gpio_chips(const std::filesystem::path& devices);
 std::string why_no_chip(const GpioRequest& request, int error);
 std::string why_ambiguous(const GpioRequest& request, const std::string& one, const std::string& other);
 std::string why_no_line(const GpioRequest& request, std::size_t lines);
-/// `consumer`: who has the line, empty if nobody says so.
+/// `consumer`: the user of the line, empty if it is not known.
 std::string why_not_taken(const GpioRequest& request, int error, std::string_view consumer);
 
 /// `open(path)`: a pointer-like Chip, or an empty one and errno. `label(chip)`: its label. libgpiod has a

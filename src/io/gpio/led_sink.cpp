@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// 0, or errno. An attribute of sysfs takes a value with one write; opened anew each time, so that a lamp
-/// that came back is found again. Lamps change a few times a second: nobody notices the price.
+/// that came back is found again. Lamps change a few times a second only.
 int write_attribute(const fs::path& file, std::string_view value)
 {
     const Fd fd{::open(file.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC)};
@@ -144,7 +144,7 @@ Opened open_gpio(const std::string& sink, const std::string& name, const fs::pat
     std::chrono::milliseconds patience{0}; // a pin that was there before has the rights that it gets
     if (!fs::exists(pin, ignored)) {
         patience = std::chrono::milliseconds{250};
-        // EBUSY: somebody exported it between the look and the write; the pin is there then.
+        // EBUSY: it was exported between the look and the write; the pin is there then.
         if (const int error = write_attribute(gpio / "export", number); error != 0 && error != EBUSY)
             return Failure{sentence(sink, gpio / "export", error, kAdvice)};
     }
@@ -271,7 +271,7 @@ std::string led_sink_target(const std::string& sink, const fs::path& sysfs)
 
 void LedSink::set(bool lit, Instant now)
 {
-    // After a failure nobody knows how the lamp shines: what is wanted counts, not what it showed last.
+    // After a failure the state of the lamp is not known: what is wanted counts, not what it showed last.
     if (lit == wanted_ && !(failed_ && now - tried_ >= kPause)) return;
     wanted_ = lit;
     tried_ = now;

@@ -11,8 +11,8 @@ namespace dpslave::io {
 Epoll::Epoll() : fd_(::epoll_create1(EPOLL_CLOEXEC))
 {
     if (!fd_) throw std::system_error{errno, std::system_category(), "epoll_create1"};
-    epoll_event room{};
-    wait({&room, 1},
+    epoll_event event{};
+    wait({&event, 1},
          {}); // a kernel or a sandbox without epoll_pwait2 says so now and not in the middle of service
 }
 
@@ -40,13 +40,13 @@ void Epoll::control(int operation, int fd, std::uint32_t events, std::uint64_t k
         throw std::system_error{errno, std::system_category(), "epoll_ctl"};
 }
 
-std::span<epoll_event> Epoll::wait(std::span<epoll_event> room, std::chrono::nanoseconds timeout)
+std::span<epoll_event> Epoll::wait(std::span<epoll_event> events, std::chrono::nanoseconds timeout)
 {
     const timespec limit = to_timespec(timeout);
     const bool for_ever = timeout == std::chrono::nanoseconds::max();
-    const int ready = ::epoll_pwait2(fd_.get(), room.data(), static_cast<int>(room.size()),
+    const int ready = ::epoll_pwait2(fd_.get(), events.data(), static_cast<int>(events.size()),
                                      for_ever ? nullptr : &limit, nullptr);
-    if (ready >= 0) return room.first(static_cast<std::size_t>(ready));
+    if (ready >= 0) return events.first(static_cast<std::size_t>(ready));
     if (errno != EINTR) throw std::system_error{errno, std::system_category(), "epoll_pwait2"};
     return {};
 }

@@ -13,7 +13,7 @@ EventFd::EventFd() : fd_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC))
     if (!fd_) throw std::system_error{errno, std::system_category(), "eventfd"};
 }
 
-// Both can fail in one way only, EAGAIN: the bell rings already, or does not ring. Either way all is as it
+// Both can fail in one way only, EAGAIN: it is readable already, or is not readable. Either way all is as it
 // should be.
 void EventFd::ring() noexcept
 {

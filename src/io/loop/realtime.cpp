@@ -21,9 +21,9 @@ std::string text(int error)
     return std::system_category().message(error);
 }
 
-/// With everything locked a new thread's stack counts against the limit as a whole: is there room for some,
+/// With everything locked a new thread's stack counts against the limit as a whole: is there enough for some,
 /// and for what they allocate?
-bool room_for_threads()
+bool has_memory_for_threads()
 {
     constexpr std::size_t kStacks = 32 * kThreadStack;
     void* const probe =
@@ -65,7 +65,7 @@ std::vector<std::string> lock_memory()
     // An arena of its own for each thread would reserve 64 MiB, which counts as locked although it is empty.
     ::mallopt(M_ARENA_MAX, 1);
     if (::mlockall(MCL_CURRENT | MCL_FUTURE) < 0) return {not_locked(text(errno))};
-    if (room_for_threads()) return {};
+    if (has_memory_for_threads()) return {};
     ::munlockall();
     return {not_locked("not enough for the threads")};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpslave/io/parity_marks.hpp"
+#include "parity_marks.hpp"
 
 namespace dpslave::io {
 

@@ -2,6 +2,7 @@
 #include "dpslave/io/tty.hpp"
 
 #include "io/loop/timespec.hpp"
+#include "parity_marks.hpp"
 #include "tty_settings.hpp"
 #include "uart.hpp"
 
@@ -78,9 +79,9 @@ std::optional<std::string> port_trouble(const std::string& path)
 
 namespace {
 
-/// Nobody else reads our octets or writes between them. The lock ends with its owner, however that ends. The
-/// exclusive mode of the tty keeps out those who do not ask for locks, but root ignores it, and on a pty it
-/// outlives its owner as long as the other end stays open: there the lock alone has to do.
+/// No other program reads these octets or writes between them. The lock ends with its owner, however that
+/// ends. The exclusive mode of the tty keeps out those who do not ask for locks, but root ignores it, and on
+/// a pty it outlives its owner as long as the other end stays open: there the lock alone has to do.
 int claim(int fd, bool pty)
 {
     if (::flock(fd, LOCK_EX | LOCK_NB) < 0) return errno;
@@ -122,7 +123,7 @@ Result<Tty, std::string> Tty::open(const std::string& path, const TtySettings& s
     if (const std::string trouble = apply(fd.get(), settings, *uart); !trouble.empty())
         return Failure{path + ": " + trouble};
     Tty tty{std::move(fd), settings, std::move(uart)};
-    if (settings.prompt) tty.warnings_ = hand_on_at_once(*tty.uart_);
+    if (settings.prompt) tty.warnings_ = set_prompt(*tty.uart_);
     return tty;
 }
 

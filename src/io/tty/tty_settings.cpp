@@ -51,7 +51,7 @@ std::string last_error_text()
     return std::system_category().message(errno);
 }
 
-std::string cannot_tell()
+std::string not_readable()
 {
     return "the serial port does not tell its settings (" + last_error_text() +
            "): check that there is a UART behind it";
@@ -60,7 +60,7 @@ std::string cannot_tell()
 /// What the driver made of a rate. c_ospeed counts: the CBAUD bits read back differ by driver.
 std::string read_back(int fd, std::uint32_t asked, Uart& uart, termios2& got)
 {
-    if (::ioctl(fd, TCGETS2, &got) < 0) return cannot_tell();
+    if (::ioctl(fd, TCGETS2, &got) < 0) return not_readable();
     refresh(uart, fd);
     return judge_rate(uart, asked, got.c_ospeed);
 }
@@ -126,7 +126,7 @@ std::string change_rate(int fd, std::uint32_t baud, Uart& uart)
 {
     flush_output(fd); // else the change waits until it has gone
     termios2 wanted{};
-    if (::ioctl(fd, TCGETS2, &wanted) < 0) return cannot_tell();
+    if (::ioctl(fd, TCGETS2, &wanted) < 0) return not_readable();
     wanted.c_cflag &= ~tcflag_t{CBAUD | (CBAUD << IBSHIFT)};
     wanted.c_cflag |= BOTHER;
     wanted.c_ispeed = wanted.c_ospeed = baud;

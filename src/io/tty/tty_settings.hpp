@@ -20,7 +20,7 @@ std::string apply(int fd, const TtySettings& settings, Uart& uart);
 /// clock again. Empty = done, and nothing was allocated; else a sentence without the path.
 std::string change_rate(int fd, std::uint32_t baud, Uart& uart);
 
-/// Whether the last stop bit has gone. Nothing: the driver does not tell, and errno says why.
+/// Whether the last stop bit has gone. Nothing: the driver does not know, and errno says why.
 std::optional<bool> transmitter_empty(int fd);
 
 bool flush_input(int fd); ///< false: errno says why

@@ -194,7 +194,7 @@ std::string judge_rate(const Uart& uart, std::uint32_t asked, std::uint32_t took
     return cannot("it divides its clock by a whole number, which makes " + std::to_string(*wire) + " of it");
 }
 
-std::vector<std::string> hand_on_at_once(const Uart& uart)
+std::vector<std::string> set_prompt(const Uart& uart)
 {
     std::vector<std::string> warnings;
     if (uart.folder.empty()) return warnings;

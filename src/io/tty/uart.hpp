@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the kernel tells about the UART behind a tty, and what follows from it: the rate that is really on
-/// the wire, and how soon a received octet is handed on. Source: wire reference 11.2 and 11.5.
+/// What the kernel knows of the UART behind a tty, and what follows from it: the rate that is really on
+/// the wire, and how soon a received octet can be read. Source: wire reference 11.2 and 11.5.
 #pragma once
 
 #include <chrono>
@@ -15,7 +15,7 @@ namespace dpslave::io {
 struct Uart {
     bool pty = false;             ///< the slave end of a pseudo terminal: it has no UART at all
     int type = 0;                 ///< PORT_... of linux/serial_core.h; 0 = not known
-    std::uint32_t baud_base = 0;  ///< clock / 16, in bit/s; 0 = not told
+    std::uint32_t baud_base = 0;  ///< clock / 16, in bit/s; 0 = not known
     std::string name;             ///< "ttyS1"; empty = sysfs does not know it
     std::string driver;           ///< "serial8250", as sysfs calls it; empty = not known
     std::filesystem::path folder; ///< of the tty in sysfs
@@ -28,7 +28,7 @@ void refresh(Uart& uart, int fd);
 
 /// What an integer divisor makes of `asked` bit/s. The 8250 driver divides by the nearest one and reports the
 /// rate that was asked for (93750 from a base of 115200 is 115200 on the wire). Nothing: this UART does not
-/// divide like that, or does not tell its clock.
+/// divide like that, or its clock is not known.
 std::optional<std::uint32_t> rate_on_the_wire(const Uart& uart, std::uint32_t asked);
 
 /// Drivers round or fall back without an error. The standard wants 0.3 %; that much and the rounding of the
@@ -39,12 +39,12 @@ std::string judge_rate(const Uart& uart, std::uint32_t asked, std::uint32_t took
 /// A clause that says what to do about a rate that the UART cannot make.
 std::string rate_remedy(const Uart& uart);
 
-/// Has every received octet handed on at once, as far as the driver lets itself be told: receive trigger 1,
+/// Makes every received octet readable at once, as far as the driver can: receive trigger 1,
 /// latency timer 1 ms. Gives back what is left of delay, each a sentence without the path, with its cost in
 /// bit times.
-std::vector<std::string> hand_on_at_once(const Uart& uart);
+std::vector<std::string> set_prompt(const Uart& uart);
 
-/// How long an octet may lie in the port before a read gives it, after hand_on_at_once(); 0 = not at all, or
+/// How long an octet may lie in the port before a read gives it, after set_prompt(); 0 = not at all, or
 /// nothing is known about it. `bit_time` at the present rate.
 std::chrono::nanoseconds hold_back(const Uart& uart, std::chrono::nanoseconds bit_time);
 

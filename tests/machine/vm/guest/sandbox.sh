@@ -83,5 +83,5 @@ prove "given root's own rights, when it opens devices from the service's control
     devices_are_those_allowed
 prove "given the service, when its process is looked at, then it has no capability, a system call filter and no limit of locked memory" \
     nothing_but_real_time
-prove "given the unit with a probe in place of the program, when the probe tries all doors, then only the needed ones open" \
+prove "given the unit with a probe in place of the program, when the probe tries all accesses, then only the needed ones are allowed" \
     the_rest_is_shut
