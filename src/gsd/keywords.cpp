@@ -3,9 +3,9 @@
 
 #include "text.hpp"
 
+#include "dpslave/base/edit_distance.hpp"
+
 #include <algorithm>
-#include <numeric>
-#include <vector>
 
 namespace dpslave::gsd {
 namespace {
@@ -173,22 +173,6 @@ constexpr std::array kBlocks = std::to_array<BlockKind>({
     {"UnitDiagType", "EndUnitDiagType"},
 });
 
-/// Letters to add, remove or change.
-std::size_t distance(std::string_view a, std::string_view b)
-{
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0]++;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({changed, row[j] + 1, row[j + 1] + 1});
-        }
-    }
-    return row.back();
-}
-
 } // namespace
 
 const Keyword* find_keyword(std::string_view name)
@@ -214,7 +198,7 @@ const BlockKind* find_closing(std::string_view word)
 
 std::string_view nearest_keyword(std::string_view name)
 {
-    constexpr std::size_t kLongest = 64; // longer ones are nobody's slip of the pen
+    constexpr std::size_t kLongest = 64; // longer ones are no slip of the pen
     constexpr std::size_t kApart = 2;
     if (name.size() < 4 || name.size() > kLongest) return {};
     const std::string wanted = lower(name);
@@ -223,7 +207,7 @@ std::string_view nearest_keyword(std::string_view name)
     for (const Keyword& keyword : kKeywords) {
         const std::size_t longer = std::max(wanted.size(), keyword.name.size());
         if (longer - std::min(wanted.size(), keyword.name.size()) > kApart) continue;
-        const std::size_t apart = distance(wanted, lower(keyword.name));
+        const std::size_t apart = edit_distance(wanted, lower(keyword.name));
         if (apart < best) {
             best = apart;
             nearest = keyword.name;

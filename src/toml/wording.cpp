@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpslave/toml/wording.hpp"
 
+#include "dpslave/base/edit_distance.hpp"
 #include "dpslave/base/printable.hpp"
 
 #include <algorithm>
-#include <numeric>
-#include <utility>
-#include <vector>
 
 namespace dpslave::toml {
 
@@ -38,21 +36,11 @@ std::string_view nearest(std::string_view wrong, std::span<const std::string> le
     std::string_view best;
     std::size_t best_distance = most + 1;
     for (const std::string& candidate : legal) {
-        // Levenshtein's distance, row by row.
-        std::vector<std::size_t> row(candidate.size() + 1);
-        std::iota(row.begin(), row.end(), std::size_t{0});
-        for (std::size_t i = 0; i < wrong.size(); ++i) {
-            std::size_t diagonal = std::exchange(row[0], i + 1);
-            for (std::size_t j = 0; j < candidate.size(); ++j) {
-                const std::size_t replaced = diagonal + (wrong[i] == candidate[j] ? 0U : 1U);
-                diagonal = row[j + 1];
-                row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-            }
-        }
+        const std::size_t distance = edit_distance(wrong, candidate);
         // Something of the word must be kept, or "ab" would be near to every key of two letters.
-        if (row.back() < best_distance && row.back() < std::max(wrong.size(), candidate.size())) {
+        if (distance < best_distance && distance < std::max(wrong.size(), candidate.size())) {
             best = candidate;
-            best_distance = row.back();
+            best_distance = distance;
         }
     }
     return best;

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+/// How much two words differ, for a message that names what was probably meant.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+namespace dpslave {
+
+/// The octets to add, remove or change that make `b` of `a` (Levenshtein). It takes a.size() times b.size()
+/// steps.
+std::size_t edit_distance(std::string_view a, std::string_view b);
+
+} // namespace dpslave
