@@ -70,8 +70,6 @@ void DemandData::end()
     const bool unfetched = !orders_.empty();
     orders_.clear();
     if (unfetched || standing_.kind != DemandOrder::Kind::cancel) give(DemandOrder::Kind::cancel);
-    generation_ = 0;
-    wanted_ = {};
     reply_ = {};
 }
 

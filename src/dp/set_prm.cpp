@@ -48,7 +48,6 @@ Objection check_dpv1_status(const Personality& personality, Bytes user)
 
 Objection read_tags(const PrmLayout& prm, Bytes user, Parameters& taken)
 {
-    taken.tag_count = 0;
     if (prm.list == TagList::none) return std::nullopt;
     std::size_t zero_at = 0; // octet of Set_Prm; 0 = no zero yet
     for (std::size_t at = prm.tags_at; at + 2 <= user.size(); at += 2) {

@@ -84,10 +84,9 @@ void Receiver::on_bytes(Bytes bytes, bool more_follows)
 void Receiver::on_character_error()
 {
     if (!std::exchange(damaged_, true)) untold_ = Flaw::character;
-    if (used_ == 0) return; // no telegram has begun: it is skipped like any octet that cannot begin one
     const auto length = frame_length(Bytes{rx_}.first(used_));
     if (!length || *length == 0) {
-        forget_all(); // the end of this telegram cannot be known any more
+        forget_all(); // no telegram has begun, or its end cannot be known any more
         return;
     }
     rx_[used_++] = 0; // keeps the place of the octet, so that the end of the telegram is found

@@ -380,5 +380,16 @@ TEST_F(DemandData, TheSnapshotShowsRequestAndReply)
     EXPECT_EQ(seen().counters.demand_orders, 1u);
 }
 
+TEST_F(DemandData, TheSnapshotShowsNoReplyOnceTheExchangeHasEnded)
+{
+    demand(0x1037);
+    answer(order(), 0x55AA);
+
+    master.set_prm(board_prm({}, "40 00 00 00 05 33 00"));
+
+    EXPECT_EQ(seen().demand_request, (std::array<std::uint16_t, 4>{}));
+    EXPECT_EQ(seen().demand_reply, (std::array<std::uint16_t, 4>{}));
+}
+
 } // namespace
 } // namespace test

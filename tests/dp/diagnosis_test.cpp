@@ -259,6 +259,13 @@ INSTANTIATE_TEST_SUITE_P(Diagnosis, MalformedBlocks,
                                          Malformed{"IdentifierCutShort", "43 01", ""}),
                          [](const auto& one) { return std::string{one.param.name}; });
 
+TEST_F(Diagnosis, NoBlocksAtAllAreWellFormed)
+{
+    exchanges();
+
+    EXPECT_TRUE(slave.set_ext_diag({}, true));
+}
+
 TEST_F(Diagnosis, ARevisionNumberIsABlockOfOneOctet)
 {
     exchanges();

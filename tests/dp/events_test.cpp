@@ -10,6 +10,7 @@ namespace {
 using dpslave::dp::Event;
 using dpslave::dp::LeaveReason;
 using dpslave::dp::Refusal;
+using dpslave::dp::Service;
 using dpslave::dp::State;
 using Kind = Event::Kind;
 using testing::ElementsAre;
@@ -148,6 +149,18 @@ TEST_F(Events, TheStateHasTheStandardsNames)
     EXPECT_EQ(text(State::wait_prm), "Wait_Prm");
     EXPECT_EQ(text(State::wait_cfg), "Wait_Cfg");
     EXPECT_EQ(text(State::data_exch), "Data_Exch");
+}
+
+TEST(Refusals, AreEachOfTheServiceThatTheirNameSays)
+{
+    EXPECT_EQ(service_of(Refusal::none), Service::none);
+    for (const Refusal why :
+         {Refusal::prm_ident, Refusal::prm_watchdog, Refusal::prm_not_supported, Refusal::prm_length,
+          Refusal::prm_dpv1, Refusal::prm_tag_too_large, Refusal::prm_zero_tag})
+        EXPECT_EQ(service_of(why), Service::set_prm) << text(why);
+    for (const Refusal why : {Refusal::cfg_empty, Refusal::cfg_too_long, Refusal::cfg_identifier,
+                              Refusal::cfg_too_few, Refusal::cfg_too_many, Refusal::cfg_changed})
+        EXPECT_EQ(service_of(why), Service::chk_cfg) << text(why);
 }
 
 TEST_F(Events, TheSnapshotShowsTheWholeSlave)

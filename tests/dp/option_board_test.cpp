@@ -251,5 +251,20 @@ TEST_F(OptionBoard, KeepsTheLastPrmAndCfgForTheReader)
     EXPECT_EQ(dpslave::hex(snapshot.cfg), "50 51");
 }
 
+TEST_F(OptionBoard, ForgetsThemAtTheStartBehindAStopOnly)
+{
+    master.set_prm("88 00 01 0B 05 33 01");
+    master.chk_cfg("50 51");
+    slave.start(bus.now()); // it runs
+    EXPECT_EQ(dpslave::hex(seen().prm), "88 00 01 0B 05 33 01");
+    slave.stop(bus.now());
+    EXPECT_EQ(dpslave::hex(seen().cfg), "50 51");
+
+    slave.start(bus.now());
+
+    EXPECT_TRUE(seen().prm.empty());
+    EXPECT_TRUE(seen().cfg.empty());
+}
+
 } // namespace
 } // namespace test

@@ -139,6 +139,7 @@ TEST_F(RowsFailSafe, X3_EmptyDataExchangeClearsTheOutputs)
     EXPECT_TRUE(left().empty());
     EXPECT_EQ(master.data_exchange("A5 01"), "DL 12 34"); // both forms are legal
     EXPECT_EQ(master.rd_outp(), "DL A5 01");
+    EXPECT_EQ(seen().counters.data_exchange, 3u);
 }
 
 TEST_F(Rows, X4_AnotherLengthLeavesWithoutTakingTheOutputs)

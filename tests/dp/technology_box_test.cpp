@@ -94,6 +94,18 @@ TEST_F(TechnologyBox, RefusesDpV1FunctionsAndSaysWhichOctet)
     EXPECT_EQ(seen().refusal, (RefusalDetail{Refusal::prm_dpv1, 10, 0x00, 0x08}));
 }
 
+TEST_F(TechnologyBox, RefusesEachDpV1BitAlone)
+{
+    for (std::size_t octet = 0; octet < 3; ++octet)
+        for (unsigned bit = octet == 0 ? 3 : 0; bit < 8; ++bit) {
+            Octets status(3);
+            status[octet] = static_cast<std::uint8_t>(1u << bit);
+            master.set_prm(prm(show(status)));
+            EXPECT_EQ(seen().refusal, (RefusalDetail{Refusal::prm_dpv1, static_cast<std::uint16_t>(8 + octet),
+                                                     0, static_cast<std::uint16_t>(1u << bit)}));
+        }
+}
+
 TEST_F(TechnologyBox, WdBaseMakesTheWatchdogCountMilliseconds)
 {
     master.set_prm(prm("04 00 00"));

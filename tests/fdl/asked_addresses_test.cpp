@@ -33,6 +33,8 @@ TEST_F(AskedAddresses, AreToldWithTheMasterThatAsksAndHowOften)
     EXPECT_EQ(unanswered()[0].master, 2);
     EXPECT_EQ(unanswered()[0].requests, 3U);
     EXPECT_EQ(unanswered()[1].address, 9);
+    EXPECT_EQ(unanswered()[1].last, bus.now());
+    EXPECT_LT(unanswered()[0].last, bus.now());
 }
 
 TEST_F(AskedAddresses, AreNotThoseThatAreOnlyAskedForTheirFdlStatus)

@@ -128,6 +128,16 @@ TEST(BaudSearch, ThirtyPercentErrorsAreNotMore)
     EXPECT_EQ(search.baud(), Baud::k1500);
 }
 
+TEST(BaudSearch, ThirtyErrorsIn99CharactersAreMoreThanThirtyPercent)
+{
+    BaudSearch search{BaudSearchSettings{}, Baud::k1500};
+    search.on_characters(69, 29, kStart);
+    EXPECT_EQ(search.baud(), Baud::k1500);
+    search.on_characters(0, 1, kStart);
+
+    EXPECT_EQ(search.baud(), Baud::k500);
+}
+
 TEST(BaudSearch, CharactersAreCountedAnewAtEachRate)
 {
     BaudSearch search{BaudSearchSettings{}, Baud::k1500};

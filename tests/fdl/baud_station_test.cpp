@@ -71,6 +71,14 @@ TEST_F(Searching, WhatIsNoTelegramAtARateThatIsTriedIsNoFlawOfTheLine)
     EXPECT_EQ(station.counters().search_flaws, 1u);
 }
 
+TEST_F(Searching, TelegramThatComesInPiecesIsEvidenceToo)
+{
+    bus.arrives_octet_by_octet(sd2(kMaster, kOther, 0x08, {1, 2}));
+
+    EXPECT_EQ(station.baud_state(), BaudState::baud_control);
+    EXPECT_EQ(station.counters().search_flaws, 0u);
+}
+
 TEST_F(Searching, BrokenTelegramsAreNoEvidence)
 {
     bus.master_sends(octets("10 05 02 49 51 16"));

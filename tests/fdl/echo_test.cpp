@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// What we send comes back, and has to be gone before layer 2 sees it (wire reference 11.7). All telegrams by
 /// hand.
-#include "dpslave/fdl/echo.hpp"
-
 #include "support/wire.hpp"
+
+#include "dpslave/fdl/echo.hpp"
 
 #include <gtest/gtest.h>
 
@@ -215,6 +215,19 @@ TEST(Echo, ThatDoesNotComeCostsNoRequestThatComesInPieces)
             << cut;
         EXPECT_EQ(line.echo.missing(), 1u);
     }
+}
+
+TEST(Echo, IsBrokenUntilOthersMaySpeakAgainAndFromThenOnMissing)
+{
+    Line line(EchoMode::on);
+    line.send();
+    line.hears(kRequest, kQuiet - std::chrono::nanoseconds{1});
+    EXPECT_EQ(line.echo.broken(), 1u);
+    line.send();
+    line.hears(kRequest, kQuiet);
+
+    EXPECT_EQ(line.echo.broken(), 1u);
+    EXPECT_EQ(line.echo.missing(), 1u);
 }
 
 TEST(Echo, ThatIsDueAndNeverCameIsMissingWhenTheNextReplyGoesOut)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The receiver by itself: octets in, telegrams and flaws out.
-#include "dpslave/fdl/receiver.hpp"
-
 #include "bench.hpp"
+
+#include "dpslave/fdl/receiver.hpp"
 
 using namespace dpslave;
 using namespace test;
@@ -100,6 +100,54 @@ TEST_F(Receiver, FindsTheTelegramBehindAStump)
 
     EXPECT_EQ(next(), "unfinished");
     EXPECT_EQ(next(), "49!");
+}
+
+TEST_F(Receiver, LooksForNoTelegramBehindAStumpThatIsGone)
+{
+    reads(octets("10 05"));
+    EXPECT_EQ(next(), "-");
+    now += duration_of(Tbit{33 + 11 * 7}, Baud::k187_5);
+    reads(Octets(first.begin(), first.begin() + 7));
+    EXPECT_EQ(next(), "end delimiter");
+    EXPECT_EQ(next(), "-");
+
+    EXPECT_EQ(receiver.next_deadline(),
+              now + fdl::silence_limit(Baud::k187_5) + duration_of(Tbit{64 * 11}, Baud::k187_5))
+        << "nothing but the end of the second one is waited for";
+}
+
+TEST_F(Receiver, TellsNothingOfWhatWasGivenUpAtAnotherRate)
+{
+    reads(Octets(first.begin(), first.begin() + 4));
+    EXPECT_EQ(next(), "-");
+    EXPECT_TRUE(receiver.on_time(receiver.next_deadline()));
+
+    receiver.restart(Baud::k500);
+
+    EXPECT_EQ(next(), "-");
+}
+
+TEST_F(Receiver, ForgetsTheRestOfAReadAtAnotherRate)
+{
+    reads(joined({first, second, first}));
+    EXPECT_EQ(next(), "5D");
+
+    receiver.restart(Baud::k500);
+
+    EXPECT_EQ(next(), "-");
+    reads(second);
+    EXPECT_EQ(next(), "49!");
+}
+
+TEST_F(Receiver, CountsDamageAnewAtAnotherRate)
+{
+    reads(octets("00"));
+    EXPECT_EQ(next(), "start delimiter");
+
+    receiver.restart(Baud::k500);
+
+    reads(octets("00"));
+    EXPECT_EQ(next(), "start delimiter");
 }
 
 TEST_F(Receiver, ForgetsWhatWasHeardAtAnotherRate)
