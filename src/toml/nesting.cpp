@@ -35,7 +35,7 @@ private:
             case '}': depth_ -= depth_ > 0 ? 1 : 0; break;
             case '.': return ++dots_ >= kMaxNesting;
             case '=':
-            case ',': dots_ = 0; break;
+            case ',':
             case '\n': dots_ = 0; break;
             default: break;
         }

@@ -22,7 +22,7 @@ BusThread::BusThread(const config::BusConfig& config, io::Port port, io::DriverE
     link_.baud.store(layer2_.baud(), std::memory_order_relaxed);
 }
 
-void BusThread::run(std::stop_token stop, io::EventFd& wake)
+void BusThread::run(const std::stop_token& stop, io::EventFd& wake)
 {
     const io::ShallowIdle no_deep_sleep;
     epoll_.add(wake.fd(), EPOLLIN, kWakeKey);

@@ -27,7 +27,7 @@ public:
               std::unique_ptr<BusStations> stations, BusLink& link);
 
     /// Serves the bus until `stop`; then every slave leaves it, with all that leaving means.
-    void run(std::stop_token stop, io::EventFd& wake);
+    void run(const std::stop_token& stop, io::EventFd& wake);
 
 private:
     /// The longest sleep: also the heartbeat, and the resolution of every deadline that is further away.

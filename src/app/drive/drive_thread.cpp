@@ -45,7 +45,7 @@ DriveThread::DriveThread(config::LineConfig line, std::unique_ptr<LineBackend> b
     port_.set_units(units);
 }
 
-void DriveThread::run(std::stop_token stop, io::EventFd& wake)
+void DriveThread::run(const std::stop_token& stop, io::EventFd& wake)
 {
     while (!stop.stop_requested()) {
         take_work();

@@ -29,7 +29,7 @@ public:
                 const std::vector<DriveUnit>& units, LineLink& link);
 
     /// Serves the drives until `stop`; then the outputs go to their safe state, for kSafeStateLimit at most.
-    void run(std::stop_token stop, io::EventFd& wake);
+    void run(const std::stop_token& stop, io::EventFd& wake);
 
 private:
     static constexpr std::chrono::milliseconds kTickWithLayout{

@@ -102,7 +102,7 @@ std::string said(const Facts& f, std::string_view code)
 }
 
 /// The words that are so, else what was said for this reason (Demand Data has no words).
-std::string either(std::string words, std::string reasons)
+std::string either(const std::string& words, const std::string& reasons)
 {
     if (words.empty() || reasons.empty()) return words + reasons;
     return words + "; " + reasons;

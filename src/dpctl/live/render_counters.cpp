@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace dpslave::dpctl {
 namespace {
@@ -22,7 +23,7 @@ std::string bar(std::int64_t count, std::int64_t most)
     constexpr std::int64_t kWidth = 32;
     if (count <= 0) return {};
     const double share = static_cast<double>(count) / static_cast<double>(std::max(count, most));
-    return std::string(std::max<std::size_t>(static_cast<std::size_t>(share * kWidth + 0.5), 1), '#');
+    return std::string(std::max<std::size_t>(static_cast<std::size_t>(std::lround(share * kWidth)), 1), '#');
 }
 
 /// "12", "64 to 79", "14336 and more".

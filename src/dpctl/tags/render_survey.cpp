@@ -42,7 +42,10 @@ std::size_t answering(const Survey& seen)
 std::string about(std::chrono::seconds time)
 {
     std::int64_t s = time.count();
-    if (s >= 600) return fmt::format("{}", age(static_cast<double>((s + 59) / 60) * 60'000));
+    if (s >= 600) {
+        const std::int64_t minutes = (s + 59) / 60;
+        return fmt::format("{}", age(static_cast<double>(minutes) * 60'000));
+    }
     if (s < 60) return fmt::format("{} s", s);
     s = (s + 9) / 10 * 10;
     return s % 60 == 0 ? fmt::format("{} min", s / 60) : fmt::format("{} min {} s", s / 60, s % 60);

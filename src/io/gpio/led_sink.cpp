@@ -205,7 +205,7 @@ std::string device_of(const fs::path& chip)
     std::error_code error;
     for (fs::directory_iterator entry{chip / "device", error}, end; !error && entry != end;
          entry.increment(error)) {
-        const std::string name = entry->path().filename().string();
+        std::string name = entry->path().filename().string();
         if (name.starts_with("gpiochip") && number_of(std::string_view{name}.substr(8))) return name;
     }
     return {};

@@ -171,7 +171,7 @@ std::optional<std::uint32_t> rate_on_the_wire(const Uart& uart, std::uint32_t as
 
 std::string rate_remedy(const Uart& uart)
 {
-    const std::string choice = "choose a rate that it can do, or another adapter";
+    std::string choice = "choose a rate that it can do, or another adapter";
     if (uart.baud_base == 0 || (!uart.driver.empty() && !is_plain_8250(uart))) return choice;
     return choice + "; the driver believes that the UART reaches " + std::to_string(uart.baud_base) +
            " bit/s: if its clock is another one, root tells it so with `setserial " +
