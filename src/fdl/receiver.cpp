@@ -157,7 +157,7 @@ bool Receiver::next_in_buffer()
             damaged_ = false;
             return true;
         }
-        const bool is_new = flaw != Flaw::character && begins_flaw();
+        const bool is_new = begins_flaw();
         failed_ = std::max(failed_, end);
         at_ = boundary;
         if (is_new) return true;

@@ -129,6 +129,16 @@ TEST_F(DamagedPiece, ThatAFifoHeldBackForFourCharactersIsOneFlaw)
     EXPECT_EQ(line.flaws(), 1u);
 }
 
+TEST_F(DamagedPiece, EndsWithAPauseOf77BitTimes)
+{
+    Instant now{std::chrono::seconds{5}};
+    for (const std::uint32_t pause : {0u, 76u, 77u}) {
+        now += line.bus.bits(11 + pause);
+        line.station.on_bytes(octets("00"), now);
+        EXPECT_EQ(line.flaws(), pause < 77 ? 1u : 2u) << pause;
+    }
+}
+
 TEST_F(DamagedPiece, WhoseEndIsGivenUpIsNotCountedOnceMore)
 {
     line.bus.master_sends(octets("00 FF 68 20 20 68 05"));
@@ -145,6 +155,22 @@ TEST_F(DamagedPiece, OfWhichAStumpIsLeftIsNotCountedOnceMoreBehindThePause)
 
     EXPECT_TRUE(line.bus.reply());
     EXPECT_EQ(line.flaws(), 1u);
+
+    line.bus.master_sends(octets("00"));
+    EXPECT_EQ(line.flaws(), 2u) << "but what comes behind the good telegram is";
+}
+
+TEST_F(DamagedPiece, BehindAStumpThatWasGivenUpIsAFlawOfItsOwn)
+{
+    line.bus.master_sends(octets("00 FF 10 05"));
+    line.bus.line_is_idle_for(line.bus.bits(100));
+    line.bus.master_sends(octets("06"));
+    line.bus.line_is_idle_for(milliseconds{50});
+    EXPECT_EQ(line.flaws(), 1u);
+
+    line.bus.master_sends(octets("10 05"));
+    line.bus.line_is_idle_for(milliseconds{50});
+    EXPECT_EQ(line.flaws(), 2u);
 }
 
 TEST_F(DamagedPiece, BehindAStumpThatIsCountedIsAFlawOfItsOwn)
