@@ -105,8 +105,9 @@ bool Receiver::on_time(Instant now)
 
 const Receiver::Heard* Receiver::next()
 {
-    if (const auto flaw = std::exchange(untold_, std::nullopt)) {
-        heard_ = {.telegram = Failure{*flaw}, .at = heard_at_, .newest = false};
+    if (untold_) {
+        heard_ = {.telegram = Failure{*untold_}, .at = heard_at_, .newest = false};
+        untold_.reset();
         return &heard_;
     }
     while (reading_) {
