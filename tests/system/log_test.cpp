@@ -42,6 +42,21 @@ TEST(TheLog, SaysWhoHasSetAnInputOfTheFunctionBlockFromWhatToWhat)
     EXPECT_FALSE(gateway.daemon().ever_said("700000")) << "what was refused was not set";
 }
 
+TEST(TheLog, NamesTheOldValueOfATagThatIsReadForTheDiagnosis)
+{
+    Wiring wiring;
+    wiring.profile = "605";
+    wiring.table = "tag,name,type,decimals,min,max,access,values,start\n"
+                   "31,Reason,WORD,,0000,FFFF,rw,,1234\n";
+    wiring.keys = "[station.tec]\next_diagnostic_tag = 31\n";
+    Gateway gateway{wiring};
+    ASSERT_TRUE(eventually([&] { return gateway.tec("EXT DIAGNOSTIC") == 0x1234; }));
+
+    const Outcome written = gateway.dpctl({"write", "31", "0x0005"});
+    ASSERT_EQ(written.status, 0) << written.err;
+    EXPECT_THAT(line_with(gateway, "tag 31 Reason set to"), ContainsRegex("before [>x0]*1234: done$"));
+}
+
 TEST(TheLog, HasOneLineForADriveThatComesAndGoes)
 {
     Gateway gateway;

@@ -48,14 +48,18 @@ Result<std::uint16_t, Error> word_to_write(const config::StationConfig& station,
     return parsed.word;
 }
 
-/// As the drive line saw it last, of a tag that the master has chosen.
+/// As the drive line saw it last, of a tag that the master has chosen or that is read for the diagnosis.
 std::optional<std::string> known_value(const Station& station, std::uint16_t tag)
 {
+    if (!station.drive.answers) return std::nullopt;
+    const auto shown = [&](std::uint16_t word) { return shown_value(*station.config->tags, tag, word); };
     const Layout& layout = station.bus.layout;
-    if (!station.drive.answers || station.drive.generation != layout.generation) return std::nullopt;
-    for (std::size_t k = 0; k < layout.count; ++k)
-        if (layout.parameters[k].tag == tag && station.drive.updated_at[k] != Instant{})
-            return shown_value(*station.config->tags, tag, station.drive.words[k]);
+    if (station.drive.generation == layout.generation)
+        for (std::size_t k = 0; k < layout.count; ++k)
+            if (layout.parameters[k].tag == tag && station.drive.updated_at[k] != Instant{})
+                return shown(station.drive.words[k]);
+    for (const drive::Watched& one : station.drive.watched)
+        if (one.tag == tag && one.state == WordState::good) return shown(one.word);
     return std::nullopt;
 }
 
