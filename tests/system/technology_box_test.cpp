@@ -360,6 +360,7 @@ protected:
         Master master{*gateway, for_box({"--tags", "55,56w,57w", "--watchdog", "500"})};
         ASSERT_TRUE(master.does("start 30s"));
         ASSERT_TRUE(master.does("out 1 = 500"));
+        ASSERT_TRUE(gateway->drive().says("tag 56 written 5.00"));
         ASSERT_TRUE(master.does("out 2 = 700"));
         ASSERT_TRUE(gateway->drive().says("tag 57 written 7.00"));
         gateway->drive().skip();
