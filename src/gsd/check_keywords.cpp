@@ -84,12 +84,12 @@ void check_value(Judge& judge, const Entry& entry, const Keyword& keyword)
 
 using Seen = std::map<std::pair<std::string, std::uint32_t>, unsigned>; ///< keyword and index: line
 
-void check_one(Judge& judge, const Entry& entry, Place place, Seen& seen)
+void check_one(Judge& judge, const Entry& entry, Section section, Seen& seen)
 {
     if (entry.keyword.empty()) return;
     const Keyword* keyword = find_keyword(entry.keyword);
     if (keyword == nullptr) return unknown(judge, entry);
-    if ((keyword->places & place) == 0)
+    if ((keyword->places & section) == 0)
         return judge.say(entry.line, Weight::error,
                          std::string{keyword->name} + " belongs into a module: move it there.");
     if (entry.keyword != keyword->name)

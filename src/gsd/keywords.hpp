@@ -12,14 +12,14 @@ namespace dpslave::gsd {
 enum class Kind : std::uint8_t { boolean, number, text, octets, family, other };
 
 /// Where a keyword may stand: bits.
-enum Place : std::uint8_t { kUnit = 1, kModule = 2 };
+enum Section : std::uint8_t { kUnit = 1, kModule = 2 };
 
 struct Keyword {
     std::string_view name;
     Kind kind;
     std::uint32_t min, max; ///< of a number; of a text `max` is its longest
     std::uint8_t revision;  ///< GSD_Revision that brought it
-    std::uint8_t places;    ///< of Place
+    std::uint8_t places;    ///< of Section
     bool indexed;           ///< Unit_Diag_Bit(3)
     bool dpv1;              ///< has a meaning with DPV1_Slave = 1 only
 };

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "golden.hpp"
-
 #include "support/wire.hpp"
 
 #include "dpslave/fdl/telegram.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The stations by themselves: a request in, its reply out, no line and no clock.
-#include "dpslave/fdl/stations.hpp"
-
 #include "bench.hpp"
+
+#include "dpslave/fdl/stations.hpp"
 
 using namespace dpslave;
 using namespace test;
