@@ -279,13 +279,40 @@ TEST_F(Reload, TellsAWatcherThatHisStationHasGone)
     EXPECT_TRUE(all.says("rewinder")) << "who watches all of them sees those who come";
 }
 
-TEST_F(Reload, TellsSomebodyWhoWaitsForADriveThatItsStationHasGone)
+/// Sends `calls` in one go, says "sent", and prints the replies, one a line.
+std::vector<std::string> caller_of(const Gateway& gateway, const std::vector<std::string>& calls)
+{
+    const std::string script = "import socket, sys\n"
+                               "s = socket.socket(socket.AF_UNIX)\n"
+                               "s.connect(sys.argv[1])\n"
+                               "s.sendall(b''.join(call.encode() + b'\\0' for call in sys.argv[2:]))\n"
+                               "print('sent', flush=True)\n"
+                               "got = b''\n"
+                               "while got.count(b'\\0') < len(sys.argv) - 2:\n"
+                               "    more = s.recv(65536)\n"
+                               "    assert more, got\n"
+                               "    got += more\n"
+                               "for reply in got.split(b'\\0')[:-1]:\n"
+                               "    print(reply.decode(), flush=True)\n";
+    std::vector<std::string> command{"/usr/bin/python3", "-c", script, gateway.socket().string()};
+    command.insert(command.end(), calls.begin(), calls.end());
+    return command;
+}
+
+constexpr const char* kReadOfRewinder =
+    R"({"method":"org.dpslaved.Control.ReadTag","parameters":{"station":"rewinder","tag":55}})";
+
+TEST_F(Reload, RefusesAReadThatWaitsForADriveWhoseStationLeaves)
 {
     gateway.drive().tell("unit 01");
     gateway.drive().tell("slow 2000"); // beyond the time-out: repeated, and slow in being given up
-    Process read{gateway.dpctl_command({"read", "55", "--station", "rewinder"})};
+    Process caller{caller_of(gateway, {kReadOfRewinder})};
+    ASSERT_TRUE(caller.says("sent"));
+    ASSERT_TRUE(eventually([this] { return gateway.json({"status"}).contains("pid"); })); // and it was heard
+
     EXPECT_EQ(reload(without_rewinder()).status, 0);
-    EXPECT_EQ(read.wait(), 1);
+    EXPECT_TRUE(caller.says("org.dpslaved.Control.DriveRefused"));
+    EXPECT_EQ(caller.wait(), 0);
 }
 
 /// Three calls in one go: the first is answered in the middle of the reload, and the others right behind it.
@@ -293,30 +320,16 @@ TEST_F(Reload, AnswersCallsBehindOneWhoseStationHasGoneOutOfTheNewConfiguration)
 {
     gateway.drive().tell("unit 01");
     gateway.drive().tell("slow 2000");
-    const std::string script =
-        "import socket, sys\n"
-        "s = socket.socket(socket.AF_UNIX)\n"
-        "s.connect(sys.argv[1])\n"
-        "i = 'org.dpslaved.Control.'\n"
-        "calls = ['ReadTag\",\"parameters\":{\"station\":\"rewinder\",\"tag\":55}', 'GetLeds\"', "
-        "'GetInfo\"']\n"
-        "s.sendall(b''.join(('{\"method\":\"' + i + c + '}').encode() + b'\\0' for c in calls))\n"
-        "print('sent', flush=True)\n"
-        "got = b''\n"
-        "while got.count(b'\\0') < 3:\n"
-        "    more = s.recv(65536)\n"
-        "    assert more, got\n"
-        "    got += more\n"
-        "print([reply.count(b'unwinder') > 0 for reply in got.split(b'\\0')[1:3]],\n"
-        "      [reply.count(b'rewinder') for reply in got.split(b'\\0')[1:3]], flush=True)\n";
-    Process caller{{"/usr/bin/python3", "-c", script, gateway.socket().string()}};
+    Process caller{caller_of(gateway, {kReadOfRewinder, R"({"method":"org.dpslaved.Control.GetLeds"})",
+                                       R"({"method":"org.dpslaved.Control.GetInfo"})"})};
     ASSERT_TRUE(caller.says("sent"));
     ASSERT_TRUE(eventually([this] { return gateway.json({"status"}).contains("pid"); })); // and it was heard
 
     write_file(gateway.config(), without_rewinder());
     EXPECT_EQ(gateway.dpctl({"reload", "--json"}).status, 0); // one call: the drive is given up soon
-    EXPECT_TRUE(caller.says("[True, True] [0, 0]"));
     EXPECT_EQ(caller.wait(), 0);
+    EXPECT_FALSE(caller.ever_said("\"name\":\"rewinder\""));
+    EXPECT_TRUE(caller.ever_said("\"name\":\"unwinder\""));
 }
 
 TEST_F(Reload, TakesOverOtherLamps)
