@@ -38,7 +38,9 @@ void add_line(CLI::App& app, LineOptions& o)
     line.add_flag("--any-rate", o.any_rate, "whatever rate the ends are set to is right");
     line.footer(
         "Prints 'ready PATH PATH' when both ends can be opened.\n"
-        "Commands on standard input: cut | restore | baud N | errors P | delay US | stats | quit\n"
+        "Commands on standard input: " +
+        std::string{kLineCommands} +
+        "\n"
         "What is sent or read at another rate than the line's own, beyond 2 %, is garbage, as on a wire.\n"
         "A bit error in a start or stop bit loses the character, wrong parity makes it 00 (as a tty "
         "with INPCK does).\n"

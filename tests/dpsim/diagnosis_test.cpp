@@ -15,8 +15,8 @@ TEST(Diagnosis, OfAFreeSlaveSaysNotReadyAndParametersRequired)
 {
     const auto d = parse_diagnosis(wire("02 05 00 FF 05 33"));
     ASSERT_TRUE(d) << d.error();
-    EXPECT_TRUE(d->not_ready() && d->prm_required());
-    EXPECT_FALSE(d->prm_fault() || d->cfg_fault() || d->stat_diag());
+    EXPECT_TRUE(d->has(kNotReady) && d->has(kPrmRequired));
+    EXPECT_FALSE(d->has(kPrmFault) || d->has(kCfgFault) || d->has(kStatDiag));
     EXPECT_EQ(d->master, 0xFF);
     EXPECT_EQ(d->ident, 0x0533);
 }

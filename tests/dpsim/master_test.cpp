@@ -121,7 +121,7 @@ TEST_F(MasterTest, SaysThatSetPrmWasRefusedAfterChkCfgIsAnsweredWithRs)
     expect("68 0C 0C 68 85 82 5D 3D 3E 88 14 01 0B 47 11 01 E0 16", "E5");
     expect("68 07 07 68 85 82 7D 3E 3E 11 21 32 16", "10 02 05 03 0A 16");
     expect("68 05 05 68 85 82 5D 3C 3E DE 16", "68 0B 0B 68 82 85 08 3E 3C 42 05 00 FF 47 11 27 16");
-    EXPECT_THAT(refusal(), HasSubstr("does not like User_Prm_Data"));
+    EXPECT_THAT(refusal(), HasSubstr("does not take User_Prm_Data"));
     EXPECT_NE(master.state(), MasterState::data_exchange);
 }
 

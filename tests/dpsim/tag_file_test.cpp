@@ -109,12 +109,12 @@ TEST(TagFile, ShowsValuesAsPeopleWriteThem)
     EXPECT_EQ(displayed({.decimals = 2}, {-5}), "-0.05");
     EXPECT_EQ(displayed({.decimals = 0}, {-5000}), "-5000");
     EXPECT_EQ(displayed({.type = TagKind::word}, {0x1B0B}), ">1B0B");
-    EXPECT_EQ(displayed({.type = TagKind::enumeration, .labels = {{false, 2, "Jog"}}}, {2}), "2 (Jog)");
+    EXPECT_EQ(displayed({.type = TagKind::enumeration, .labels = {{2, "Jog"}}}, {2}), "2 (Jog)");
 }
 
 TEST(TagFile, TakesValuesAndLabelsFromPeople)
 {
-    const SimTag mode{.type = TagKind::enumeration, .max = 3, .labels = {{false, 2, "Jog"}}};
+    const SimTag mode{.type = TagKind::enumeration, .max = 3, .labels = {{2, "Jog"}}};
     EXPECT_EQ(value_of_text(mode, "Jog")->counts, 2);
     EXPECT_EQ(value_of_text(mode, "3")->counts, 3);
     EXPECT_FALSE(value_of_text(mode, "4"));

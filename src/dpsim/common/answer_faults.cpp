@@ -12,9 +12,8 @@ constexpr std::int64_t kLongestDelayMs = 60'000;
 
 std::optional<std::chrono::nanoseconds> milliseconds_of(std::string_view text)
 {
-    const auto ms = number_of(text);
-    if (!ms || *ms < 0 || *ms > kLongestDelayMs) return std::nullopt;
-    return std::chrono::milliseconds{*ms};
+    const auto ms = number_of(text, 0, kLongestDelayMs);
+    return ms ? std::optional{std::chrono::milliseconds{*ms}} : std::nullopt;
 }
 
 } // namespace
@@ -45,15 +44,15 @@ std::string AnswerFaults::choose(Fault& fault, const std::vector<std::string>& w
         if (word == "once") {
             fault.once = true;
         } else if (word.starts_with("1/")) {
-            const auto n = number_of(std::string_view{word}.substr(2));
-            if (!n || *n < 1) return "one in N is written as: 1/20";
+            const auto n = number_of(std::string_view{word}.substr(2), 1, INT64_MAX);
+            if (!n) return "one in N is written as: 1/20";
             fault.one_in = *n;
         } else if (word == "every" && has_more) {
             fault.every = duration_of_text(words[++at]);
             if (!fault.every) return "a time is written as: every 3s";
         } else if (word == "tag" && has_more) {
-            const auto tag = number_of(words[++at]);
-            if (!tag || *tag < 0 || *tag > 65'535) return "a tag is a number to 65535: tag 55";
+            const auto tag = number_at(words, ++at, 0, 0xFFFF);
+            if (!tag) return "a tag is a number to 65535: tag 55";
             fault.tag = static_cast<std::uint16_t>(*tag);
         } else {
             return "'" + word + "' chooses no replies: 1/N, every TIME, tag TAG, once";

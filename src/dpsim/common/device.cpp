@@ -41,13 +41,19 @@ std::optional<Octets> DeviceLine::take_reply(Instant now)
     return octets;
 }
 
-void DeviceLine::reply(Device& device, Octets octets, Concerned concerned, Instant due, Instant now)
+void DeviceLine::reply(Device& device, const DeviceFaults& faults, Octets octets, Concerned concerned,
+                       Instant now)
 {
+    if (faults.bad_check && octets.size() > 1)
+        octets.back() = static_cast<std::uint8_t>(octets.back() ^ 0x01);
+    if (faults.garbage)
+        for (std::uint8_t& octet : octets) octet = static_cast<std::uint8_t>(random_() & most_octet_);
+    const auto takes = turnaround_ + faults.slow;
     for (Departure& leaves : device.answer_faults.apply(std::move(octets), concerned, now)) {
-        Instant at = due + leaves.later;
-        for (const Reply& other : replies_) { // one after the other
+        Instant at = now + takes + leaves.later;
+        for (const Reply& other : replies_) {
             if (other.device != &device) continue;
-            at = std::max(at, other.due + (due - now));
+            at = std::max(at, other.due + takes);
             leaves.is_late = leaves.is_late || other.is_late;
         }
         const auto place =

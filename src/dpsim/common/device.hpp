@@ -32,6 +32,14 @@ struct Parameter {
     void put(SimValue to); ///< and stands still there
 };
 
+/// What any device does wrong on request. All faults of a device are set together.
+struct DeviceFaults {
+    bool silence = false;             ///< no request is received, as without power
+    bool bad_check = false;           ///< replies carry a wrong checksum
+    bool garbage = false;             ///< replies are random octets
+    std::chrono::nanoseconds slow{0}; ///< on top of the turnaround
+};
+
 /// One device with its parameters.
 class Device {
 public:
@@ -50,7 +58,7 @@ public:
     /// On the way of its replies, beside what the device itself does wrong.
     AnswerFaults answer_faults{};
 
-    /// Somebody beside the line has put a value into this tag: what follows from it.
+    /// A value was set in another way than over the line: what follows from it.
     virtual void changed(std::uint16_t /*tag*/, Instant /*now*/) {}
 
 protected:
@@ -74,13 +82,19 @@ public:
     std::vector<std::string> take_log() { return std::exchange(log_, {}); }
     void set_logging(bool on) { logging_ = on; }
     void set_echo(bool on) { echo_ = on; }
-    bool echoes() const { return echo_; } ///< all that is heard comes back at once
+    bool echoes() const { return echo_; } ///< what is received is sent back at once
 
 protected:
-    /// A prompt reply of this device would leave at `due`; its faults say what really does. It takes as long
-    /// for each reply, and gives them in the order of the questions.
-    void reply(Device& device, Octets octets, Concerned concerned, Instant due, Instant now);
-    /// The master has gone on: only late replies still come.
+    /// `turnaround`: from the last octet of a request to the first of the reply. `most_octet`: 7Fh on a line
+    /// of 7 data bits, else FFh.
+    DeviceLine(std::chrono::nanoseconds turnaround, std::uint8_t most_octet)
+        : turnaround_(turnaround), most_octet_(most_octet)
+    {}
+
+    /// A reply of this device to a request that was whole at `now`. `faults` and its answer faults say what
+    /// leaves in its place, and when: one reply after the other, in the order of the requests.
+    void reply(Device& device, const DeviceFaults& faults, Octets octets, Concerned concerned, Instant now);
+    /// A new request: of the replies that wait only late ones still leave.
     void drop_reply();
     void log(const Device& device, std::string_view words);
     void warn(const Device& device, std::string_view words); ///< even if nothing is logged
@@ -92,7 +106,10 @@ private:
         Instant due;
         bool is_late = false;
     };
-    std::deque<Reply> replies_; ///< by their due times; those of one device in the order of the questions
+    std::chrono::nanoseconds turnaround_;
+    std::uint8_t most_octet_;
+    std::minstd_rand random_{1}; ///< of octets that are garbage
+    std::deque<Reply> replies_;  ///< by their due times; those of one device in the order of the questions
     bool logging_ = false;
     bool echo_ = false;
     std::vector<std::string> log_;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "device_commands.hpp"
 
-#include "values.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -37,25 +35,9 @@ std::vector<std::string> DeviceCommands::common_help()
     };
 }
 
-std::vector<Device*> DeviceCommands::meant()
-{
-    std::vector<Device*> devices = line_.devices();
-    devices.erase(
-        std::remove_if(devices.begin(), devices.end(), [&](const Device* d) { return !is_meant(*d); }),
-        devices.end());
-    return devices;
-}
-
 std::vector<std::string> DeviceCommands::one(std::string sentence)
 {
     return sentence.empty() ? std::vector<std::string>{} : std::vector<std::string>{std::move(sentence)};
-}
-
-std::optional<std::uint16_t> DeviceCommands::tag_number(const Words& words)
-{
-    const auto number = words.size() > 1 ? number_of(words[1]) : std::nullopt;
-    if (!number || *number < 0 || *number > 65535) return std::nullopt;
-    return static_cast<std::uint16_t>(*number);
 }
 
 std::string DeviceCommands::no_tag(const Words& words)
@@ -63,11 +45,24 @@ std::string DeviceCommands::no_tag(const Words& words)
     return fmt::format("no tag {} in the table; list shows them", words.size() > 1 ? words[1] : "");
 }
 
-std::string DeviceCommands::rest_of(const Words& words, std::size_t from)
+std::string DeviceCommands::no_value(const Parameter& parameter, const std::string& text)
 {
-    std::string rest;
-    for (std::size_t i = from; i < words.size(); ++i) rest += (rest.empty() ? "" : " ") + words[i];
-    return rest;
+    return fmt::format("'{}' is no value of tag {} within its limits", text, parameter.tag.number);
+}
+
+std::string DeviceCommands::read_fault(const Words& words, DeviceFaults& faults)
+{
+    const std::string& name = words[0];
+    if (name == "slow") {
+        const auto ms = words.size() == 2 ? number_at(words, 1, 0, 60'000) : std::nullopt;
+        if (!ms) return "write it as: slow 50 (milliseconds)";
+        faults.slow = std::chrono::milliseconds{*ms};
+        return {};
+    }
+    faults.silence = name == "silence";
+    faults.garbage = name == "garbage";
+    if (faults.silence || faults.garbage || name == "ok") return {};
+    return fmt::format("there is no command '{}'; help lists them", name);
 }
 
 std::vector<std::string> DeviceCommands::command(std::string_view line, Instant now)
@@ -83,24 +78,21 @@ std::vector<std::string> DeviceCommands::command(std::string_view line, Instant 
     if (name == "stats") return stats();
     if (name == "unit") return one(choose_unit(words));
     if (name == "help") return help();
-    if (name == "log" && words.size() == 2 && (words[1] == "on" || words[1] == "off")) {
-        line_.set_logging(words[1] == "on");
+    if (const auto on = switch_at(words, 1); on && (name == "log" || name == "echo")) {
+        if (name == "log")
+            line_.set_logging(*on);
+        else
+            line_.set_echo(*on);
         return {};
     }
     if (name == "quit") {
         quit_ = true;
         return {};
     }
-    if (name == "echo" && words.size() == 2 && (words[1] == "on" || words[1] == "off")) {
-        line_.set_echo(words[1] == "on");
-        return {};
-    }
-    if (AnswerFaults::knows(name)) {
-        std::string wrong;
-        for (Device* const device : meant()) wrong = device->answer_faults.add(words);
-        return one(wrong);
-    }
-    return special(words, now);
+    if (!AnswerFaults::knows(name)) return special(words, now);
+    std::string wrong;
+    for (Device* const device : chosen()) wrong = device->answer_faults.add(words);
+    return one(wrong);
 }
 
 /// Empty = done.
@@ -117,62 +109,50 @@ std::string DeviceCommands::choose_unit(const Words& words)
 
 std::vector<std::string> DeviceCommands::get(const Words& words, Instant now)
 {
-    const auto number = tag_number(words);
     std::vector<std::string> lines;
-    for (Device* const device : meant())
-        if (const Parameter* const p = number ? device->find(*number) : nullptr)
-            lines.push_back(fmt::format("{}tag {} = {}",
-                                        line_.devices().size() > 1 ? "unit " + device->address() + ": " : "",
-                                        p->tag.number, displayed(p->tag, p->at(now))));
-    if (lines.empty()) lines.push_back(no_tag(words));
-    return lines;
+    std::string wrong = change_tag(words, [&](const Device& device, const Parameter& p) {
+        lines.push_back(fmt::format("{}tag {} = {}",
+                                    line_.devices().size() > 1 ? "unit " + device.address() + ": " : "",
+                                    p.tag.number, displayed(p.tag, p.at(now))));
+        return std::string{};
+    });
+    return wrong.empty() ? lines : one(std::move(wrong));
 }
 
 std::string DeviceCommands::set(const Words& words, Instant now)
 {
-    const auto number = tag_number(words);
     if (words.size() < 3) return fmt::format("write it as: {} 55 12.50", words[0]);
-    const std::string wanted = rest_of(words, 2);
-    bool found = false;
-    for (Device* const device : meant()) {
-        Parameter* const p = number ? device->find(*number) : nullptr;
-        if (p == nullptr) continue;
-        auto value = value_of_text(p->tag, wanted);
-        if (!value) return fmt::format("'{}' is no value of tag {} within its limits", wanted, p->tag.number);
-        p->put(std::move(*value));
-        device->changed(*number, now);
-        found = true;
-    }
-    return found ? std::string{} : no_tag(words);
+    return change_tag(words, [&](Device& device, Parameter& p) {
+        const std::string wanted = rest_of(words, 2);
+        auto value = value_of_text(p.tag, wanted);
+        if (!value) return no_value(p, wanted);
+        p.put(std::move(*value));
+        device.changed(p.tag.number, now);
+        return std::string{};
+    });
 }
 
 std::string DeviceCommands::move(const Words& words, Instant now)
 {
-    const auto number = tag_number(words);
     const auto takes = words.size() == 5
                            ? duration_of_text(words[4].ends_with('s') ? words[4] : words[4] + "s")
                            : std::nullopt;
     if (!takes || takes->count() <= 0)
         return fmt::format("write it as: {} 55 0.00 100.00 5 (seconds)", words[0]);
-    bool found = false;
-    for (Device* const device : meant()) {
-        Parameter* const p = number ? device->find(*number) : nullptr;
-        if (p == nullptr || p->tag.type == TagKind::string) continue;
-        const auto from = value_of_text(p->tag, words[2]), to = value_of_text(p->tag, words[3]);
-        if (!from || !to)
-            return fmt::format("'{}' or '{}' is no value of tag {} within its limits", words[2], words[3],
-                               *number);
-        p->value = *to;
-        p->motion = Motion{from->counts, to->counts, now, *takes, words[0] == "wave"};
-        found = true;
-    }
-    return found ? std::string{} : no_tag(words);
+    return change_tag(words, [&](const Device& /*device*/, Parameter& p) {
+        if (p.tag.type == TagKind::string) return fmt::format("tag {} is a text", p.tag.number);
+        const auto from = value_of_text(p.tag, words[2]), to = value_of_text(p.tag, words[3]);
+        if (!from || !to) return no_value(p, words[from ? 3 : 2]);
+        p.value = *to;
+        p.motion = Motion{from->counts, to->counts, now, *takes, words[0] == "wave"};
+        return std::string{};
+    });
 }
 
 std::vector<std::string> DeviceCommands::list(Instant now)
 {
     std::vector<std::string> lines;
-    for (const Device* const device : meant()) {
+    for (const Device* const device : chosen()) {
         lines.push_back("unit " + device->address());
         for (const Parameter& p : device->parameters())
             lines.push_back(fmt::format("  {:>5}  {:2}  {:2}  {:<44} {}", p.tag.number,

@@ -17,8 +17,10 @@ struct LineOptions {
     double errors = 0;
     std::uint32_t delay_us = 0;
     std::uint64_t seed = 1;
-    bool any_rate = false; ///< the ends may be set to whatever they like
+    bool any_rate = false; ///< the ends may be set to any rate
 };
+inline constexpr std::string_view kLineCommands =
+    "cut | restore | baud N | errors P | delay US | stats | quit";
 int run_line(const LineOptions& options);
 
 struct DriveOptions {
@@ -37,7 +39,7 @@ int run_drive(const DriveOptions& options);
 struct MasterOptions {
     MasterSettings settings;
     std::string port;
-    std::string script; ///< empty: people type; "-": a script from standard input
+    std::string script; ///< empty: commands are typed; "-": a script from standard input
 };
 int run_master(const MasterOptions& options);
 

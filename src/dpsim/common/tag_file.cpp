@@ -97,15 +97,14 @@ std::optional<std::vector<SimLabel>> labels_of(std::string_view text)
         const auto end = std::min(text.find(';'), text.size());
         std::string_view part = text.substr(0, end);
         text.remove_prefix(std::min(end + 1, text.size()));
-        SimLabel label{.is_bit = part.starts_with("bit")};
-        if (label.is_bit) part.remove_prefix(3);
+        const bool is_bit = part.starts_with("bit");
+        if (is_bit) part.remove_prefix(3);
         const auto equal = part.find('=');
         if (equal == std::string_view::npos || equal + 1 == part.size()) return std::nullopt;
-        const auto number = plain_number(part.substr(0, equal), label.is_bit ? 15 : 65535);
+        const auto number = plain_number(part.substr(0, equal), is_bit ? 15 : 65535);
         if (!number) return std::nullopt;
-        label.number = static_cast<std::uint16_t>(*number);
-        label.text = part.substr(equal + 1);
-        labels.push_back(std::move(label));
+        if (!is_bit)
+            labels.push_back({static_cast<std::uint16_t>(*number), std::string{part.substr(equal + 1)}});
     }
     return labels;
 }
@@ -265,8 +264,7 @@ std::string displayed(const SimTag& tag, const SimValue& value)
     if (tag.type == TagKind::word) return fmt::format(">{:04X}", value.counts & 0xFFFF);
     if (tag.type != TagKind::number) {
         for (const SimLabel& label : tag.labels)
-            if (!label.is_bit && label.number == value.counts)
-                return fmt::format("{} ({})", value.counts, label.text);
+            if (label.number == value.counts) return fmt::format("{} ({})", value.counts, label.text);
         return fmt::format("{}", value.counts);
     }
     std::int32_t scale = 1;
@@ -281,7 +279,7 @@ std::optional<SimValue> value_of_text(const SimTag& tag, std::string_view text)
 {
     if (tag.type == TagKind::string) return SimValue{0, std::string{text}};
     for (const SimLabel& label : tag.labels)
-        if (!label.is_bit && label.text == text) return SimValue{label.number, {}};
+        if (label.text == text) return SimValue{label.number, {}};
     const auto counts =
         text.starts_with('>') || text.starts_with("0x") ? hex_word(text) : counts_of_text(tag, text);
     if (!counts || *counts < tag.min || *counts > tag.max) return std::nullopt;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A tag table from a CSV file, read by the simulator's own hand (columns as dpslaved.toml describes them).
+/// A tag table from a CSV file, read without the daemon's reader (columns as dpslaved.toml describes them).
 #pragma once
 
 #include "dpslave/base/result.hpp"
@@ -12,13 +12,8 @@
 
 namespace dpslave::sim {
 
-enum class TagKind : std::uint8_t {
-    number,
-    word,
-    boolean,
-    enumeration,
-    string
-}; ///< INT/REAL, WORD, BOOL, ENUM, STRING
+/// INT/REAL, WORD, BOOL, ENUM, STRING.
+enum class TagKind : std::uint8_t { number, word, boolean, enumeration, string };
 enum class TagAccess : std::uint8_t { read_write, read_only, write_only }; ///< an empty column counts as rw
 
 /// No instrument shows more (tag 525 of a 2400).
@@ -30,8 +25,7 @@ struct SimValue {
     std::string text{};
 };
 
-struct SimLabel {
-    bool is_bit = false;
+struct SimLabel { ///< of a value; labels of bits are checked and not kept
     std::uint16_t number = 0;
     std::string text{};
 };

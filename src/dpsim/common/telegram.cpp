@@ -31,17 +31,8 @@ bool take_sap(std::uint8_t& address, Octets& data, std::optional<std::uint8_t>& 
 std::string service_name(const Frame& frame)
 {
     if (!frame.dsap) return "Data_Exchange";
-    switch (*frame.dsap) {
-        case 55: return "Set_Slave_Add";
-        case 56: return "RD_Inp";
-        case 57: return "RD_Outp";
-        case kSapGlobalControl: return "Global_Control";
-        case kSapGetCfg: return "Get_Cfg";
-        case kSapSlaveDiag: return "Slave_Diag";
-        case kSapSetPrm: return "Set_Prm";
-        case kSapChkCfg: return "Chk_Cfg";
-        default: return fmt::format("SAP {}", *frame.dsap);
-    }
+    const std::string_view name = sap_name(*frame.dsap);
+    return name.empty() ? fmt::format("SAP {}", *frame.dsap) : std::string{name};
 }
 
 std::string reply_name(std::uint8_t fc)
@@ -59,6 +50,21 @@ std::string reply_name(std::uint8_t fc)
 }
 
 } // namespace
+
+std::string_view sap_name(std::uint8_t sap)
+{
+    switch (sap) {
+        case 55: return "Set_Slave_Add";
+        case 56: return "RD_Inp";
+        case 57: return "RD_Outp";
+        case kSapGlobalControl: return "Global_Control";
+        case kSapGetCfg: return "Get_Cfg";
+        case kSapSlaveDiag: return "Slave_Diag";
+        case kSapSetPrm: return "Set_Prm";
+        case kSapChkCfg: return "Chk_Cfg";
+        default: return {};
+    }
+}
 
 Octets encode(const Frame& frame, Fixed fixed)
 {

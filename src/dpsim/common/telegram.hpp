@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The judge's own hand for FDL telegrams (EN 50170-2; wire reference, section 2). It shares nothing with the
-/// daemon's rooms on purpose: an error made there must not be made here too.
+/// FDL telegrams (EN 50170-2; wire reference, section 2), written a second time. It shares nothing with the
+/// daemon, on purpose: an error there is not repeated here.
 #pragma once
 
 #include "dpslave/base/bytes.hpp"
@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dpslave::sim {
@@ -24,14 +25,10 @@ inline constexpr std::uint8_t kSapGetCfg = 59;
 inline constexpr std::uint8_t kSapSlaveDiag = 60;
 inline constexpr std::uint8_t kSapSetPrm = 61;
 inline constexpr std::uint8_t kSapChkCfg = 62;
+std::string_view sap_name(std::uint8_t sap); ///< of the service: "Slave_Diag"; empty = none
 
-enum class FrameKind : std::uint8_t {
-    short_ack,
-    token,
-    no_data,
-    variable,
-    fixed
-}; ///< SC, SD4, SD1, SD2, SD3
+/// SC, SD4, SD1, SD2, SD3.
+enum class FrameKind : std::uint8_t { short_ack, token, no_data, variable, fixed };
 
 /// One telegram in parts. `data` is the data unit without the SAP octets.
 struct Frame {
@@ -50,14 +47,14 @@ enum class Fixed : bool { never, when_eight }; ///< SD3 for a data unit of exact
 /// others SD2. Precondition: data unit with SAP octets at most 246 octets.
 Octets encode(const Frame& frame, Fixed fixed = Fixed::never);
 
-/// How long the telegram that begins with `head` is; 0 = too few octets to tell; else why it cannot be one.
+/// How long the telegram that begins with `head` is; 0 = too few octets to say; else why it cannot be one.
 Result<std::size_t, std::string> frame_length(Bytes head);
 
 /// Takes a whole telegram apart, or says in words what is wrong with it.
 /// Precondition: octets.size() == *frame_length(octets), not 0.
 Result<Frame, std::string> decode(Bytes octets);
 
-/// "Slave_Diag request 2 to 5" and the like, for people.
+/// "Slave_Diag request 2 to 5" and the like.
 std::string describe(const Frame& frame);
 
 } // namespace dpslave::sim

@@ -42,6 +42,31 @@ std::optional<std::int64_t> number_of(std::string_view text)
     return whole<std::int64_t>(text, 10);
 }
 
+std::optional<std::int64_t> number_of(std::string_view text, std::int64_t least, std::int64_t most)
+{
+    const auto number = number_of(text);
+    return number && *number >= least && *number <= most ? number : std::nullopt;
+}
+
+std::optional<std::int64_t> number_at(const std::vector<std::string>& words, std::size_t at,
+                                      std::int64_t least, std::int64_t most)
+{
+    return at < words.size() ? number_of(words[at], least, most) : std::nullopt;
+}
+
+std::string rest_of(const std::vector<std::string>& words, std::size_t from)
+{
+    std::string rest;
+    for (std::size_t i = from; i < words.size(); ++i) rest += (rest.empty() ? "" : " ") + words[i];
+    return rest;
+}
+
+std::optional<bool> switch_at(const std::vector<std::string>& words, std::size_t at)
+{
+    if (words.size() != at + 1 || (words[at] != "on" && words[at] != "off")) return std::nullopt;
+    return words[at] == "on";
+}
+
 std::optional<std::chrono::nanoseconds> duration_of_text(std::string_view text)
 {
     std::int64_t unit = 1'000'000'000;

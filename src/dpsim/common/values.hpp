@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Words, numbers, times and octets as people type them into a simulator.
+/// Words, numbers, times and octets as they are typed into a simulator.
 #pragma once
 
 #include "telegram.hpp"
@@ -14,6 +14,17 @@ std::vector<std::string> words_of(std::string_view line);
 
 /// "1250", "-30000", "0x04E2"; nothing if it is no number.
 std::optional<std::int64_t> number_of(std::string_view text);
+
+/// The same within limits; nothing beyond them, or if there is no word of this place.
+std::optional<std::int64_t> number_of(std::string_view text, std::int64_t least, std::int64_t most);
+std::optional<std::int64_t> number_at(const std::vector<std::string>& words, std::size_t at,
+                                      std::int64_t least, std::int64_t most);
+
+/// The words from this place on, one blank between them.
+std::string rest_of(const std::vector<std::string>& words, std::size_t from);
+
+/// "on" or "off" as the word of this place and the last one.
+std::optional<bool> switch_at(const std::vector<std::string>& words, std::size_t at);
 
 /// "2s", "1.5s", "500ms"; nothing if it is no time.
 std::optional<std::chrono::nanoseconds> duration_of_text(std::string_view text);

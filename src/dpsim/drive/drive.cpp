@@ -218,7 +218,7 @@ void DriveLine::selected(std::uint8_t check, Instant now)
     if (error != Ee::none) {
         unit.error = error;
         ++unit.refusals;
-        tell(fmt::format("write '{}' refused, EE >{:04X}", text_, static_cast<unsigned>(error)));
+        log(unit, fmt::format("write '{}' refused, EE >{:04X}", text_, static_cast<unsigned>(error)));
     }
     answer({error == Ee::none ? kAck : kNak}, unit.find_mnemonic(std::string_view{text_}.substr(0, 2)), now);
 }
@@ -238,19 +238,15 @@ Ee DriveLine::write(std::string_view mnemonic, std::string_view data)
     if (!value) return value.error();
     parameter->put(std::move(*value));
     ++unit.writes;
-    tell(
+    log(unit,
         fmt::format("tag {} written {}", parameter->tag.number, displayed(parameter->tag, parameter->value)));
     return Ee::none;
 }
 
 void DriveLine::answer(Octets octets, const Parameter* parameter, Instant now)
 {
-    const DriveFaults& faults = units_[current_].faults;
-    if (faults.bad_bcc && octets.size() > 1) octets.back() = static_cast<std::uint8_t>(octets.back() ^ 0x01);
-    if (faults.garbage)
-        for (std::uint8_t& octet : octets) octet = static_cast<std::uint8_t>(random_() & 0x7F);
     const Concerned concerned = parameter != nullptr ? Concerned{parameter->tag.number, 1} : Concerned{};
-    reply(units_[current_], std::move(octets), concerned, now + turnaround_ + faults.slow, now);
+    reply(units_[current_], units_[current_].faults, std::move(octets), concerned, now);
 }
 
 } // namespace dpslave::sim

@@ -6,17 +6,12 @@
 #include "ei_ascii.hpp"
 
 #include <map>
-#include <random>
 
 namespace dpslave::sim {
 
 /// What a drive does wrong on request.
-struct DriveFaults {
-    bool silence = false;             ///< hears nothing, as if it were off
-    std::optional<Ee> nak;            ///< refuses every write with this error
-    bool bad_bcc = false;             ///< replies carry a wrong block check
-    bool garbage = false;             ///< replies are random octets
-    std::chrono::nanoseconds slow{0}; ///< on top of the turnaround
+struct DriveFaults : DeviceFaults {
+    std::optional<Ee> nak; ///< refuses every write with this error
 };
 
 /// One drive; its address is group and unit id, "00".
@@ -34,9 +29,7 @@ public:
 
 class DriveLine : public DeviceLine {
 public:
-    /// `turnaround`: from the last octet of a message to the first of the reply. `seed`: of the garbage.
-    DriveLine(Model model, std::chrono::nanoseconds turnaround, unsigned seed = 1)
-        : model_(model), turnaround_(turnaround), random_(seed)
+    DriveLine(Model model, std::chrono::nanoseconds turnaround) : DeviceLine(turnaround, 0x7F), model_(model)
     {}
 
     /// A drive with this group (0-7) and unit id (0-9, A-F); false if the address is none or taken.
@@ -58,11 +51,8 @@ private:
     void selected(std::uint8_t check, Instant now);
     Ee write(std::string_view mnemonic, std::string_view data);
     void answer(Octets octets, const Parameter* parameter, Instant now);
-    void tell(std::string_view words) { log(units_[current_], words); }
 
     Model model_;
-    std::chrono::nanoseconds turnaround_;
-    std::minstd_rand random_;
     std::vector<DriveUnit> units_;
     std::size_t current_ = 0; ///< the unit that the connection is with
     Phase phase_ = Phase::idle;

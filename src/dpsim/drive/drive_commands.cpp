@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drive_commands.hpp"
 
-#include "dpsim/common/values.hpp"
-
 #include <fmt/format.h>
 
 namespace dpslave::sim {
@@ -31,56 +29,42 @@ std::vector<std::string> DriveCommands::special(const Words& words, Instant /*no
     const std::string& name = words[0];
     if (name == "text") return one(text(words));
     DriveFaults faults;
-    if (name == "silence") {
-        faults.silence = true;
-    } else if (name == "bad-bcc") {
-        faults.bad_bcc = true;
-    } else if (name == "garbage") {
-        faults.garbage = true;
+    if (name == "bad-bcc") {
+        faults.bad_check = true;
     } else if (name == "nak") {
         const auto code =
             words.size() > 1 ? octets_of(words[1]) : Result<Octets, std::string>{Octets{0x02, 0xC2}};
         if (!code || code->size() != 2) return one("EE has four hexadecimal digits, for example: nak 05C8");
         faults.nak = static_cast<Ee>(be16(*code, 0));
-    } else if (name == "slow") {
-        const auto ms = words.size() == 2 ? number_of(words[1]) : std::nullopt;
-        if (!ms || *ms < 0 || *ms > 60'000) return one("write it as: slow 50 (milliseconds)");
-        faults.slow = std::chrono::milliseconds{*ms};
-    } else if (name != "ok") {
-        return one(fmt::format("there is no command '{}'; help lists them", name));
+    } else if (std::string wrong = read_fault(words, faults); !wrong.empty()) {
+        return one(std::move(wrong));
     }
-    for (DriveUnit& unit : line_.units())
-        if (is_meant(unit)) {
-            unit.faults = faults;
-            unit.answer_faults.clear();
-        }
+    for (DriveUnit* const unit : chosen<DriveUnit>()) {
+        unit->faults = faults;
+        unit->answer_faults.clear();
+    }
     return {};
 }
 
 /// Empty = done.
 std::string DriveCommands::text(const Words& words)
 {
-    const auto number = tag_number(words);
-    if (!number) return "write it as: text 55 12.34";
-    bool found = false;
-    for (DriveUnit& unit : line_.units()) {
-        if (!is_meant(unit) || unit.find(*number) == nullptr) continue;
-        unit.texts.erase(*number);
-        if (words.size() > 2) unit.texts[*number] = rest_of(words, 2);
-        found = true;
-    }
-    return found ? std::string{} : no_tag(words);
+    if (!number_at(words, 1, 0, 0xFFFF)) return "write it as: text 55 12.34";
+    return change_tag<DriveUnit>(words, [&](DriveUnit& unit, const Parameter& p) {
+        unit.texts.erase(p.tag.number);
+        if (words.size() > 2) unit.texts[p.tag.number] = rest_of(words, 2);
+        return std::string{};
+    });
 }
 
 std::vector<std::string> DriveCommands::stats()
 {
     std::vector<std::string> lines;
-    for (const DriveUnit& unit : line_.units())
-        if (is_meant(unit))
-            lines.push_back(
-                fmt::format("unit {}: {} reads, {} writes, {} refusals, {} malformed messages, EE >{:04X}",
-                            unit.address(), unit.reads, unit.writes, unit.refusals, unit.bad_messages,
-                            static_cast<unsigned>(unit.error)));
+    for (const DriveUnit* const unit : chosen<DriveUnit>())
+        lines.push_back(
+            fmt::format("unit {}: {} reads, {} writes, {} refusals, {} malformed messages, EE >{:04X}",
+                        unit->address(), unit->reads, unit->writes, unit->refusals, unit->bad_messages,
+                        static_cast<unsigned>(unit->error)));
     return lines;
 }
 

@@ -9,7 +9,7 @@ namespace dpslave::sim {
 
 class DriveCommands final : public DeviceCommands {
 public:
-    explicit DriveCommands(DriveLine& line) : DeviceCommands(line), line_(line) {}
+    explicit DriveCommands(DriveLine& line) : DeviceCommands(line) {}
     static std::vector<std::string> all_help();
 
 private:
@@ -17,8 +17,6 @@ private:
     std::vector<std::string> stats() override;
     std::vector<std::string> special(const Words& words, Instant now) override;
     std::string text(const Words& words);
-
-    DriveLine& line_;
 };
 
 } // namespace dpslave::sim

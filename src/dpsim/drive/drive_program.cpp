@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpsim/common/programs.hpp"
+#include "dpsim/common/system.hpp"
 #include "dpsim/common/values.hpp"
 #include "dpsim/instrument/instrument_commands.hpp"
-#include "dpsim/line/edge.hpp"
 #include "drive_commands.hpp"
 
 #include <fmt/format.h>
@@ -52,13 +52,13 @@ int serve(DeviceLine& line, DeviceCommands& commands, int port, const Signals& s
         if (readable(input.fd())) input.read();
         while (const auto typed_line = input.take())
             for (const std::string& said : commands.command(*typed_line, monotonic_now())) print_line(said);
-        for (const std::string& told : line.take_log()) print_line(told);
+        for (const std::string& logged : line.take_log()) print_line(logged);
         if (commands.quit() || (input.closed() && typed)) break;
     }
     return kFine;
 }
 
-/// Everything about the device is known: the faults it begins with, its port, its life.
+/// Sets the first faults, opens the port and serves it until the end.
 int run(DeviceLine& line, DeviceCommands& commands, const DriveOptions& options, Format format,
         std::size_t tags)
 {
@@ -111,9 +111,8 @@ int run_modbus(const DriveOptions& options, std::uint16_t ident, const std::vect
     ModbusLine line{modbus_turnaround(options)};
     std::size_t registers = 0;
     for (const std::string& text : options.units) {
-        const auto unit = number_of(text);
-        const bool is_address = unit && *unit >= 1 && *unit <= 254;
-        if (!is_address || !line.add({static_cast<std::uint8_t>(*unit), ident, tags, options.programs})) {
+        const auto unit = number_of(text, 1, 254);
+        if (!unit || !line.add({static_cast<std::uint8_t>(*unit), ident, tags, options.programs})) {
             print_error(fmt::format("--unit {}: an address from 1 to 254, each once", text));
             return kUsage;
         }

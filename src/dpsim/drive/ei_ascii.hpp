@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// EI-ASCII as a drive speaks it (ANSI X3.28, subcategory 2.5; EI-ASCII reference, sections 1 to 4): the
-/// judge's own hand for checksums, mnemonics and text forms. Shares nothing with the daemon's drive room.
+/// EI-ASCII of a drive (ANSI X3.28, subcategory 2.5; EI-ASCII reference, sections 1 to 4): checksums,
+/// mnemonics and forms of text, written a second time. Shares nothing with the daemon.
 #pragma once
 
 #include "dpsim/common/tag_file.hpp"

@@ -13,7 +13,6 @@
 namespace dpslave::sim {
 namespace {
 
-constexpr std::uint16_t kIeeeArea = 0x8000;
 constexpr std::uint16_t kNoSecondWord = 0x8000; ///< of a value that is no floating point number
 constexpr std::uint16_t kMostRegisters = 125;
 
@@ -51,8 +50,7 @@ std::vector<Parameter> registers_of(const std::vector<SimTag>& tags, unsigned pr
     for (const SimTag& tag : tags)
         if (!is_in_store(tag.number) || tag.number < store_ends)
             registers.push_back({tag, {}, tag.start, std::nullopt});
-    for (Parameter& p :
-         registers) // a table marks it ro so that no one writes it; an instrument does not mind
+    for (Parameter& p : registers) // the table says ro, to protect a real instrument, which takes the write
         if (p.tag.number == kMode) p.tag.access = TagAccess::read_write;
     return registers;
 }
@@ -162,27 +160,17 @@ Exception Instrument::read(std::uint16_t address, std::uint16_t count, std::vect
     if (count == 0 || count > kMostRegisters) return Exception::illegal_value;
     ++counters.reads;
     counters.words += count;
-    if (address >= kIeeeArea) return read_ieee(address, count, words, now);
-    for (unsigned tag = address; tag < address + unsigned{count}; ++tag) {
-        const Parameter* const p = tag < kIeeeArea ? find(static_cast<std::uint16_t>(tag)) : nullptr;
+    const bool ieee = address >= kIeeeArea;
+    if (ieee && address % 2 != 0) return Exception::illegal_address;
+    if (ieee && count % 2 != 0) return Exception::illegal_value;
+    const unsigned end = unsigned{address} + count;
+    if (end > (ieee ? 0x10000U : kIeeeArea)) return Exception::illegal_address;
+    for (unsigned at = address; at < end; at += ieee ? 2 : 1) {
+        const Parameter* const p = find(tag_at(at));
         if (p == nullptr) return Exception::illegal_address;
-        words.push_back(word_of(*p, now));
-    }
-    return Exception::none;
-}
-
-Exception Instrument::read_ieee(std::uint16_t address, std::uint16_t count, std::vector<std::uint16_t>& words,
-                                Instant now)
-{
-    if (address % 2 != 0) return Exception::illegal_address;
-    if (count % 2 != 0) return Exception::illegal_value;
-    if (unsigned{address} + count > 0x10000U) return Exception::illegal_address;
-    for (unsigned at = address; at < address + unsigned{count}; at += 2) {
-        const Parameter* const p = find(static_cast<std::uint16_t>((at - kIeeeArea) / 2));
-        if (p == nullptr) return Exception::illegal_address;
-        const std::uint32_t bits = ieee_of(*p, now);
-        words.insert(words.end(),
-                     {static_cast<std::uint16_t>(bits >> 16), static_cast<std::uint16_t>(bits & 0xFFFFU)});
+        const std::uint32_t bits = ieee ? ieee_of(*p, now) : word_of(*p, now);
+        if (ieee) words.push_back(static_cast<std::uint16_t>(bits >> 16));
+        words.push_back(static_cast<std::uint16_t>(bits & 0xFFFFU));
     }
     return Exception::none;
 }
@@ -196,20 +184,27 @@ bool Instrument::is_writable(const Parameter& parameter)
     });
 }
 
+/// What may be written is; false: the value stays.
+bool Instrument::accept(Parameter& parameter, std::int32_t counts, Instant now)
+{
+    if (!is_writable(parameter) || counts < parameter.tag.min || counts > parameter.tag.max) return false;
+    parameter.put({counts, {}});
+    changed(parameter.tag.number, now);
+    return true;
+}
+
 Exception Instrument::write(Parameter& parameter, std::int32_t counts, Instant now)
 {
-    const SimTag& tag = parameter.tag;
-    if (!is_writable(parameter) || counts < tag.min || counts > tag.max) {
-        log_.push_back(fmt::format("write of tag {} refused", tag.number));
+    const std::uint16_t tag = parameter.tag.number;
+    if (!accept(parameter, counts, now)) {
+        log_.push_back(fmt::format("write of tag {} refused", tag));
         return Exception::illegal_value;
     }
-    parameter.put({counts, {}});
     ++counters.writes;
-    log_.push_back(fmt::format("tag {} written {}", tag.number, displayed(tag, parameter.value)));
-    if (tag.number == kMode && counts > 2)
+    log_.push_back(fmt::format("tag {} written {}", tag, displayed(parameter.tag, {counts, {}})));
+    if (tag == kMode && counts > 2)
         warnings_.push_back(fmt::format(
             "tag 199 written {}: a real instrument would have started a factory function", counts));
-    changed(tag.number, now);
     return Exception::none;
 }
 
@@ -220,49 +215,28 @@ Exception Instrument::write_one(std::uint16_t address, std::uint16_t word, Insta
     return p == nullptr ? Exception::illegal_address : write(*p, counts_of(*p, word), now);
 }
 
-Exception Instrument::write_member(std::uint16_t tag, Parameter& parameter,
-                                   std::optional<std::int32_t> counts, Instant now)
-{
-    if (!counts) return Exception::illegal_value;
-    if (parameter.tag.access == TagAccess::read_only && counts_at(kSkipReadOnly) == 1) {
-        log_.push_back(fmt::format("tag {} is read only and skipped", tag));
-        return Exception::none;
-    }
-    return write(parameter, *counts, now);
-}
-
 Exception Instrument::write_block(std::uint16_t address, std::span<const std::uint16_t> words, Instant now)
 {
     settle(now);
     if (words.empty() || words.size() > kMostRegisters) return Exception::illegal_value;
-    if (address >= kIeeeArea) return write_block_ieee(address, words, now);
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        const auto tag = static_cast<std::uint16_t>(address + i);
+    const bool ieee = address >= kIeeeArea;
+    if (ieee && address % 2 != 0) return Exception::illegal_address;
+    if (ieee && words.size() % 2 != 0) return Exception::illegal_value;
+    for (std::size_t i = 0; i < words.size(); i += ieee ? 2 : 1) {
+        const std::uint16_t tag = tag_at(address + static_cast<unsigned>(i));
         Parameter* const p = find(tag);
         if (p == nullptr) {
             log_.push_back(fmt::format("tag {} is not there, its value is dropped", tag));
             continue;
         }
-        const Exception refused = write_member(tag, *p, counts_of(*p, words[i]), now);
-        if (refused != Exception::none) return refused;
-    }
-    return Exception::none;
-}
-
-Exception Instrument::write_block_ieee(std::uint16_t address, std::span<const std::uint16_t> words,
-                                       Instant now)
-{
-    if (address % 2 != 0) return Exception::illegal_address;
-    if (words.size() % 2 != 0) return Exception::illegal_value;
-    for (std::size_t i = 0; i < words.size(); i += 2) {
-        const auto tag = static_cast<std::uint16_t>((address - kIeeeArea + i) / 2);
-        Parameter* const p = find(tag);
-        if (p == nullptr) {
-            log_.push_back(fmt::format("tag {} is not there, its value is dropped", tag));
+        const auto counts = ieee ? counts_of_ieee(*p, std::uint32_t{words[i]} << 16 | words[i + 1])
+                                 : std::optional{counts_of(*p, words[i])};
+        if (!counts) return Exception::illegal_value;
+        if (p->tag.access == TagAccess::read_only && counts_at(kSkipReadOnly) == 1) {
+            log_.push_back(fmt::format("tag {} is read only and skipped", tag));
             continue;
         }
-        const auto counts = counts_of_ieee(*p, std::uint32_t{words[i]} << 16 | words[i + 1]);
-        const Exception refused = write_member(tag, *p, counts, now);
+        const Exception refused = write(*p, *counts, now);
         if (refused != Exception::none) return refused;
     }
     return Exception::none;
@@ -273,10 +247,7 @@ Exception Instrument::panel(std::uint16_t tag, std::int32_t counts, Instant now)
     settle(now);
     Parameter* const p = find(tag);
     if (p == nullptr) return Exception::illegal_address;
-    if (!is_writable(*p) || counts < p->tag.min || counts > p->tag.max) return Exception::illegal_value;
-    p->put({counts, {}});
-    changed(tag, now);
-    return Exception::none;
+    return accept(*p, counts, now) ? Exception::none : Exception::illegal_value;
 }
 
 } // namespace dpslave::sim

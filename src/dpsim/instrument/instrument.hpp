@@ -14,15 +14,11 @@ namespace dpslave::sim {
 std::optional<std::uint16_t> instrument_ident(std::string_view name);
 
 /// What an instrument does wrong on request.
-struct InstrumentFaults {
-    bool silence = false;                  ///< hears nothing, as if it were off
-    bool bad_crc = false;                  ///< replies carry a wrong CRC
-    bool garbage = false;                  ///< replies are random octets
-    bool no_loopback = false;              ///< says nothing to function 8, as an older one
+struct InstrumentFaults : DeviceFaults {
+    bool no_loopback = false;              ///< no reply to function 8, as an older one
     bool too_short = false;                ///< replies end one octet early
     Exception refuse = Exception::none;    ///< answers every request so
     Exception no_writes = Exception::none; ///< answers every write so
-    std::chrono::nanoseconds slow{0};      ///< on top of the turnaround
 };
 
 struct InstrumentCounters {
@@ -43,8 +39,8 @@ public:
     Exception read(std::uint16_t address, std::uint16_t count, std::vector<std::uint16_t>& words,
                    Instant now);
     Exception write_one(std::uint16_t address, std::uint16_t word, Instant now);
-    /// Values at missing addresses are dropped without a word; the first that is refused ends it, what stands
-    /// before it has been written.
+    /// Values at missing addresses are dropped without an exception. The first that is refused ends it; those
+    /// before it are written.
     Exception write_block(std::uint16_t address, std::span<const std::uint16_t> words, Instant now);
     std::uint8_t fast_status();
 
@@ -58,12 +54,7 @@ public:
     InstrumentCounters counters{};
 
 private:
-    Exception read_ieee(std::uint16_t address, std::uint16_t count, std::vector<std::uint16_t>& words,
-                        Instant now);
-    Exception write_block_ieee(std::uint16_t address, std::span<const std::uint16_t> words, Instant now);
-    /// One value of a block write; `counts` is nothing where the octets are no number.
-    Exception write_member(std::uint16_t tag, Parameter& parameter, std::optional<std::int32_t> counts,
-                           Instant now);
+    bool accept(Parameter& parameter, std::int32_t counts, Instant now);
     Exception write(Parameter& parameter, std::int32_t counts, Instant now);
     bool is_writable(const Parameter& parameter);
 

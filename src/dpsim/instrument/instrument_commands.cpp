@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "instrument_commands.hpp"
 
-#include "dpsim/common/values.hpp"
-
 #include <fmt/format.h>
 
 namespace dpslave::sim {
@@ -38,41 +36,31 @@ std::vector<std::string> InstrumentCommands::special(const Words& words, Instant
     return one(fault(words));
 }
 
-/// Empty = done.
 std::string InstrumentCommands::panel(const Words& words, Instant now)
 {
-    const auto number = tag_number(words);
     if (words.size() < 3) return "write it as: panel 2 50.0";
-    bool found = false;
-    for (Instrument& instrument : line_.instruments()) {
-        const Parameter* const p = number && is_meant(instrument) ? instrument.find(*number) : nullptr;
-        if (p == nullptr) continue;
+    return change_tag<Instrument>(words, [&](Instrument& instrument, const Parameter& p) {
         const std::string wanted = rest_of(words, 2);
-        const auto value = value_of_text(p->tag, wanted);
-        if (!value) return fmt::format("'{}' is no value of tag {} within its limits", wanted, *number);
-        if (instrument.panel(*number, value->counts, now) != Exception::none)
-            return fmt::format("tag {} cannot be changed at present", *number);
-        found = true;
-    }
-    return found ? std::string{} : no_tag(words);
+        const auto value = value_of_text(p.tag, wanted);
+        if (!value) return no_value(p, wanted);
+        if (instrument.panel(p.tag.number, value->counts, now) != Exception::none)
+            return fmt::format("tag {} cannot be changed at present", p.tag.number);
+        return std::string{};
+    });
 }
 
 std::string InstrumentCommands::bit(const Words& words, Instant now)
 {
-    const auto number = tag_number(words);
-    const auto bit = words.size() == 4 ? number_of(words[2]) : std::nullopt;
-    if (!bit || *bit < 0 || *bit > 15 || (words[3] != "on" && words[3] != "off"))
-        return "write it as: bit 75 5 on";
-    bool found = false;
-    for (Instrument& instrument : line_.instruments()) {
-        Parameter* const p = number && is_meant(instrument) ? instrument.find(*number) : nullptr;
-        if (p == nullptr || p->tag.type == TagKind::string) continue;
-        const std::int32_t mask = 1 << *bit, before = p->at(now).counts;
-        p->put({words[3] == "on" ? before | mask : before & ~mask, {}});
-        instrument.changed(*number, now);
-        found = true;
-    }
-    return found ? std::string{} : no_tag(words);
+    const auto bit = number_at(words, 2, 0, 15);
+    const auto on = switch_at(words, 3);
+    if (!bit || !on) return "write it as: bit 75 5 on";
+    return change_tag(words, [&](Device& device, Parameter& p) {
+        if (p.tag.type == TagKind::string) return fmt::format("tag {} is a text", p.tag.number);
+        const std::int32_t mask = 1 << *bit, before = p.at(now).counts;
+        p.put({*on ? before | mask : before & ~mask, {}});
+        device.changed(p.tag.number, now);
+        return std::string{};
+    });
 }
 
 std::string InstrumentCommands::tune(const Words& words)
@@ -81,8 +69,7 @@ std::string InstrumentCommands::tune(const Words& words)
     const bool fails = words.size() == 3 && words[2] == "fails";
     if (!time || words.size() > 3 || (words.size() == 3 && !fails))
         return "write it as: tune 5s, or tune 5s fails";
-    for (Instrument& instrument : line_.instruments())
-        if (is_meant(instrument)) instrument.prepare_tune(*time, fails);
+    for (Instrument* const instrument : chosen<Instrument>()) instrument->prepare_tune(*time, fails);
     return {};
 }
 
@@ -90,12 +77,8 @@ std::string InstrumentCommands::fault(const Words& words)
 {
     InstrumentFaults faults;
     const std::string& name = words[0];
-    if (name == "silence") {
-        faults.silence = true;
-    } else if (name == "bad-crc") {
-        faults.bad_crc = true;
-    } else if (name == "garbage") {
-        faults.garbage = true;
+    if (name == "bad-crc") {
+        faults.bad_check = true;
     } else if (name == "short") {
         faults.too_short = true;
     } else if (name == "no-loopback") {
@@ -105,29 +88,23 @@ std::string InstrumentCommands::fault(const Words& words)
         if (code != "2" && code != "3") return fmt::format("write it as: {} 2, or {} 3", name, name);
         (name == "refuse" ? faults.no_writes : faults.refuse) =
             code == "2" ? Exception::illegal_address : Exception::illegal_value;
-    } else if (name == "slow") {
-        const auto ms = words.size() == 2 ? number_of(words[1]) : std::nullopt;
-        if (!ms || *ms < 0 || *ms > 60'000) return "write it as: slow 50 (milliseconds)";
-        faults.slow = std::chrono::milliseconds{*ms};
-    } else if (name != "ok") {
-        return fmt::format("there is no command '{}'; help lists them", name);
+    } else if (std::string wrong = read_fault(words, faults); !wrong.empty()) {
+        return wrong;
     }
-    for (Instrument& instrument : line_.instruments())
-        if (is_meant(instrument)) {
-            instrument.faults = faults;
-            instrument.answer_faults.clear();
-        }
+    for (Instrument* const instrument : chosen<Instrument>()) {
+        instrument->faults = faults;
+        instrument->answer_faults.clear();
+    }
     return {};
 }
 
 std::vector<std::string> InstrumentCommands::stats()
 {
     std::vector<std::string> lines;
-    for (const Instrument& instrument : line_.instruments()) {
-        if (!is_meant(instrument)) continue;
-        const InstrumentCounters& c = instrument.counters;
+    for (const Instrument* const instrument : chosen<Instrument>()) {
+        const InstrumentCounters& c = instrument->counters;
         lines.push_back(fmt::format("unit {}: {} reads of {} words, {} values written, {} exceptions",
-                                    instrument.address(), c.reads, c.words, c.writes, c.exceptions));
+                                    instrument->address(), c.reads, c.words, c.writes, c.exceptions));
     }
     lines.push_back(fmt::format("line: {} requests with a wrong CRC, {} of functions that get no answer",
                                 line_.bad_crc(), line_.unsupported()));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Registers of a 2408f/2404f that mean something to the simulator. Only for instrument*.cpp.
+/// Registers of a 2408f/2404f that mean something to the simulator. Private to this folder.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,13 @@ inline constexpr std::uint16_t kProcessValue = 1, kTargetSetpoint = 2, kOutputPo
                                kSummaryStatus = 75, kControlStatus = 76, kVersion = 107, kIdent = 122,
                                kSetpoint3 = 164, kMode = 199, kMostSegments = 211, kSkipReadOnly = 220,
                                kAutotune = 270, kManual = 273, kDecimals = 525, kResolution = 12550;
+
+/// From here on each tag has two registers: an IEEE single or 32 bits.
+inline constexpr unsigned kIeeeArea = 0x8000;
+constexpr std::uint16_t tag_at(unsigned address)
+{
+    return static_cast<std::uint16_t>(address < kIeeeArea ? address : (address - kIeeeArea) / 2);
+}
 
 /// Bits of the summary output status word and of the control status word.
 inline constexpr unsigned kSummaryManual = 4, kSummaryTuning = 8, kTuneFailed = 3, kTuneCompleted = 8,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Modbus RTU in the judge's own hand (EI-ASCII and Modbus reference, section 5): it shares nothing with the
-/// library that the daemon speaks through.
+/// Modbus RTU (EI-ASCII and Modbus reference, section 5), written a second time: it shares nothing with the
+/// library that the daemon uses.
 #pragma once
 
 #include "dpsim/common/telegram.hpp"
@@ -13,7 +13,7 @@ std::uint16_t crc16(Bytes octets);
 /// The octets with their CRC behind them.
 Octets with_crc(Octets octets);
 
-/// Octets of the request that begins with `head`, CRC included. 0: too few are known to tell. Nothing: no
+/// Octets of the request that begins with `head`, CRC included. 0: too few are known to say. Nothing: no
 /// function whose length is known, so that only silence can end it.
 std::optional<std::size_t> request_length(Bytes head);
 

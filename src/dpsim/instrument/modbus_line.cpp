@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modbus_line.hpp"
 
+#include "instrument_registers.hpp"
+
 #include <algorithm>
 
 namespace dpslave::sim {
@@ -22,12 +24,10 @@ bool is_write(std::uint8_t function)
 /// The tags of a request; of the IEEE area two registers are one.
 Concerned concerned(Bytes frame)
 {
-    constexpr std::uint16_t kIeeeArea = 0x8000;
     if (frame[1] != kReadHolding && frame[1] != kReadInput && !is_write(frame[1])) return {};
     const std::uint16_t first = be16(frame, 2);
-    const std::uint16_t count = frame[1] == kWriteOne ? std::uint16_t{1} : be16(frame, 4);
-    if (first < kIeeeArea) return {first, count};
-    return {static_cast<std::uint16_t>((first - kIeeeArea) / 2), static_cast<std::uint16_t>((count + 1) / 2)};
+    const unsigned count = frame[1] == kWriteOne ? 1U : be16(frame, 4);
+    return {tag_at(first), static_cast<std::uint16_t>(first < kIeeeArea ? count : (count + 1) / 2)};
 }
 
 } // namespace
@@ -53,16 +53,16 @@ void ModbusLine::on_bytes(Bytes octets, Instant now)
 {
     if (now - heard_ > kRequestGap) {
         rx_.clear();
-        deaf_ = false;
+        ignores_ = false;
     }
     heard_ = now;
     drop_reply(); // the master has given up on it
     rx_.insert(rx_.end(), octets.begin(), octets.end());
-    while (!deaf_ && !rx_.empty()) {
+    while (!ignores_ && !rx_.empty()) {
         const auto length = request_length(rx_);
         if (!length) {
             ++unsupported_;
-            deaf_ = true;
+            ignores_ = true;
         } else if (*length == 0 || rx_.size() < *length) {
             return;
         } else {
@@ -79,10 +79,10 @@ void ModbusLine::request(Bytes frame, Instant now)
     const std::uint16_t crc = crc16(frame.first(frame.size() - 2));
     if (frame[frame.size() - 2] != low(crc) || frame[frame.size() - 1] != high(crc)) {
         ++bad_crc_;
-        deaf_ = true;
+        ignores_ = true;
         return;
     }
-    drop_reply(); // to a request before this one: nobody waits for it
+    drop_reply();
     for (Instrument& instrument : instruments_)
         if ((frame[0] == instrument.unit() || (frame[0] == kToAll && is_write(frame[1]))) &&
             !instrument.faults.silence)
@@ -119,7 +119,10 @@ void ModbusLine::carry_out(Instrument& instrument, Bytes frame, Instant now)
         reply = {instrument.unit(), static_cast<std::uint8_t>(function | 0x80),
                  static_cast<std::uint8_t>(exception)};
     }
-    if (frame[0] != kToAll) answer(instrument, with_crc(std::move(reply)), concerned(frame), now);
+    if (frame[0] == kToAll) return;
+    Octets octets = with_crc(std::move(reply));
+    if (instrument.faults.too_short) octets.pop_back();
+    this->reply(instrument, instrument.faults, std::move(octets), concerned(frame), now);
 }
 
 Exception ModbusLine::read(Instrument& instrument, Bytes frame, Octets& answer, Instant now)
@@ -140,16 +143,6 @@ Exception ModbusLine::write(Instrument& instrument, Bytes frame, Octets& answer,
     if (frame[6] != 2 * be16(frame, 4)) return Exception::illegal_value;
     for (std::size_t at = 7; at + 2 < frame.size(); at += 2) words.push_back(be16(frame, at));
     return instrument.write_block(address, words, now);
-}
-
-void ModbusLine::answer(Instrument& instrument, Octets octets, Concerned concerned, Instant now)
-{
-    const InstrumentFaults& faults = instrument.faults;
-    if (faults.bad_crc) octets.back() = static_cast<std::uint8_t>(octets.back() ^ 0x01);
-    if (faults.garbage)
-        for (std::uint8_t& octet : octets) octet = static_cast<std::uint8_t>(random_() & 0xFF);
-    if (faults.too_short) octets.pop_back();
-    reply(instrument, std::move(octets), concerned, now + turnaround_ + faults.slow, now);
 }
 
 } // namespace dpslave::sim

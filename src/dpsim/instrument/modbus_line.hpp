@@ -5,16 +5,11 @@
 
 #include "instrument.hpp"
 
-#include <random>
-
 namespace dpslave::sim {
 
 class ModbusLine final : public DeviceLine {
 public:
-    /// `turnaround`: from the last octet of a request to the first of the reply. `seed`: of the garbage.
-    explicit ModbusLine(std::chrono::nanoseconds turnaround, unsigned seed = 1)
-        : turnaround_(turnaround), random_(seed)
-    {}
+    explicit ModbusLine(std::chrono::nanoseconds turnaround) : DeviceLine(turnaround, 0xFF) {}
 
     /// False if the address is not 1 to 254, or taken.
     bool add(Instrument instrument);
@@ -31,13 +26,10 @@ private:
     void carry_out(Instrument& instrument, Bytes frame, Instant now);
     Exception read(Instrument& instrument, Bytes frame, Octets& answer, Instant now);
     Exception write(Instrument& instrument, Bytes frame, Octets& answer, Instant now);
-    void answer(Instrument& instrument, Octets octets, Concerned concerned, Instant now);
 
-    std::chrono::nanoseconds turnaround_;
-    std::minstd_rand random_;
     std::vector<Instrument> instruments_;
     Octets rx_;
-    bool deaf_ = false; ///< until the line falls idle: what comes has no form
+    bool ignores_ = false; ///< until the line is idle: where the next request begins is not known
     Instant heard_{};
     std::uint64_t bad_crc_ = 0, unsupported_ = 0;
 };

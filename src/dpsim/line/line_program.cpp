@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpsim/common/programs.hpp"
+#include "dpsim/common/system.hpp"
 #include "dpsim/common/values.hpp"
-#include "edge.hpp"
 #include "listener.hpp"
 #include "pacer.hpp"
 
@@ -51,11 +51,11 @@ public:
     std::string stats()
     {
         const std::lock_guard lock(mutex_);
-        return fmt::format("{} octets passed, {} spoilt, {} lost while cut, {} lost because nobody read, {} "
-                           "sent and {} read "
-                           "at another rate",
-                           pacer_.passed(), pacer_.spoilt(), pacer_.lost(), unread_, sent_wrong_,
-                           read_wrong_);
+        return fmt::format(
+            "{} octets passed, {} spoilt, {} lost while cut, {} lost because they were not read, {} "
+            "sent and {} read "
+            "at another rate",
+            pacer_.passed(), pacer_.spoilt(), pacer_.lost(), unread_, sent_wrong_, read_wrong_);
     }
 
 private:
@@ -91,13 +91,13 @@ private:
         const Octets due = as_read(pacer_.due_by(monotonic_now()));
         if (due.empty()) return;
         std::size_t put = write_all(to_.master.get(), due, 0ms);
-        if (put < due.size()) { // nobody reads there: what is old is worthless, as in a UART that overruns
+        if (put < due.size()) { // it is not read there: the oldest are lost, as in a UART that overruns
             discard_unread(to_);
             unread_ += due.size() - put;
         }
     }
 
-    /// What the line takes the octets of the sender for, as somebody at the line's rate hears them.
+    /// What a UART at the rate of the line receives of the octets that are sent.
     Octets as_sent(Octets octets)
     {
         if (any_rate_ || octets.empty()) return octets;
@@ -112,7 +112,7 @@ private:
         return heard;
     }
 
-    /// What the reader takes the octets on the line for.
+    /// What the end that reads receives of the octets on the line.
     Octets as_read(Octets octets)
     {
         if (any_rate_ || octets.empty()) return octets;
@@ -143,8 +143,6 @@ private:
     std::jthread thread_;
 };
 
-const std::string kHelp = "cut | restore | baud N | errors P | delay US | stats | quit";
-
 /// What is to be said; empty = done. Nothing: quit.
 std::optional<std::string> command(const std::string& line, Direction& ab, Direction& ba)
 {
@@ -166,16 +164,16 @@ std::optional<std::string> command(const std::string& line, Direction& ab, Direc
         return both([&](Pacer& pacer) { pacer.set_errors(p); });
     }
     if (words[0] == "baud" && words.size() == 2) {
-        const auto baud = number_of(words[1]);
-        if (!baud || *baud < 50 || *baud > 12'000'000) return "baud: bit/s, 50 to 12000000";
+        const auto baud = number_of(words[1], 50, 12'000'000);
+        if (!baud) return "baud: bit/s, 50 to 12000000";
         return both([&](Pacer& pacer) { pacer.set_baud(static_cast<std::uint32_t>(*baud)); });
     }
     if (words[0] == "delay" && words.size() == 2) {
-        const auto us = number_of(words[1]);
-        if (!us || *us < 0 || *us > 10'000'000) return "delay: microseconds, 0 to 10000000";
+        const auto us = number_of(words[1], 0, 10'000'000);
+        if (!us) return "delay: microseconds, 0 to 10000000";
         return both([&](Pacer& pacer) { pacer.set_delay(std::chrono::microseconds{*us}); });
     }
-    return "commands: " + kHelp;
+    return "commands: " + std::string{kLineCommands};
 }
 
 } // namespace
@@ -188,12 +186,8 @@ int run_line(const LineOptions& options)
         print_error(a ? b.error() : a.error());
         return kNoPort;
     }
-    auto link_a = Symlink::make(options.a, a->path);
-    if (!link_a) {
-        print_error(link_a.error());
-        return kNoPort;
-    }
-    auto link_b = Symlink::make(options.b, b->path);
+    const auto link_a = Symlink::make(options.a, a->path);
+    const auto link_b = link_a ? Symlink::make(options.b, b->path) : Failure{link_a.error()};
     if (!link_b) {
         print_error(link_b.error());
         return kNoPort;

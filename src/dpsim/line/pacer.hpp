@@ -39,7 +39,6 @@ public:
     unsigned bits() const { return bits_; }
     /// What is in flight is lost too.
     void set_cut(bool cut);
-    bool cut() const { return cut_; }
 
     std::uint64_t passed() const { return passed_; }
     std::uint64_t spoilt() const { return spoilt_; } ///< altered or lost by bit errors

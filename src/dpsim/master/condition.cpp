@@ -12,13 +12,7 @@
 namespace dpslave::sim {
 namespace {
 
-constexpr std::size_t kDemandOctets = 8;
 using Words = std::vector<std::string>;
-
-std::size_t process_start(const MasterSettings& settings)
-{
-    return has_demand(settings) ? kDemandOctets : 0;
-}
 
 bool is_relation(std::string_view word)
 {
@@ -39,7 +33,7 @@ bool relates(std::uint16_t word, std::string_view relation, std::int64_t value)
     return relation == "<=" ? left <= value : left >= value;
 }
 
-/// "in1=5" as "in", "1", "=", "5": blanks are a matter of taste.
+/// "in1=5" as "in", "1", "=", "5": blanks are optional.
 Words separated(const Words& words)
 {
     const auto kind = [](char c) {
@@ -73,8 +67,8 @@ Words separated(const Words& words)
 bool take_mask(Words& w, std::size_t at, Condition& c)
 {
     if (w.size() <= at || w[at] != "&") return true;
-    const auto mask = w.size() > at + 1 ? number_of(w[at + 1]) : std::nullopt;
-    if (!mask || *mask < 1 || *mask > 0xFFFF) return false;
+    const auto mask = number_at(w, at + 1, 1, 0xFFFF);
+    if (!mask) return false;
     c.mask = static_cast<std::uint16_t>(*mask);
     w.erase(w.begin() + static_cast<std::ptrdiff_t>(at), w.begin() + static_cast<std::ptrdiff_t>(at) + 2);
     return true;
@@ -84,9 +78,9 @@ Result<Condition, std::string> word_condition(Words w)
 {
     Condition c{.subject = w[0] == "in" ? Condition::Subject::input : Condition::Subject::output};
     const bool masked = take_mask(w, 2, c);
-    const auto index = w.size() == 4 ? number_of(w[1]) : std::nullopt;
+    const auto index = number_at(w, 1, 1, INT64_MAX);
     const auto value = w.size() == 4 ? number_of(w[3]) : std::nullopt;
-    if (!masked || !index || *index < 1 || !value || !is_relation(w[2]))
+    if (!masked || !index || !value || !is_relation(w[2]))
         return Failure{fmt::format("write it as: {0} 1 = 1250 (or != < > <= >=), {0} 1 & 0x1000 = 0", w[0])};
     c.index = static_cast<std::size_t>(*index);
     c.relation = w[2];
@@ -102,8 +96,8 @@ Result<Condition, std::string> demand_condition(Words w)
         std::string{"write it as: demand = 1250, demand reject 1, demand none or demand reg 1 = 4366"}};
     std::size_t at = 1;
     if (w.size() > 2 && w[1] == "reg") {
-        const auto index = number_of(w[2]);
-        if (!index || *index < 1 || *index > 4) return help;
+        const auto index = number_at(w, 2, 1, 4);
+        if (!index) return help;
         c.subject = Condition::Subject::demand_register;
         c.index = static_cast<std::size_t>(*index);
         at = 3;
@@ -184,16 +178,16 @@ Verdict judge_diagnosis(const Condition& c, const Master& master)
 
 std::size_t input_words(const Master& m)
 {
-    return (m.lengths().inputs - process_start(m.settings())) / 2;
+    return (m.lengths().inputs - demand_octets(m.settings())) / 2;
 }
 std::size_t output_words(const Master& m)
 {
-    return (m.lengths().outputs - process_start(m.settings())) / 2;
+    return (m.lengths().outputs - demand_octets(m.settings())) / 2;
 }
 
 std::optional<std::uint16_t> input_word(const Master& master, std::size_t number)
 {
-    const std::size_t at = process_start(master.settings()) + 2 * (number - 1);
+    const std::size_t at = demand_octets(master.settings()) + 2 * (number - 1);
     if (number < 1 || number > input_words(master) || at + 2 > master.inputs().size()) return std::nullopt;
     return be16(master.inputs(), at);
 }
@@ -201,7 +195,7 @@ std::optional<std::uint16_t> input_word(const Master& master, std::size_t number
 std::optional<std::uint16_t> output_word(Master& master, std::size_t number)
 {
     if (number < 1 || number > output_words(master)) return std::nullopt;
-    return be16(master.outputs(), process_start(master.settings()) + 2 * (number - 1));
+    return be16(master.outputs(), demand_octets(master.settings()) + 2 * (number - 1));
 }
 
 std::vector<std::string> changed_inputs(const Master& master, std::vector<std::optional<std::uint16_t>>& seen)
@@ -220,7 +214,7 @@ std::vector<std::string> changed_inputs(const Master& master, std::vector<std::o
 bool set_output_word(Master& master, std::size_t number, std::uint16_t word)
 {
     if (number < 1 || number > output_words(master)) return false;
-    const std::size_t at = process_start(master.settings()) + 2 * (number - 1);
+    const std::size_t at = demand_octets(master.settings()) + 2 * (number - 1);
     master.outputs()[at] = high(word);
     master.outputs()[at + 1] = low(word);
     return true;

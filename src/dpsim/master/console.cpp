@@ -22,13 +22,6 @@ double seconds(std::chrono::nanoseconds t)
     return std::chrono::duration<double>(t).count();
 }
 
-std::string rest_of(const std::vector<std::string>& words, std::size_t from)
-{
-    std::string rest;
-    for (std::size_t i = from; i < words.size(); ++i) rest += (rest.empty() ? "" : " ") + words[i];
-    return rest;
-}
-
 } // namespace
 
 struct Console::Command {
@@ -53,13 +46,13 @@ struct Console::Command {
 const std::vector<Console::Command>& Console::commands()
 {
     static const std::vector<Command> table{
-        {"start", "start [TIME]", "start-up until Data_Exch (10s), or the reason why not",
+        {"start", "start [TIME]", "start-up until Data_Exch (10s), else the reason",
          Command::by<&Console::do_start>},
         {"in", "in [N]", "the process input words", Command::by<&Console::do_in>},
-        {"follow", "follow on|off", "tells each process input word that changes",
+        {"follow", "follow on|off", "prints each process input word that changes",
          Command::by<&Console::do_follow>},
         {"out", "out [N = VALUE]", "sets a process output word, or shows all", Command::by<&Console::do_out>},
-        {"wait", "wait TIME [for CONDITION]", "waits, at most so long, for a condition",
+        {"wait", "wait TIME [for CONDITION]", "waits for TIME, or until the condition holds",
          Command::by<&Console::do_wait>},
         {"expect", "expect CONDITION", "fails if the condition does not hold now",
          Command::by<&Console::do_expect>},
@@ -68,10 +61,10 @@ const std::vector<Console::Command>& Console::commands()
         {"", "demand read-ext TAG | write-ext TAG VALUE", "the same with the extended commands 3 and 4",
          nullptr},
         {"", "demand raw R1 [R2 R3 R4]", "sets the four registers as they are; does not wait", nullptr},
-        {"", "demand upload TAG COUNT", "reads a block with command 3, value by value, and keeps it",
+        {"", "demand upload TAG COUNT", "reads a block with command 3, one value a request, and keeps it",
          nullptr},
-        {"", "demand download TAG [VALUE ...]", "writes these values with command 4, else what is kept",
-         nullptr},
+        {"", "demand download TAG [VALUE ...]",
+         "writes these values with command 4; without values the block kept", nullptr},
         {"", "demand", "the four registers in both directions", nullptr},
         {"diag", "diag", "reads Slave_Diag and explains it",
          [](Console& c, const Words&, Instant now) {
@@ -91,13 +84,13 @@ const std::vector<Console::Command>& Console::commands()
         {"set-prm", "set-prm HEX", "Set_Prm with this whole data unit (7 octets and more)",
          Command::by<&Console::do_service>},
         {"chk-cfg", "chk-cfg HEX", "Chk_Cfg with these identifier octets", Command::by<&Console::do_service>},
-        {"send", "send HEX", "these octets as they are; shows what comes back",
+        {"send", "send HEX", "sends these octets as they are and shows the answer",
          Command::by<&Console::do_service>},
         {"unlock", "unlock", "releases the slave (Set_Prm with Unlock_Req) and stops",
          Command::by<&Console::do_unlock>},
-        {"run", "run [TIME]", "goes on exchanging for so long; without TIME until ended",
+        {"run", "run [TIME]", "exchanges for this time; without TIME until the program ends",
          Command::by<&Console::do_run>},
-        {"stop", "stop", "falls silent without a word",
+        {"stop", "stop", "stops sending, without Unlock",
          [](Console& c, const Words&, Instant) { c.master_.stop(); }},
         {"stats", "stats", "counters",
          [](Console& c, const Words&, Instant) { c.say(in_words(c.master_.counters())); }},
@@ -112,7 +105,7 @@ std::vector<std::string> Console::help()
     std::vector<std::string> lines;
     for (const Command& c : commands())
         if (!c.usage.empty()) lines.push_back(fmt::format("  {:<44} {}", c.usage, c.help));
-    lines.push_back(fmt::format("  {:<44} {}", "try COMMAND", "carries on even if the command fails"));
+    lines.push_back(fmt::format("  {:<44} {}", "try COMMAND", "goes on even if the command fails"));
     lines.emplace_back("TIME: 2s, 500ms. VALUE: 1250, -300, 0x04E2. '#' begins a comment.");
     lines.emplace_back("CONDITION: in N = V (also != < > <= >=), out N = V, in N & MASK = V, state [not] "
                        "data-exchange,");
@@ -128,8 +121,8 @@ std::vector<std::string> Console::help()
 void Console::command(const std::string& line, const std::string& place, Instant now)
 {
     Words words = words_of(line);
-    forgiving_ = !words.empty() && words[0] == "try";
-    if (forgiving_) words.erase(words.begin());
+    tries_ = !words.empty() && words[0] == "try";
+    if (tries_) words.erase(words.begin());
     if (words.empty()) return;
     line_ = rest_of(words, 0);
     place_ = place;
@@ -161,10 +154,10 @@ void Console::fail(std::string_view why)
 {
     wait_.reset();
     say(fmt::format("{}{}: {}", place_, line_, why));
-    if (!forgiving_) failed_ = true;
+    if (!tries_) failed_ = true;
 }
 
-// ---- what the master tells ----
+// ---- what the master reports ----
 
 void Console::on_time(Instant now)
 {
@@ -281,13 +274,9 @@ void Console::do_wait(const Words& words, Instant now)
 
 void Console::do_run(const Words& words, Instant now)
 {
-    if (words.size() == 1) {
-        wait_ = Wait{.what = For::time, .until = kNever};
-        return;
-    }
-    const auto time = duration_of_text(words[1]);
-    if (!time || words.size() > 2) return fail("write it as: run 2s");
-    wait_ = Wait{.what = For::time, .until = now + *time};
+    const auto time = words.size() == 2 ? duration_of_text(words[1]) : std::nullopt;
+    if (!time && words.size() > 1) return fail("write it as: run 2s");
+    wait_ = Wait{.what = For::time, .until = time ? now + *time : kNever};
 }
 
 void Console::do_expect(const Words& words, Instant /*now*/)
@@ -301,9 +290,9 @@ void Console::do_expect(const Words& words, Instant /*now*/)
 
 void Console::do_in(const Words& words, Instant /*now*/)
 {
-    const auto only = words.size() > 1 ? number_of(words[1]) : std::optional<std::int64_t>{0};
-    if (!only || *only < 0 || *only > static_cast<std::int64_t>(input_words(master_)))
-        return fail(fmt::format("there are {} input words, counted from 1", input_words(master_)));
+    const auto count = static_cast<std::int64_t>(input_words(master_));
+    const auto only = words.size() > 1 ? number_of(words[1], 0, count) : std::optional<std::int64_t>{0};
+    if (!only) return fail(fmt::format("there are {} input words, counted from 1", count));
     if (master_.inputs().empty()) return say("no inputs at present: " + std::string{text(master_.state())});
     for (std::size_t n = 1; n <= input_words(master_); ++n)
         if (*only == 0 || static_cast<std::size_t>(*only) == n)
@@ -314,8 +303,9 @@ void Console::do_in(const Words& words, Instant /*now*/)
 
 void Console::do_follow(const Words& words, Instant /*now*/)
 {
-    if (words.size() != 2 || (words[1] != "on" && words[1] != "off")) return fail("write it as: follow on");
-    follows_ = words[1] == "on";
+    const auto on = switch_at(words, 1);
+    if (!on) return fail("write it as: follow on");
+    follows_ = *on;
     followed_.clear();
 }
 
@@ -350,8 +340,8 @@ void Console::take(DemandRun::Step step)
 
 void Console::do_global(const Words& words, Instant now)
 {
-    const auto groups = words.size() > 1 ? number_of(words[1]) : std::optional<std::int64_t>{0};
-    if (!groups || *groups < 0 || *groups > 255) return fail("groups are a mask 0x00 to 0xFF, 0 = all");
+    const auto groups = words.size() > 1 ? number_of(words[1], 0, 255) : std::optional<std::int64_t>{0};
+    if (!groups) return fail("groups are a mask 0x00 to 0xFF, 0 = all");
     const std::uint8_t control = words[0] == "sync"     ? 0x20
                                  : words[0] == "unsync" ? 0x10
                                  : words[0] == "freeze" ? 0x08

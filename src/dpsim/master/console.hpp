@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The language of `dpsim master`: one command a line, the answer in plain words. Pure: it drives a Master,
-/// is told the time, and gives out lines. The cyclic exchange goes on while a command waits.
+/// The commands of `dpsim master`: one a line, the answer in plain words. Pure: commands and times go in,
+/// orders to a Master and lines come out. The cyclic exchange goes on while a command waits.
 #pragma once
 
 #include "demand_run.hpp"
@@ -65,10 +65,10 @@ private:
     Instant began_;
     std::optional<Wait> wait_;
     std::string line_, place_;
-    bool forgiving_ = false; ///< "try": a failure is told, but does not count
+    bool tries_ = false; ///< "try": a failure is printed, but does not count
     bool quit_ = false, failed_ = false;
     bool follows_ = false;
-    std::vector<std::optional<std::uint16_t>> followed_; ///< the input words as told last
+    std::vector<std::optional<std::uint16_t>> followed_; ///< the input words as printed last
     Octets last_reply_;
     std::vector<std::string> lines_;
 };

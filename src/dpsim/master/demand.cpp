@@ -33,7 +33,12 @@ DemandRegisters registers_in(Bytes octets)
 
 bool has_demand(const MasterSettings& settings)
 {
-    return !settings.cfg.empty() && settings.cfg[0] == 0x73;
+    return !settings.cfg.empty() && settings.cfg[0] == kDemandIdentifier;
+}
+
+std::size_t demand_octets(const MasterSettings& settings)
+{
+    return has_demand(settings) ? kDemandOctets : 0;
 }
 
 DemandRegisters registers_of(const DemandWords& order)

@@ -28,6 +28,8 @@ struct DemandWords {
     std::uint16_t value = 0; ///< value, or error code with a reject
 };
 
+/// Of the process image, before the process words: 8, or 0 without Demand Data.
+std::size_t demand_octets(const MasterSettings& settings);
 bool has_demand(const MasterSettings& settings);
 
 DemandRegisters registers_of(const DemandWords& order);

@@ -25,9 +25,8 @@ constexpr std::string_view kUsage =
 std::optional<std::uint16_t> word_in(const std::vector<std::string>& words, std::size_t at,
                                      std::int64_t least, std::int64_t most)
 {
-    const auto number = at < words.size() ? number_of(words[at]) : std::nullopt;
-    if (!number || *number < least || *number > most) return std::nullopt;
-    return static_cast<std::uint16_t>(*number & 0xFFFF);
+    const auto number = number_at(words, at, least, most);
+    return number ? std::optional{static_cast<std::uint16_t>(*number & 0xFFFF)} : std::nullopt;
 }
 
 std::optional<std::uint16_t> value_in(const std::vector<std::string>& words, std::size_t at)

@@ -11,23 +11,22 @@ namespace {
 
 struct Finding {
     std::string_view name;
-    std::size_t octet;
-    std::uint8_t mask;
+    DiagnosisBit bit;
     std::string_view words;
 };
 
 constexpr std::array kFindings{
-    Finding{"not-ready", 1, 0x02, "Station_Not_Ready: not yet ready for data exchange"},
-    Finding{"cfg-fault", 1, 0x04, "Cfg_Fault: the last Chk_Cfg does not fit"},
-    Finding{"ext-diag", 1, 0x08, "Ext_Diag: the extended part reports a fault"},
-    Finding{"not-supported", 1, 0x10, "Not_Supported: Sync or Freeze was asked for and is not there"},
-    Finding{"prm-fault", 1, 0x40, "Prm_Fault: the last Set_Prm was refused (ident or parameters)"},
-    Finding{"prm-required", 2, 0x01, "Prm_Req: the slave waits for parameters"},
-    Finding{"stat-diag", 2, 0x02, "Stat_Diag: no valid data yet, diagnosis is to be read again"},
-    Finding{"watchdog", 2, 0x08, "WD_On: the watchdog is on"},
-    Finding{"freeze", 2, 0x10, "Freeze_Mode: the inputs are frozen"},
-    Finding{"sync", 2, 0x20, "Sync_Mode: the outputs are held"},
-    Finding{"overflow", 3, 0x80, "Ext_Diag_Overflow: there is more diagnosis than fits"},
+    Finding{"not-ready", kNotReady, "Station_Not_Ready: not yet ready for data exchange"},
+    Finding{"cfg-fault", kCfgFault, "Cfg_Fault: the last Chk_Cfg does not fit"},
+    Finding{"ext-diag", {1, 0x08}, "Ext_Diag: the extended part reports a fault"},
+    Finding{"not-supported", kNotSupported, "Not_Supported: Sync or Freeze was asked for and is not there"},
+    Finding{"prm-fault", kPrmFault, "Prm_Fault: the last Set_Prm was refused (ident or parameters)"},
+    Finding{"prm-required", kPrmRequired, "Prm_Req: the slave waits for parameters"},
+    Finding{"stat-diag", kStatDiag, "Stat_Diag: no valid data yet, diagnosis is to be read again"},
+    Finding{"watchdog", {2, 0x08}, "WD_On: the watchdog is on"},
+    Finding{"freeze", {2, 0x10}, "Freeze_Mode: the inputs are frozen"},
+    Finding{"sync", {2, 0x20}, "Sync_Mode: the outputs are held"},
+    Finding{"overflow", {3, 0x80}, "Ext_Diag_Overflow: there is more diagnosis than fits"},
 };
 
 /// Trip codes of the drives behind a technology box (HA463561U002); 31 = a 590+ has tripped.
@@ -139,7 +138,7 @@ std::vector<std::string> explain(const Diagnosis& diagnosis)
                                     ? std::string{"owned by no master"}
                                     : fmt::format("owned by master {}", diagnosis.master)));
     for (const Finding& f : kFindings)
-        if (diagnosis.bit(f.octet, f.mask)) lines.emplace_back(f.words);
+        if (diagnosis.has(f.bit)) lines.emplace_back(f.words);
     explain_extended(Bytes{diagnosis.octets}.subspan(6), lines);
     return lines;
 }
@@ -149,7 +148,7 @@ std::optional<bool> finding(const Diagnosis& diagnosis, std::string_view name)
     const auto* const found =
         std::find_if(kFindings.begin(), kFindings.end(), [&](const Finding& f) { return f.name == name; });
     if (found == kFindings.end()) return std::nullopt;
-    return diagnosis.bit(found->octet, found->mask);
+    return diagnosis.has(found->bit);
 }
 
 } // namespace dpslave::sim

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Slave_Diag as the master reads it (wire reference 5.1 and 5.3), with words for people.
+/// Slave_Diag as the master reads it (wire reference 5.1 and 5.3), and in words.
 #pragma once
 
 #include "dpsim/common/telegram.hpp"
@@ -8,19 +8,20 @@
 
 namespace dpslave::sim {
 
+struct DiagnosisBit {
+    std::size_t octet; ///< from 1
+    std::uint8_t mask;
+};
+inline constexpr DiagnosisBit kNotReady{1, 0x02}, kCfgFault{1, 0x04}, kNotSupported{1, 0x10},
+    kPrmFault{1, 0x40}, kPrmRequired{2, 0x01}, kStatDiag{2, 0x02};
+
 /// The six standard octets and what follows them.
 struct Diagnosis {
     Octets octets;              ///< all of them, at least six
-    std::uint8_t master = 0xFF; ///< Master_Add; FF = nobody's
+    std::uint8_t master = 0xFF; ///< Master_Add; FF = none
     std::uint16_t ident = 0;
 
-    bool bit(std::size_t octet, std::uint8_t mask) const { return (octets[octet - 1] & mask) != 0; }
-    bool not_ready() const { return bit(1, 0x02); }
-    bool cfg_fault() const { return bit(1, 0x04); }
-    bool not_supported() const { return bit(1, 0x10); }
-    bool prm_fault() const { return bit(1, 0x40); }
-    bool prm_required() const { return bit(2, 0x01); }
-    bool stat_diag() const { return bit(2, 0x02); }
+    bool has(DiagnosisBit bit) const { return (octets[bit.octet - 1] & bit.mask) != 0; }
 };
 
 /// From the data unit of a Slave_Diag reply; says what is implausible about it.

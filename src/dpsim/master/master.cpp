@@ -79,7 +79,13 @@ void Master::stop()
 void Master::clear(bool on)
 {
     clear_ = on;
-    order({Service::global_control, {static_cast<std::uint8_t>(on ? 0x02 : 0x00), 0x00}});
+    order(mode_order());
+}
+
+/// Global_Control with Clear_Data, or without it: Operate.
+Order Master::mode_order() const
+{
+    return {Service::global_control, {static_cast<std::uint8_t>(clear_ ? 0x02 : 0x00), 0x00}};
 }
 
 std::optional<Order> Master::cyclic_order() const
@@ -176,9 +182,9 @@ void Master::on_slave_diag(const Requester::Outcome& outcome, Instant now)
     if (!diagnosis) return complain(diagnosis.error());
     diagnosis_ = std::move(*diagnosis);
     if (outcome.one_shot && state_ != MasterState::data_exchange) return;
-    if (state_ == MasterState::data_exchange && told_diagnosis_ != diagnosis_->octets) {
-        told_diagnosis_ = diagnosis_->octets;
-        if (!outcome.one_shot) events_.push_back({MasterEvent::Kind::diagnosis, {}, std::nullopt});
+    if (state_ == MasterState::data_exchange && reported_diagnosis_ != diagnosis_->octets) {
+        reported_diagnosis_ = diagnosis_->octets;
+        if (!outcome.one_shot) events_.push_back({MasterEvent::Kind::diagnosis, {}});
     }
     judge_start_up(*diagnosis_, now);
 }
@@ -192,32 +198,31 @@ void Master::judge_start_up(const Diagnosis& d, Instant now)
             cfg_refusal_.clear();
             return enter(MasterState::parameterising);
         case MasterState::awaiting_ready:
-            if (d.prm_fault() && d.ident != settings_.ident)
+            if (d.has(kPrmFault) && d.ident != settings_.ident)
                 return refuse(
                     fmt::format(
                         "Set_Prm was refused: its ident is 0x{:04X}, the slave's is 0x{:04X} (--ident)",
                         settings_.ident, d.ident),
                     now);
-            if (d.prm_fault())
+            if (d.has(kPrmFault))
                 return refuse(
-                    fmt::format("Set_Prm was refused: the slave does not like User_Prm_Data ({} octets: {})",
+                    fmt::format("Set_Prm was refused: the slave does not take User_Prm_Data ({} octets: {})",
                                 settings_.user_prm.size(), hex(settings_.user_prm)),
                     now);
-            if (d.not_supported())
+            if (d.has(kNotSupported))
                 return refuse("Set_Prm was refused: Sync or Freeze is not supported (--no-sync-freeze)", now);
-            if (d.cfg_fault())
+            if (d.has(kCfgFault))
                 return refuse("Chk_Cfg was refused: Cfg_Data " + hex(settings_.cfg) + " does not fit", now);
             if (foreign) return refuse(fmt::format("the slave now belongs to master {}", d.master), now);
-            if (d.prm_required()) return refuse("the slave has dropped its parameters again", now);
+            if (d.has(kPrmRequired)) return refuse("the slave has dropped its parameters again", now);
             if (!cfg_refusal_.empty()) return refuse(cfg_refusal_, now);
-            if (d.not_ready() || d.stat_diag()) return;
+            if (d.has(kNotReady) || d.has(kStatDiag)) return;
             enter(MasterState::data_exchange);
-            orders_.push_front(
-                {Service::global_control, {static_cast<std::uint8_t>(clear_ ? 0x02 : 0x00), 0x00}});
+            orders_.push_front(mode_order());
             return;
         case MasterState::data_exchange:
-            diagnosis_due_ = d.stat_diag();
-            if (d.not_ready() || d.prm_required() || foreign)
+            diagnosis_due_ = d.has(kStatDiag);
+            if (d.has(kNotReady) || d.has(kPrmRequired) || foreign)
                 leave_exchange("diagnosis says that the slave is not in data exchange any more",
                                MasterState::asking);
             return;
@@ -251,7 +256,7 @@ void Master::on_data_exchange(const Requester::Outcome& outcome)
 
 void Master::refuse(std::string why, Instant now)
 {
-    if (why != last_refusal_) events_.push_back({MasterEvent::Kind::refused, why, std::nullopt});
+    if (why != last_refusal_) events_.push_back({MasterEvent::Kind::refused, why});
     last_refusal_ = std::move(why);
     next_cycle_ = now + kRefusalPause;
     state_ = MasterState::asking;
@@ -260,7 +265,7 @@ void Master::refuse(std::string why, Instant now)
 void Master::leave_exchange(std::string why, MasterState to)
 {
     if (state_ == MasterState::data_exchange) ++counters_.exchanges_lost;
-    events_.push_back({MasterEvent::Kind::lost, std::move(why), std::nullopt});
+    events_.push_back({MasterEvent::Kind::lost, std::move(why)});
     enter(to);
 }
 
@@ -271,15 +276,15 @@ void Master::enter(MasterState state)
     state_ = state;
     if (state == MasterState::data_exchange) {
         diagnosis_due_ = false;
-        told_diagnosis_.clear();
+        reported_diagnosis_.clear();
         last_refusal_.clear();
     }
-    events_.push_back({MasterEvent::Kind::state, std::string{text(state)}, std::nullopt});
+    events_.push_back({MasterEvent::Kind::state, std::string{text(state)}});
 }
 
 void Master::complain(std::string words)
 {
-    events_.push_back({MasterEvent::Kind::complaint, std::move(words), std::nullopt});
+    events_.push_back({MasterEvent::Kind::complaint, std::move(words)});
 }
 
 void Master::report(Answer answer)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A DP master (class 1) for one slave, and a judge of what the slave answers. Pure: octets and times go in,
+/// A DP master (class 1) for one slave, and a check of what the slave answers. Pure: octets and times go in,
 /// telegrams, deadlines and events come out (wire reference, sections 2.6, 4 and 5).
 #pragma once
 
@@ -20,8 +20,8 @@ struct MasterEvent {
         answer,    ///< an order is done
     };
     Kind kind = Kind::state;
-    std::string words;
-    std::optional<Answer> answer;
+    std::string words{};
+    std::optional<Answer> answer{};
 };
 
 /// After every on_* call: take_transmit(), then take_event() until empty, then next_deadline().
@@ -39,7 +39,7 @@ public:
     std::optional<MasterEvent> take_event();
 
     void start(); ///< begins the start-up; does nothing if it is running
-    void stop();  ///< falls silent at once
+    void stop();  ///< sends nothing more, from now on
     void order(Order order) { orders_.push_back(std::move(order)); }
     void clear(bool on); ///< Clear: zeros go out and a Global_Control says so; false = Operate
 
@@ -53,6 +53,7 @@ public:
 
 private:
     std::optional<Order> cyclic_order() const;
+    Order mode_order() const;
     void take(const Requester::Outcome& outcome, Instant now);
     void lost(const Requester::Outcome& outcome);
     void report(Answer answer);
@@ -73,12 +74,12 @@ private:
     bool clear_ = false;
     bool diagnosis_due_ = false;
     std::optional<Diagnosis> diagnosis_;
-    Octets told_diagnosis_; ///< said once, not at every reading
+    Octets reported_diagnosis_; ///< reported once, not at every reading
 
     Instant next_cycle_{};
     std::deque<Order> orders_;
     std::deque<MasterEvent> events_;
-    std::string last_refusal_; ///< said once, not at every attempt
+    std::string last_refusal_; ///< reported once, not at every attempt
     std::string cfg_refusal_;  ///< Chk_Cfg was answered with RS, RR or UE
     MasterCounters counters_;
     Requester requester_{settings_, counters_};

@@ -15,7 +15,7 @@ std::string use_tags(const MasterTexts& t, Octets& prm, Octets& cfg)
 {
     const bool option_board = t.family == "option-board";
     Octets ids;
-    if (!t.no_demand) ids.push_back(0x73);
+    if (!t.no_demand) ids.push_back(kDemandIdentifier);
     prm.assign(t.family == "technology-box" ? 3 : 0, 0); // the octets of DPV1
     std::string text = t.tags;
     for (char& c : text) c = c == ',' ? ' ' : c;
@@ -26,8 +26,8 @@ std::string use_tags(const MasterTexts& t, Octets& prm, Octets& cfg)
         else if (word.ends_with('w'))
             id = 0x60;
         word.resize(word.size() - (id == 0x70 ? 2 : id == 0x60 ? 1 : 0));
-        const auto tag = number_of(word);
-        if (!tag || *tag < 1 || *tag > 0xFFFF) return fmt::format("--tags: '{}' is no tag number", word);
+        const auto tag = number_of(word, 1, 0xFFFF);
+        if (!tag) return fmt::format("--tags: '{}' is no tag number", word);
         prm.push_back(high(static_cast<std::uint16_t>(*tag)));
         prm.push_back(low(static_cast<std::uint16_t>(*tag)));
         ids.push_back(id);
@@ -58,9 +58,8 @@ std::string complete(MasterSettings& s, const MasterTexts& t)
     if (t.ident.empty() && !option_board)
         return "--family " + t.family + " needs --ident: the number in the GSD that the master uses";
     if (!t.ident.empty()) {
-        const auto ident = number_of(t.ident);
-        if (!ident || *ident < 0 || *ident > 0xFFFF)
-            return fmt::format("--ident {}: a number up to 0xFFFF", t.ident);
+        const auto ident = number_of(t.ident, 0, 0xFFFF);
+        if (!ident) return fmt::format("--ident {}: a number up to 0xFFFF", t.ident);
         s.ident = static_cast<std::uint16_t>(*ident);
     }
     const auto prm = octets_of(t.prm == "none" ? "" : t.prm), cfg = octets_of(t.cfg);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Options of `dpsim master` that need a second look after they have been read.
+/// The options of `dpsim master` as texts, and the settings that they make.
 #pragma once
 
 #include "master.hpp"

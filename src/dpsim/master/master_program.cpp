@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "console.hpp"
 #include "dpsim/common/programs.hpp"
-#include "dpsim/line/edge.hpp"
+#include "dpsim/common/system.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 namespace dpslave::sim {
 namespace {
 
-/// The master on its tty, with a person or a script in front of it.
+/// The master on its tty, with commands that are typed or read from a script.
 class Session {
 public:
     Session(Master& master, int port, int commands, std::string script, bool prompt)
@@ -45,7 +45,7 @@ private:
         return input_.ended() && !console_.busy() && !more_;
     }
 
-    /// False: the line is gone.
+    /// False: the port is closed.
     bool turn_port()
     {
         const auto octets = read_some(port_);
@@ -58,7 +58,7 @@ private:
         console_.on_time(monotonic_now());
         if (const auto telegram = master_.take_transmit(monotonic_now()))
             write_all(port_, *telegram, std::chrono::milliseconds{100});
-        tell();
+        print();
         if (was_busy_ && !console_.busy()) ask();
         was_busy_ = console_.busy();
         return true;
@@ -74,13 +74,13 @@ private:
         console_.command(*line, script_.empty() ? std::string{} : fmt::format("{}:{}: ", script_, number_),
                          monotonic_now());
         console_.on_time(monotonic_now());
-        tell();
+        print();
         was_busy_ = console_.busy();
         if (!was_busy_) ask();
         return true;
     }
 
-    void tell()
+    void print()
     {
         for (const std::string& line : console_.take_lines()) print_line(line);
     }

@@ -12,10 +12,6 @@ namespace {
 constexpr std::array<std::string_view, 7> kStateNames{
     "stopped", "searching", "asking", "parameterising", "configuring", "awaiting-ready", "data-exchange"};
 
-constexpr std::array<std::string_view, 8> kServiceNames{"FDL status",     "Slave_Diag",  "Set_Prm",
-                                                        "Chk_Cfg",        "Get_Cfg",     "Data_Exchange",
-                                                        "Global_Control", "raw telegram"};
-
 /// The two watchdog factors for at least `wanted`, as near as 10 ms steps allow; the longest there is if it
 /// is too long.
 std::pair<std::uint8_t, std::uint8_t> watchdog_factors(std::chrono::milliseconds wanted)
@@ -58,7 +54,12 @@ std::vector<std::string> in_words(const MasterCounters& c)
 
 std::string_view text(Service service)
 {
-    return kServiceNames[static_cast<std::size_t>(service)];
+    switch (service) {
+        case Service::fdl_status: return "FDL status";
+        case Service::data_exchange: return "Data_Exchange";
+        case Service::raw: return "raw telegram";
+        default: return sap_name(sap_of(service));
+    }
 }
 
 std::uint8_t sap_of(Service service)

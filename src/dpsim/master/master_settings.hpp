@@ -8,23 +8,26 @@
 
 namespace dpslave::sim {
 
+/// First identifier of a Cfg_Data with Demand Data.
+inline constexpr std::uint8_t kDemandIdentifier = 0x73;
+
 struct MasterSettings {
     Baud baud = Baud::k187_5;
     std::uint8_t address = 2;
     std::uint8_t slave = 5;
     std::uint16_t ident = 0x0533;
     Octets user_prm = Octets(24, 0); ///< User_Prm_Data
-    Octets cfg{0x73};                ///< Cfg_Data, identifier octets
-    std::chrono::milliseconds watchdog{
-        1000};                  ///< 0 = off; rounded up to what two factors can say (10 ms base)
+    Octets cfg{kDemandIdentifier};   ///< Cfg_Data, identifier octets
+    /// 0 = off; rounded up to a product of two factors and 10 ms.
+    std::chrono::milliseconds watchdog{1000};
     std::uint8_t min_tsdr = 11; ///< bit times
     std::uint8_t group = 0x01;  ///< Group_Ident, a bit per group
     bool sync_freeze = true;    ///< ask for Sync and Freeze in Set_Prm
     Fixed fixed = Fixed::never; ///< SD3 for data units of eight octets
     unsigned retries = 1;       ///< repetitions of a request that got no valid answer
     std::chrono::nanoseconds cycle = std::chrono::milliseconds{10}; ///< from one cyclic request to the next
-    std::chrono::nanoseconds allowance =
-        std::chrono::milliseconds{20}; ///< on top of the slot time: a host jitters
+    /// On top of the slot time, for the jitter of a host.
+    std::chrono::nanoseconds allowance = std::chrono::milliseconds{20};
 };
 
 /// How many octets a configuration carries in each direction; why it cannot be one.
@@ -74,7 +77,7 @@ struct Answer {
     Service service = Service::slave_diag;
     std::optional<Frame> frame; ///< nothing: no answer, or an invalid one
     Octets octets;              ///< as heard
-    std::string words;          ///< for people
+    std::string words;          ///< a sentence
 };
 
 struct MasterCounters {
@@ -86,9 +89,9 @@ struct MasterCounters {
     std::uint64_t refused = 0;        ///< UE, RR, RS
     std::uint64_t diagnosis_reads = 0;
     std::uint64_t diagnosis_pending = 0; ///< Data_Exchange answers with DH
-    std::uint64_t exchanges_lost = 0;    ///< ways out of Data_Exch that nobody here asked for
-    std::chrono::nanoseconds answer_min{0}, answer_max{0},
-        answer_sum{0}; ///< Data_Exchange: handed over until answer whole
+    std::uint64_t exchanges_lost = 0;    ///< ways out of Data_Exch that were not ordered here
+    /// Data_Exchange: handed over until answer whole.
+    std::chrono::nanoseconds answer_min{0}, answer_max{0}, answer_sum{0};
 };
 
 /// The counters in two or three lines.

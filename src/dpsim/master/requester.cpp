@@ -8,8 +8,8 @@ namespace {
 
 constexpr Tbit kTid1{37}; ///< pause after an answer: T_SYN 33 and the safety margin 4 (wire reference 1.3)
 constexpr Tbit kTsyn{33};
-/// A station that never stops talking is heard no longer than this.
-constexpr std::size_t kLongestBabble = 1024;
+/// Of a station that never stops sending no more octets are kept.
+constexpr std::size_t kMostOctets = 1024;
 
 constexpr std::uint8_t kFcFdlStatus = 0x49, kFcSdnHigh = 0x46, kFcSrdHigh = 0x4D, kFcb = 0x20, kFcv = 0x10;
 
@@ -20,7 +20,7 @@ Tbit slot_time(Baud baud)
     return baud == Baud::k500 ? Tbit{200} : Tbit{100};
 }
 
-/// Pause after a request that nobody answers: the largest T_SDR of the class.
+/// Pause after a request that is not answered: the largest T_SDR of the class.
 Tbit pause_after_sdn(Baud baud)
 {
     if (baud == Baud::k1500) return Tbit{150};
@@ -93,7 +93,7 @@ std::optional<Requester::Outcome> Requester::on_bytes(Bytes octets, Instant now)
         unasked_at_ = now;
         return std::nullopt;
     }
-    if (rx_.size() > kLongestBabble) return std::nullopt;
+    if (rx_.size() > kMostOctets) return std::nullopt;
     rx_.insert(rx_.end(), octets.begin(), octets.end());
     pending_->give_up = now + duration_of(characters(1) + kTsyn, settings_.baud) + settings_.allowance;
     if (!rx_flaw_.empty()) return std::nullopt;
@@ -191,7 +191,6 @@ Requester::Outcome Requester::finished(Instant now)
 {
     Outcome outcome{.order = std::move(pending_->order),
                     .one_shot = pending_->one_shot,
-                    .counted = pending_->counted,
                     .heard = heard_,
                     .tries = pending_->tries,
                     .took = now - pending_->sent};

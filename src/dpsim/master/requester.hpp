@@ -13,7 +13,6 @@ public:
     struct Outcome {
         Order order{};
         bool one_shot = false;
-        bool counted = false;       ///< it carried a frame count bit
         bool was_sent_only = false; ///< SDN: nothing comes back
         bool is_whole = false;      ///< what was heard has the length of a telegram
         std::optional<Frame> answer{};
@@ -40,7 +39,7 @@ public:
     /// Of a request that is under way.
     Instant next_deadline() const { return to_send_ ? Instant::min() : pending_->give_up; }
 
-    /// A cyclic request is not sent again, and not at all if it has not gone yet.
+    /// A cyclic request is not sent again, and not at all if it was not sent yet.
     void give_up_cyclic();
     /// The next counted request begins a sequence (FCB 1, FCV 0).
     void begin_sequence() { first_ = true; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "edge.hpp"
+#include "system.hpp"
 
 #include <asm/termbits.h>
 #include <fcntl.h>
@@ -40,7 +40,7 @@ bool make_raw(int fd, std::uint32_t baud, Format format)
     t.c_cflag = BOTHER | CREAD | CLOCAL | (format == Format::bits8 ? 0U : PARENB) |
                 (format == Format::bits7_even ? CS7 : CS8);
     t.c_ispeed = t.c_ospeed = baud;
-    t.c_cc[VMIN] = 1; // without octets read() says EAGAIN, so that 0 can mean that the line is gone
+    t.c_cc[VMIN] = 1; // without octets read() says EAGAIN, so that 0 means that the line is closed
     return ::ioctl(fd, TCSETSF2, &t) == 0;
 }
 
@@ -120,7 +120,7 @@ std::optional<Octets> read_some(int fd)
     return std::nullopt;
 }
 
-std::size_t write_all(int fd, Bytes octets, std::chrono::milliseconds patience)
+std::size_t write_all(int fd, Bytes octets, std::chrono::milliseconds longest)
 {
     std::size_t done = 0;
     while (done < octets.size()) {
@@ -130,8 +130,8 @@ std::size_t write_all(int fd, Bytes octets, std::chrono::milliseconds patience)
             continue;
         }
         if (errno == EINTR) continue;
-        pollfd room{fd, POLLOUT, 0};
-        if (errno != EAGAIN || ::poll(&room, 1, static_cast<int>(patience.count())) != 1) break;
+        pollfd space{fd, POLLOUT, 0};
+        if (errno != EAGAIN || ::poll(&space, 1, static_cast<int>(longest.count())) != 1) break;
     }
     return done;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// All that the simulators ask of Linux: ttys, ptys, the clock, signals, lines typed by people.
+/// All that the simulators ask of Linux: ttys, ptys, the clock, signals, lines of commands.
 #pragma once
 
-#include "dpsim/common/telegram.hpp"
+#include "telegram.hpp"
 
 #include "dpslave/base/units.hpp"
 
@@ -29,13 +29,14 @@ Instant monotonic_now();
 /// Sleeps until `when` by the absolute clock; returns earlier if a signal comes.
 void sleep_until(Instant when);
 /// For the calling thread: sleeps end as exactly as the hardware can (the default slack is 50 us), and, where
-/// the user may, other programs wait while it is busy: a line that a compiler slows down proves nothing.
+/// the user may, it goes before other programs: a line that a compiler slows down proves nothing.
 void be_prompt();
 
 /// Character format of a tty. A pty takes only the speed.
 enum class Format : std::uint8_t { bits8_even, bits7_even, bits8 }; ///< 8E1, 7E1, 8N1
 
-/// Opens a tty raw, without echo, at any speed, reading without waiting; what waited in it is thrown away.
+/// Opens a tty raw, without echo, at any speed, reading without waiting; octets that waited in it are
+/// dropped.
 Result<Fd, std::string> open_tty(const std::string& path, std::uint32_t baud, Format format);
 
 /// A new pty; `path` names its slave. One slave descriptor stays open: else closing the far end would be an
@@ -48,18 +49,18 @@ struct Pty {
 Result<Pty, std::string> open_pty(std::uint32_t baud);
 /// The rate that the slave's side is set to, bit/s; 0 = none.
 std::uint32_t rate_of(const Pty& pty);
-/// Throws away what nobody read at the slave's side.
+/// Drops what was not read at the slave's side.
 void discard_unread(const Pty& pty);
 
-/// Octets that are there now; empty = none. Nothing: the other side is gone.
+/// Octets that are there now; empty = none. Nothing: the other side is closed.
 std::optional<Octets> read_some(int fd);
-/// Writes all, waiting for room at most `patience`; how many octets went out.
-std::size_t write_all(int fd, Bytes octets, std::chrono::milliseconds patience);
+/// Writes all, waiting at most `longest` for space; how many octets went out.
+std::size_t write_all(int fd, Bytes octets, std::chrono::milliseconds longest);
 
-/// A symbolic link that goes away with its owner, unless somebody has replaced it.
+/// A symbolic link that is removed with its owner, unless it was replaced.
 class Symlink {
 public:
-    /// Refuses a path that is taken, unless by a link to a pty: such a one was left behind.
+    /// Refuses a path that exists, unless it is a link to a pty, left by a run before.
     static Result<Symlink, std::string> make(const std::string& path, const std::string& target);
     Symlink(Symlink&& other) noexcept
         : path_(std::exchange(other.path_, {})), target_(std::move(other.target_))
@@ -87,12 +88,10 @@ private:
 class LineReader {
 public:
     explicit LineReader(int fd) : fd_(fd) {}
-    int fd() const { return open_ ? fd_ : -1; } ///< -1 once it has ended: poll() then leaves it alone
+    int fd() const { return open_ ? fd_ : -1; } ///< -1 once it has ended: poll() ignores it
     bool ended() const { return !open_; }       ///< no more lines will come
-    bool closed() const
-    {
-        return closed_;
-    }            ///< ended by its owner (Ctrl-D), not because we are in the background
+    /// Ended by Ctrl-D or at the end of the file, not because this program runs in the background.
+    bool closed() const { return closed_; }
     void read(); ///< call when poll() says so
     std::optional<std::string> take();
 
