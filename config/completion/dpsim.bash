@@ -6,9 +6,9 @@ _dpsim()
     local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]} words=''
     [ "$COMP_CWORD" -gt 1 ] || command=''
     case $prev in
-        --a | --b | --port | --tags | --script) compopt -o filenames 2>/dev/null
+        --a | --b | --port | --table | --script) compopt -o filenames 2>/dev/null
             mapfile -t COMPREPLY < <(compgen -f -- "$cur"); return ;;
-        --model) words='590 584s 620 590plus 584sv 605 690plus 2408f 2404f' ;;
+        --profile) words='590 584s 620 590plus 584sv 605 690plus 2408f 2404f' ;;
         --family) words='option-board technology-box controller' ;;
         --baud) words='9600 19200 45450 93750 187500 500000 1500000' ;;
         --bits) words='10 11' ;;
@@ -17,7 +17,7 @@ _dpsim()
             case $command in
                 '') words='line drive master --help --version' ;;
                 line) words='--baud --bits --a --b --any-rate --errors --delay --seed --help' ;;
-                drive) words='--model --port --baud --unit --tags --turnaround --programs --parity --fault --log --help' ;;
+                drive) words='--profile --port --baud --unit --table --turnaround --programs --parity --fault --log --help' ;;
                 master) words='--port --baud --master --slave --family --ident --prm --tags --prm-length --cfg --no-demand
                                --watchdog --no-watchdog --min-tsdr --group --no-sync-freeze --cycle --slot-ms --retries
                                --sd3 --script --help' ;;

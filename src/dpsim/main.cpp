@@ -35,7 +35,7 @@ void add_line(CLI::App& app, LineOptions& o)
     line.add_option("--errors", o.errors, "chance of each bit to be inverted")->check(CLI::Range(0.0, 1.0));
     line.add_option("--delay", o.delay_us, "further delay in microseconds")->check(CLI::Range(0, 10'000'000));
     line.add_option("--seed", o.seed, "of the bit errors");
-    line.add_flag("--any-rate", o.any_rate, "whatever rate the ends are set to is right");
+    line.add_flag("--any-rate", o.any_rate, "the ends may be set to any rate");
     line.footer(
         "Prints 'ready PATH PATH' when both ends can be opened.\n"
         "Commands on standard input: " +
@@ -52,8 +52,9 @@ void add_drive(CLI::App& app, DriveOptions& o)
     CLI::App& drive =
         *app.add_subcommand("drive", "a drive (EI-ASCII) or an instrument (Modbus RTU) in memory");
     drive
-        .add_option("--model", o.model,
-                    "EI-ASCII: 590, 584s, 620, 590plus, 584sv, 605 or 690plus; Modbus RTU: 2408f or 2404f")
+        .add_option("--profile", o.profile,
+                    "name of the device, as in config/profiles. EI-ASCII: 590, 584s, 620, 590plus, 584sv, "
+                    "605 or 690plus; Modbus RTU: 2408f or 2404f")
         ->required();
     drive.add_option("--port", o.port, "tty or end of a simulated line")->required();
     drive.add_option("--baud", o.baud, "bit/s (7E1; Modbus RTU 8N1)")
@@ -63,7 +64,7 @@ void add_drive(CLI::App& app, DriveOptions& o)
         "--unit", o.units,
         "group and unit id, 00 if none is given; Modbus address, 1 if none is given; several: --unit 00 "
         "01");
-    drive.add_option("--tags", o.tags,
+    drive.add_option("--table", o.table,
                      "tag table (columns as in dpslaved.toml), else the one that is shipped: example.csv, of "
                      "instruments 2400.csv");
     drive
@@ -77,14 +78,14 @@ void add_drive(CLI::App& app, DriveOptions& o)
         ->check(CLI::IsMember({0, 1, 4}));
     drive.add_flag("--parity", o.parity, "Modbus RTU with even parity (8E1)");
     drive.add_option("--fault", o.faults, "a fault from the start, as the command: --fault 'slow 50'");
-    drive.add_flag("--log", o.log, "tell what is written, as 'log on'");
+    drive.add_flag("--log", o.log, "prints what is written, as 'log on'");
     drive.footer(
         "Commands on standard input, of a drive:\n" + lines(DriveCommands::all_help()) +
         "Commands on standard input, of an instrument:\n" + lines(InstrumentCommands::all_help()) +
         "An instrument answers functions 3, 4, 6, 7, 8 (sub code 0) and 16; register = tag, from 8000h on "
         "IEEE singles at 8000h + 2 x tag.\n"
-        "Example: dpsim drive --model 590 --port /tmp/drive-end --log\n"
-        "         dpsim drive --model 2408f --port /tmp/drive-end --unit 1 --programs 4");
+        "Example: dpsim drive --profile 590 --port /tmp/drive-end --log\n"
+        "         dpsim drive --profile 2408f --port /tmp/drive-end --unit 1 --programs 4");
 }
 
 void add_master(CLI::App& app, MasterOptions& o, MasterTexts& t)
@@ -96,7 +97,7 @@ void add_master(CLI::App& app, MasterOptions& o, MasterTexts& t)
     master.add_option("--slave", t.slave, "address of the slave")->required()->check(CLI::Range(0, 126));
     master
         .add_option("--family", t.family,
-                    "what the slave stands for: option-board (584S, 590, 620), technology-box (6053/6055) or "
+                    "what the slave is: option-board (584S, 590, 620), technology-box (6053/6055) or "
                     "controller (2408f/2404f, without Sync and Freeze)")
         ->capture_default_str()
         ->check(CLI::IsMember({"option-board", "technology-box", "controller"}));
@@ -164,9 +165,9 @@ int main(int argc, char** argv)
         "Example, a whole bus on one machine (three terminals and the daemon):\n"
         "  dpsim line --baud 187500 --a /tmp/bus-slave --b /tmp/bus-master\n"
         "  dpsim line --baud 9600 --bits 10 --a /tmp/drive-near --b /tmp/drive-end\n"
-        "  dpsim drive --model 590 --port /tmp/drive-end\n"
+        "  dpsim drive --profile 590 --port /tmp/drive-end\n"
         "  dpsim master --port /tmp/bus-master --baud 187500 --slave 5 --tags 55,56w,288\n"
-        "With an instrument: dpsim drive --model 2408f --port /tmp/drive-end, and\n"
+        "With an instrument: dpsim drive --profile 2408f --port /tmp/drive-end, and\n"
         "  dpsim master --port /tmp/bus-master --baud 187500 --slave 5 --family controller --ident IDENT "
         "--tags 1,5,3,75,24w");
     LineOptions line;

@@ -98,9 +98,9 @@ void Gateway::start_drive()
 {
     const bool is_instrument = wiring_.protocol == "modbus-rtu";
     Arguments drive{
-        DPSIM_PROGRAM, "drive",     "--model", wiring_.model.empty() ? wiring_.profile : wiring_.model,
-        "--port",      drive_end(), "--baud",  std::to_string(wiring_.drive_baud),
-        "--log",       "--tags"};
+        DPSIM_PROGRAM, "drive",     "--profile", wiring_.model.empty() ? wiring_.profile : wiring_.model,
+        "--port",      drive_end(), "--baud",    std::to_string(wiring_.drive_baud),
+        "--log",       "--table"};
     if (!wiring_.table.empty())
         drive.push_back(folder_ / "tags.csv");
     else

@@ -152,8 +152,8 @@ TEST_F(ReloadInService, ThatAddsAndRemovesALineIsNotNoticed)
     Process line{{DPSIM_PROGRAM, "line", "--baud", "38400", "--bits", "10", "--a",
                   gateway.folder("other-drive"), "--b", gateway.folder("other-gateway")}};
     ASSERT_TRUE(line.says("ready"));
-    Process drive{{DPSIM_PROGRAM, "drive", "--model", "590", "--port", gateway.folder("other-drive"),
-                   "--baud", "38400", "--log", "--tags",
+    Process drive{{DPSIM_PROGRAM, "drive", "--profile", "590", "--port", gateway.folder("other-drive"),
+                   "--baud", "38400", "--log", "--table",
                    std::string{DPSLAVE_SOURCE_DIR} + "/config/tags/example.csv", "--unit", "00"}};
     ASSERT_TRUE(drive.says("ready"));
     master.tell("try wait 5s for in 1 = 0");
@@ -432,8 +432,8 @@ protected:
     Process line{{DPSIM_PROGRAM, "line", "--baud", "38400", "--bits", "10", "--a",
                   gateway.folder("other-drive"), "--b", gateway.folder("other-gateway")}};
     bool is_joined = line.says("ready"); ///< before the drive opens its end
-    Process drive{{DPSIM_PROGRAM, "drive", "--model", "590", "--port", gateway.folder("other-drive"),
-                   "--baud", "38400", "--log", "--tags",
+    Process drive{{DPSIM_PROGRAM, "drive", "--profile", "590", "--port", gateway.folder("other-drive"),
+                   "--baud", "38400", "--log", "--table",
                    std::string{DPSLAVE_SOURCE_DIR} + "/config/tags/example.csv", "--unit", "00"}};
 };
 

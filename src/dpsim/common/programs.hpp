@@ -24,10 +24,10 @@ inline constexpr std::string_view kLineCommands =
 int run_line(const LineOptions& options);
 
 struct DriveOptions {
-    std::string model, port;
+    std::string profile, port;
     std::uint32_t baud = 9600;
     std::vector<std::string> units; ///< empty: "00", of an instrument "1"
-    std::string tags;               ///< empty: the table that is shipped
+    std::string table;              ///< empty: the table that is shipped
     unsigned programs = 1;          ///< of an instrument
     bool parity = false;            ///< of an instrument: 8E1 instead of 8N1
     double turnaround_ms = 1;

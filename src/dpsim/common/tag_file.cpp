@@ -325,7 +325,7 @@ Result<std::vector<SimTag>, std::string> parse_tags(std::string_view text, std::
 Result<std::vector<SimTag>, std::string> load_tags(const std::string& path)
 {
     const std::ifstream file(path, std::ios::binary);
-    if (!file) return Failure{fmt::format("{}: cannot be read; --tags FILE.csv names a tag table", path)};
+    if (!file) return Failure{fmt::format("{}: cannot be read; give another one with --table FILE", path)};
     std::ostringstream text;
     text << file.rdbuf();
     return parse_tags(text.str(), path);

@@ -75,7 +75,7 @@ int run(DeviceLine& line, DeviceCommands& commands, const DriveOptions& options,
         return kNoPort;
     }
     be_prompt();
-    print_line(fmt::format("ready {}, model {}, {} parameters", options.port, options.model, tags));
+    print_line(fmt::format("ready {}, profile {}, {} parameters", options.port, options.profile, tags));
     return serve(line, commands, port->get(), signals);
 }
 
@@ -127,17 +127,17 @@ int run_modbus(const DriveOptions& options, std::uint16_t ident, const std::vect
 int run_drive(const DriveOptions& chosen)
 {
     DriveOptions options = chosen;
-    const auto model = model_of(options.model);
-    const auto ident = instrument_ident(options.model);
+    const auto model = model_of(options.profile);
+    const auto ident = instrument_ident(options.profile);
     if (!model && !ident) {
         print_error(fmt::format(
-            "there is no model '{}': 590, 584s, 620, 590plus, 584sv, 605, 690plus, 2408f or 2404f",
-            options.model));
+            "there is no profile '{}': 590, 584s, 620, 590plus, 584sv, 605, 690plus, 2408f or 2404f",
+            options.profile));
         return kUsage;
     }
     if (options.units.empty()) options.units = {model ? "00" : "1"};
-    if (options.tags.empty()) options.tags = shipped_table(model ? "example.csv" : "2400.csv");
-    const auto tags = load_tags(options.tags);
+    if (options.table.empty()) options.table = shipped_table(model ? "example.csv" : "2400.csv");
+    const auto tags = load_tags(options.table);
     if (!tags) {
         print_error(tags.error());
         return kUsage;

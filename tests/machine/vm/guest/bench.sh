@@ -65,7 +65,7 @@ counter() { # NAME
 start_drive() {
     rm -f "$bench/drive.in"
     mkfifo "$bench/drive.in"
-    dpsim drive --model 590 --port "$drive_far_port" --baud 9600 --log <>"$bench/drive.in" >"$bench/drive.log" 2>&1 &
+    dpsim drive --profile 590 --port "$drive_far_port" --baud 9600 --log <>"$bench/drive.in" >"$bench/drive.log" 2>&1 &
     eventually grep -q ready "$bench/drive.log"
 }
 tell_drive() { echo "$*" >"$bench/drive.in"; }
