@@ -9,6 +9,7 @@ namespace dpslave::app {
 namespace {
 
 using nlohmann::json;
+using report::json_of;
 
 std::uint64_t counter(const json& reply, const std::string& name)
 {
@@ -20,7 +21,7 @@ std::uint64_t counter(const json& reply, const std::string& name)
 
 TEST(CountersReport, TellsNoFigureBeforeTheFirstReply)
 {
-    const json reply = counters_json(View{}, Instant{});
+    const json reply = json_of(counters_report(View{}, Instant{}));
 
     EXPECT_EQ(control::reply_mismatch("GetCounters", reply), std::nullopt);
     ASSERT_EQ(reply.at("turnaround").size(), 2u);
@@ -38,7 +39,7 @@ TEST(CountersReport, TellsTheTurnaroundInMicrosecondsAndBitTimes)
     for (int i = 0; i < 999; ++i) view.bus.turnaround_us.add(66);
     view.bus.turnaround_us.add(50'000);
     view.bus.turnaround_tbit.add(12);
-    const json reply = counters_json(view, Instant{});
+    const json reply = json_of(counters_report(view, Instant{}));
     EXPECT_EQ(control::reply_mismatch("GetCounters", reply), std::nullopt);
 
     const json& us = reply.at("turnaround").at(0);
@@ -64,7 +65,7 @@ TEST(CountersReport, TellsWhatTheEdgeCounted)
     view.bus.echo_missing = 5;
     view.bus.echo_broken = 6;
     view.bus.page_faults = 7;
-    const json reply = counters_json(view, Instant{});
+    const json reply = json_of(counters_report(view, Instant{}));
 
     EXPECT_EQ(counter(reply, "late"), 1u);
     EXPECT_EQ(counter(reply, "too_late"), 2u);
@@ -88,7 +89,7 @@ TEST(CountersReport, TellsTheDelayOfADriveThatIsAlwaysLateAndTheTimeOutThatItNee
                            .late_in_a_row = drive::kAlwaysLate,
                            .delay = std::chrono::milliseconds{420}};
     view.stations = {&station, 1};
-    const json group = counters_json(view, Instant{}).at("groups").at(1);
+    const json group = json_of(counters_report(view, Instant{})).at("groups").at(1);
     const auto value = [&](const std::string& name) {
         for (const json& one : group.at("counters"))
             if (one.at("name") == name) return one.at("value").get<int>();
@@ -113,7 +114,7 @@ TEST(CountersReport, TellsWhatWasCountedWithinTheLastMinuteAndSinceWhen)
     view.history.sample(view, start + seconds{10});
 
     const auto late = [&](Instant now) {
-        const json reply = counters_json(view, now);
+        const json reply = json_of(counters_report(view, now));
         EXPECT_EQ(control::reply_mismatch("GetCounters", reply), std::nullopt);
         for (const json& one : reply.at("groups").at(0).at("counters"))
             if (one.at("name") == "late") return one;

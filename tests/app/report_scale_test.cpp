@@ -8,6 +8,7 @@ namespace dpslave {
 namespace {
 
 using nlohmann::json;
+using report::json_of;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -92,7 +93,7 @@ TEST_F(UnknownScale, OfARowThatAnAnswerContradictsStaysRefusedUntilTheRowIsCorre
     EXPECT_THAT(
         app::scale_words(bench.view).value_or(""),
         AllOf(HasSubstr("too few decimals to tag 55 (answers '12.34')"), HasSubstr("correct its row")));
-    EXPECT_EQ(app::unscaled_json(bench.view),
+    EXPECT_EQ(json_of(app::unscaled_report(bench.view)),
               json::parse(R"([{"tag":55,"direction":"in","answer":"12.34","contradicted":true}])"));
 }
 
@@ -143,7 +144,7 @@ TEST_F(UnknownScale, OfTripsIsToldInTheDiagnosisOfABox)
     const auto says_so =
         testing::Contains(AllOf(HasSubstr("trips are not known"), HasSubstr("set trip_tag")));
     const auto trouble = [this] {
-        return app::diagnosis_json(bench.view).at("trouble").get<std::vector<std::string>>();
+        return json_of(app::diagnosis_report(bench.view)).at("trouble").get<std::vector<std::string>>();
     };
 
     EXPECT_THAT(trouble(), Not(says_so));

@@ -9,6 +9,7 @@ namespace dpslave {
 namespace {
 
 using nlohmann::json;
+using report::json_of;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -40,12 +41,12 @@ protected:
         bench.view.bus.demand_data = true;
         bench.view.bus.demand_request = request;
         bench.view.bus.demand_reply = reply;
-        return app::io_json(bench.view, Instant{}).at("demand").at("words");
+        return json_of(app::io_report(bench.view, Instant{})).at("demand").at("words");
     }
     json meanings(std::initializer_list<std::uint8_t> octets)
     {
         const std::vector<std::uint8_t> bytes{octets};
-        const json all = app::diagnosis_octets_json(bench.station, bytes);
+        const json all = json_of(app::diagnosis_octets(bench.station, bytes));
         json result = json::array();
         for (const json& one : all.at("octets")) result.push_back(one.at("meaning"));
         return result;
@@ -93,7 +94,7 @@ TEST_F(Report, OfAParameterThatIsReadAndWrittenHasARowForEachDirection)
     bench.view.bus.inputs = {0, 250};
     bench.view.bus.outputs = {1, 0};
 
-    const json words = app::words_json(bench.view, Instant{});
+    const json words = json_of(app::words_report(bench.view, Instant{}));
     ASSERT_EQ(words.size(), 3U);
     EXPECT_EQ(words[0].at("direction"), "in");
     EXPECT_EQ(words[0].at("value"), "0 (SP1)");
@@ -142,14 +143,14 @@ TEST_F(Report, OfADiagnosisThatWasCutOffReadsNothingBehindItsEnd)
 
 TEST_F(Report, OfInfoHasTheCommsStatusAndTheResolutionOfAController)
 {
-    EXPECT_EQ(app::info_json(bench.view, std::nullopt, {}).at("comms_status"), "rdY");
-    EXPECT_EQ(app::info_json(bench.view, std::nullopt, {}).at("resolution"), "full");
-    EXPECT_TRUE(app::info_json(bench.view, std::nullopt, {}).at("option_software").is_null());
+    EXPECT_EQ(json_of(app::info_report(bench.view, std::nullopt, {})).at("comms_status"), "rdY");
+    EXPECT_EQ(json_of(app::info_report(bench.view, std::nullopt, {})).at("resolution"), "full");
+    EXPECT_TRUE(json_of(app::info_report(bench.view, std::nullopt, {})).at("option_software").is_null());
 
     bench.view.bus.state = dp::State::data_exch;
     bench.station.integer_resolution = true;
-    EXPECT_EQ(app::info_json(bench.view, std::nullopt, {}).at("comms_status"), "run");
-    EXPECT_EQ(app::info_json(bench.view, std::nullopt, {}).at("resolution"), "integer");
+    EXPECT_EQ(json_of(app::info_report(bench.view, std::nullopt, {})).at("comms_status"), "run");
+    EXPECT_EQ(json_of(app::info_report(bench.view, std::nullopt, {})).at("resolution"), "integer");
 }
 
 TEST_F(Report, OfInfoNamesTheSoftwareOfTheOptionAndTheAddressInForce)
@@ -159,12 +160,12 @@ TEST_F(Report, OfInfoNamesTheSoftwareOfTheOptionAndTheAddressInForce)
     bench.profile().option_software = "Version 3.x";
     bench.view.address = 7;
 
-    const json info = app::info_json(bench.view, std::nullopt, {});
+    const json info = json_of(app::info_report(bench.view, std::nullopt, {}));
     EXPECT_EQ(info.at("option_software"), "Version 3.x");
     EXPECT_TRUE(info.at("comms_status").is_null());
     EXPECT_TRUE(info.at("resolution").is_null());
     EXPECT_EQ(info.at("address_active"), 7);
-    EXPECT_EQ(app::station_json(bench.view, Instant{}).at("address"), 7);
+    EXPECT_EQ(json_of(app::station_report(bench.view, Instant{})).at("address"), 7);
 }
 
 TEST_F(Report, OfInfoCountsNoMoreOctetsThanTheWordsOfTheDevice)
@@ -172,7 +173,7 @@ TEST_F(Report, OfInfoCountsNoMoreOctetsThanTheWordsOfTheDevice)
     bench.personality().max_parameters = 117;
     bench.personality().max_words = 117;
 
-    EXPECT_EQ(app::info_json(bench.view, std::nullopt, {}).at("max_input_octets"), 234);
+    EXPECT_EQ(json_of(app::info_report(bench.view, std::nullopt, {})).at("max_input_octets"), 234);
 }
 
 TEST_F(Report, OfInfoRepeatsWhatTheFunctionBlockWarnsOf)
@@ -181,11 +182,11 @@ TEST_F(Report, OfInfoRepeatsWhatTheFunctionBlockWarnsOf)
     bench.station.tec->start.ride_through = 5;
     const app::DeviceState device{bench.station};
 
-    const json info = app::info_json(bench.view, std::nullopt, device.notes());
+    const json info = json_of(app::info_report(bench.view, std::nullopt, device.notes()));
     EXPECT_EQ(control::reply_mismatch("GetInfo", {{"stations", json::array({info})}}), std::nullopt);
     ASSERT_EQ(info.at("notes").size(), 1U);
     EXPECT_THAT(info.at("notes")[0].get<std::string>(), HasSubstr("could compromise safety"));
-    EXPECT_EQ(app::info_json(bench.view, std::nullopt, {}).at("notes"), json::array());
+    EXPECT_EQ(json_of(app::info_report(bench.view, std::nullopt, {})).at("notes"), json::array());
 }
 
 TEST_F(Report, OfLampsTellsTheThreeFlashesOfABoxApart)
@@ -195,7 +196,7 @@ TEST_F(Report, OfLampsTellsTheThreeFlashesOfABoxApart)
         led::Condition condition;
         condition.running = true;
         condition.network = state;
-        return app::leds_json(bench.station, condition, Instant{}).at("leds")[0].at("pattern");
+        return json_of(app::leds_report(bench.station, condition, Instant{})).at("leds")[0].at("pattern");
     };
 
     EXPECT_EQ(network(NetworkState::wait_param), "short flash (10 % of 1 s)");
@@ -211,7 +212,7 @@ TEST_F(Report, OfTheFunctionBlockIsAsTheInterfaceDescribesIt)
     app::DeviceState device{bench.station};
     device.look(bench.view, bench.bus);
 
-    const json tec = app::tec_json("unwinder", device);
+    const json tec = json_of(app::tec_report("unwinder", device));
     EXPECT_EQ(control::reply_mismatch("GetTec", {{"stations", json::array({tec})}}), std::nullopt);
     EXPECT_EQ(tec.at("view"), "profibus");
     EXPECT_EQ(tec.at("trip"), "unknown: tag 4 was never read");
@@ -222,11 +223,11 @@ TEST_F(Report, OfTheFunctionBlockIsAsTheInterfaceDescribesIt)
 
     bench.drive_reads({1, 0});
     device.look(bench.view, bench.bus);
-    EXPECT_EQ(app::tec_json("unwinder", device).at("trip"), "1: LINK OVERVOLTS");
-    EXPECT_EQ(app::tec_json("unwinder", device).at("tripped"), true);
+    EXPECT_EQ(json_of(app::tec_report("unwinder", device)).at("trip"), "1: LINK OVERVOLTS");
+    EXPECT_EQ(json_of(app::tec_report("unwinder", device)).at("tripped"), true);
 
     ASSERT_FALSE(device.set("TYPE", "1"));
-    EXPECT_EQ(app::tec_json("unwinder", device).at("view"), "generic");
+    EXPECT_EQ(json_of(app::tec_report("unwinder", device)).at("view"), "generic");
 }
 
 TEST_F(Report, OfTheFunctionBlockHasTheNonSpecificNameOfEachRowWhateverTypeIs)
@@ -236,7 +237,7 @@ TEST_F(Report, OfTheFunctionBlockHasTheNonSpecificNameOfEachRowWhateverTypeIs)
     device.look(bench.view, bench.bus);
     const auto generic_names = [&] {
         std::vector<std::string> names;
-        const json tec = app::tec_json("unwinder", device);
+        const json tec = json_of(app::tec_report("unwinder", device));
         for (const json& row : tec.at("rows")) names.push_back(row.at("generic_name"));
         return names;
     };

@@ -35,7 +35,7 @@ std::string input_value(const DeviceState& device, const std::string& parameter)
 control::Handlers ControlMethods::handlers()
 {
     const auto with = [](auto method) {
-        return [method](const Json&, const Caller&) -> Reply { return Done{method()}; };
+        return [method](const Json&, const Caller&) -> Reply { return Done{json_of(method())}; };
     };
     const auto each = [this](auto one) {
         return [this, one](const Json& parameters, const Caller&) -> Reply {
@@ -44,7 +44,8 @@ control::Handlers ControlMethods::handlers()
             if (choice.error) return *choice.error;
             Json all = Json::array();
             for (const Station& station : view.stations)
-                if (choice.station == nullptr || choice.station == &station) all.push_back(one(station));
+                if (choice.station == nullptr || choice.station == &station)
+                    all.push_back(json_of(one(station)));
             return Done{{{"stations", std::move(all)}}};
         };
     };
@@ -59,16 +60,16 @@ control::Handlers ControlMethods::handlers()
     const Monitor& monitor = parts_.monitor;
     return {
         {"GetVersion", with([] {
-             return Json{{"program", "dpslaved"}, {"version", kVersion}, {"interface", control::kInterface}};
+             return report::GetVersionReply{"dpslaved", std::string{kVersion},
+                                            std::string{control::kInterface}};
          })},
-        {"GetStatus", [this](const Json&, const Caller&) { return status(); }},
-        {"ListStations", with([&monitor, now] {
-             return Json{{"stations", stations_json(monitor.view(), now())}};
-         })},
+        {"GetStatus", with([this] { return status(); })},
+        {"ListStations",
+         with([&monitor, now] { return report::ListStationsReply{stations_report(monitor.view(), now())}; })},
         {"GetInfo", each([this](const Station& station) { return info(station); })},
-        {"GetIo", each([now](const Station& station) { return io_json(station, now()); })},
-        {"GetDiagnosis", each([](const Station& station) { return diagnosis_json(station); })},
-        {"GetCounters", with([&monitor, now] { return counters_json(monitor.view(), now()); })},
+        {"GetIo", each([now](const Station& station) { return io_report(station, now()); })},
+        {"GetDiagnosis", each([](const Station& station) { return diagnosis_report(station); })},
+        {"GetCounters", with([&monitor, now] { return counters_report(monitor.view(), now()); })},
         {"GetLeds", each([this](const Station& station) { return leds(station); })},
         {"GetTec", [this](const Json& parameters, const Caller&) { return tec(parameters); }},
         {"Watch", [this](const Json& parameters, const Caller&) { return watch(parameters); }},
@@ -97,27 +98,25 @@ control::Handlers ControlMethods::handlers()
     };
 }
 
-Reply ControlMethods::status() const
+report::GetStatusReply ControlMethods::status() const
 {
     const Instant now = io::monotonic_now();
     const View& view = parts_.monitor.view();
-    return Done{{{"bus", bus_json(view, now)},
-                 {"stations", stations_json(view, now)},
-                 {"uptime_ms", std::chrono::duration_cast<std::chrono::milliseconds>(now - started_).count()},
-                 {"pid", ::getpid()}}};
+    return {bus_report(view, now), stations_report(view, now),
+            std::chrono::duration_cast<std::chrono::milliseconds>(now - started_).count(), ::getpid()};
 }
 
-Json ControlMethods::info(const Station& station) const
+report::Info ControlMethods::info(const Station& station) const
 {
     auto pending = parts_.file.address_of(station.config->name);
     if (pending == station.address) pending.reset();
-    return info_json(station, pending, station.device->notes());
+    return info_report(station, pending, station.device->notes());
 }
 
-Json ControlMethods::leds(const Station& station) const
+report::StationLeds ControlMethods::leds(const Station& station) const
 {
     const auto index = static_cast<std::size_t>(&station - parts_.monitor.view().stations.data());
-    return leds_json(*station.config, parts_.lamps.condition(index), io::monotonic_now());
+    return leds_report(*station.config, parts_.lamps.condition(index), io::monotonic_now());
 }
 
 Reply ControlMethods::watch(const Json& parameters)
@@ -134,11 +133,11 @@ Reply ControlMethods::tec(const Json& parameters) const
     if (choice.error) return *choice.error;
     if (parameters.contains("station") && !choice.station->device->has_tec())
         return Error{"NoTecOption", {{"station", choice.station->config->name}}};
-    Json all = Json::array();
+    report::GetTecReply told;
     for (const Station& station : view.stations)
         if ((choice.station == nullptr || choice.station == &station) && station.device->has_tec())
-            all.push_back(tec_json(station.config->name, *station.device));
-    return Done{{{"stations", std::move(all)}}};
+            told.stations.push_back(tec_report(station.config->name, *station.device));
+    return Done{json_of(told)};
 }
 
 Reply ControlMethods::set_tec(const Station& station, const Json& parameters, const Caller& caller)
@@ -171,9 +170,7 @@ Reply ControlMethods::set_tec(const Station& station, const Json& parameters, co
     spdlog::info("{}: {} set to {} by {}, before {}", name, parameter, input_value(device, parameter),
                  words_of(caller), before);
     parts_.monitor.update_device(station);
-    Json all = Json::array();
-    all.push_back(tec_json(name, device));
-    return Done{{{"stations", std::move(all)}}};
+    return Done{json_of(report::SetTecReply{{tec_report(name, device)}})};
 }
 
 } // namespace dpslave::app

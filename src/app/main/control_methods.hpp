@@ -29,9 +29,9 @@ public:
     control::Handlers handlers();
 
 private:
-    control::Reply status() const;
-    control::Json info(const Station& station) const;
-    control::Json leds(const Station& station) const;
+    report::GetStatusReply status() const;
+    report::Info info(const Station& station) const;
+    report::StationLeds leds(const Station& station) const;
     control::Reply watch(const control::Json& parameters);
     control::Reply tec(const control::Json& parameters) const;
     control::Reply set_tec(const Station& station, const control::Json& parameters,

@@ -85,12 +85,6 @@ std::optional<std::array<char, 2>> mnemonic_of_tag(const config::StationConfig& 
                           : drive::mnemonic_by_rule(tag, station.profile->mnemonics);
 }
 
-Json mnemonic_json(const config::StationConfig& station, std::uint16_t tag)
-{
-    const auto mnemonic = mnemonic_of_tag(station, tag);
-    return mnemonic ? Json(std::string(mnemonic->begin(), mnemonic->end())) : Json(nullptr);
-}
-
 } // namespace
 
 /// Few accesses can wait for a drive: no user may take all places.
@@ -166,21 +160,16 @@ Reply PendingAccesses::survey(const Station& station, const Json& parameters, co
 Reply PendingAccesses::survey_scope(const Station& station) const
 {
     const bool modbus = is_modbus(station);
-    std::vector<profile::TagSpan> spans;
+    report::GetSurveyScopeReply told{station.config->name, station.line->protocol, station.config->tag_file};
     for (std::uint32_t number = 0; number <= 0xFFFF; ++number) {
         const auto tag = static_cast<std::uint16_t>(number);
         if (modbus ? number >= kIeeeArea : !mnemonic_of_tag(*station.config, tag)) continue;
-        if (!spans.empty() && spans.back().last + 1 == tag)
-            spans.back().last = tag;
+        if (!told.tags.empty() && told.tags.back().last + 1 == tag)
+            told.tags.back().last = tag;
         else
-            spans.push_back({tag, tag});
+            told.tags.push_back({tag, tag});
     }
-    Json tags = Json::array();
-    for (const profile::TagSpan span : spans) tags.push_back({{"first", span.first}, {"last", span.last}});
-    return Done{{{"station", station.config->name},
-                 {"protocol", station.line->protocol},
-                 {"tag_table", station.config->tag_file},
-                 {"tags", std::move(tags)}}};
+    return Done{json_of(told)};
 }
 
 /// One line for each write: caller, value and outcome.
@@ -216,47 +205,44 @@ Reply PendingAccesses::reply(const Access& access, const drive::OperateAnswer& a
                       {"code", code ? Json(*code) : Json(nullptr)}}};
     }
     const std::uint16_t word = access.is_write ? access.word : answer.word;
-    Json done = {{"station", station.name},
-                 {"tag", access.tag},
-                 {"name", row != nullptr ? Json(row->name) : Json(nullptr)},
-                 {"raw", word},
-                 {"value", shown_value(*station.tags, access.tag, word)}};
-    if (access.is_write) {
-        const auto master = master_that_writes(monitor_.find(access.station), access.tag);
-        done["master"] = master ? Json(*master) : Json(nullptr);
-    }
-    return Done{std::move(done)};
+    const auto name = row != nullptr ? std::optional{row->name} : std::nullopt;
+    std::string value = shown_value(*station.tags, access.tag, word);
+    if (!access.is_write)
+        return Done{json_of(report::ReadTagReply{station.name, access.tag, name, word, std::move(value)})};
+    return Done{
+        json_of(report::WriteTagReply{station.name, access.tag, name, word, std::move(value),
+                                      master_that_writes(monitor_.find(access.station), access.tag)})};
 }
 
 /// The silence of a drive that is lost anyway proves nothing about the tag.
 Reply PendingAccesses::survey_reply(const Access& access, const drive::OperateAnswer& answer) const
 {
     const config::StationConfig& station = *access.config;
-    Json reply = {{"station", station.name},
-                  {"tag", access.tag},
-                  {"mnemonic", access.has_text ? mnemonic_json(station, access.tag) : Json(nullptr)},
-                  {"text", nullptr},
-                  {"raw", nullptr},
-                  {"reason", nullptr}};
+    report::SurveyReply told{station.name, access.tag};
+    if (const auto mnemonic = mnemonic_of_tag(station, access.tag); mnemonic && access.has_text)
+        told.mnemonic.emplace(mnemonic->begin(), mnemonic->end());
     const Station* const present = monitor_.find(access.station);
     const std::string text_of_drive{answer.said.data()};
     switch (answer.error) {
         case AccessError::none:
-            reply["outcome"] = "value";
-            (access.has_text ? reply["text"] = text_of_drive : reply["raw"] = answer.word);
+            told.outcome = "value";
+            if (access.has_text)
+                told.text = text_of_drive;
+            else
+                told.raw = answer.word;
             break;
         case AccessError::no_answer:
         case AccessError::deferred:
         case AccessError::not_understood:
-            reply["outcome"] = present != nullptr && present->drive.answers ? "silence" : "lost";
+            told.outcome = present != nullptr && present->drive.answers ? "silence" : "lost";
             break;
         default:
-            reply["outcome"] = "denied";
-            reply["reason"] = answer.error == AccessError::invalid_tag || text_of_drive.empty()
-                                  ? std::string{text(answer.error)}
-                                  : text_of_drive;
+            told.outcome = "denied";
+            told.reason = answer.error == AccessError::invalid_tag || text_of_drive.empty()
+                              ? std::string{text(answer.error)}
+                              : text_of_drive;
     }
-    return Done{std::move(reply)};
+    return Done{json_of(told)};
 }
 
 void PendingAccesses::answer()

@@ -17,31 +17,26 @@ namespace {
 
 constexpr std::size_t kMaxProbes = 2;
 
-Json answers_json(const ProbeReport& report, const config::LineConfig& line)
+std::vector<report::Answering> answering(const ProbeReport& report, const config::LineConfig& line)
 {
-    Json all = Json::array();
+    std::vector<report::Answering> all;
     for (std::size_t i = 0; i < report.count; ++i) {
         const ProbeAnswer& one = report.answers[i];
-        all.push_back({{"protocol", line.protocol},
-                       {"baud", one.baud},
-                       {"format", format_text(one.format)},
-                       {"unit", unit_text(line, one.unit)}});
+        all.push_back({line.protocol, one.baud, format_text(one.format), unit_text(line, one.unit)});
     }
     return all;
 }
 
 } // namespace
 
-Json PendingProbes::progress(const Probe& probe, std::uint32_t tried)
+report::ProbeDriveReply PendingProbes::progress(const Probe& probe, std::uint32_t tried)
 {
-    return {{"station", probe.config->name},
-            {"line", probe.line},
-            {"port", probe.port},
-            {"tried", tried},
-            {"to_try", probe.length.questions},
-            {"longest_s", probe.length.longest.count()},
-            {"done", false},
-            {"answering", Json::array()}};
+    return {probe.config->name,
+            probe.line,
+            probe.port,
+            tried,
+            integer(probe.length.questions),
+            integer(probe.length.longest.count())};
 }
 
 Reply PendingProbes::start(const Station& station, const Json& parameters, const control::Caller& caller)
@@ -68,7 +63,7 @@ Reply PendingProbes::start(const Station& station, const Json& parameters, const
     const control::Later later{.token = replies_.next_token++};
     if (!caller.more) return later;
     probe.stream = replies_.next_stream++;
-    return control::Stream{.stream = *probe.stream, .first = progress(probe, 0)};
+    return control::Stream{.stream = *probe.stream, .first = json_of(progress(probe, 0))};
 }
 
 void PendingProbes::answer(const DriveLine& line, const ProbeReport& report)
@@ -76,13 +71,13 @@ void PendingProbes::answer(const DriveLine& line, const ProbeReport& report)
     const auto found = pending_.find(report.number);
     if (found == pending_.end()) return;
     const Probe& probe = found->second;
-    Json reply = progress(probe, report.tried);
-    reply["done"] = true;
-    reply["answering"] = answers_json(report, line.config);
+    report::ProbeDriveReply reply = progress(probe, report.tried);
+    reply.done = true;
+    reply.answering = answering(report, line.config);
     if (probe.stream)
-        replies_.server->push(*probe.stream, reply);
+        replies_.server->push(*probe.stream, json_of(reply));
     else
-        replies_.server->complete(report.number, Done{std::move(reply)});
+        replies_.server->complete(report.number, Done{json_of(reply)});
     pending_.erase(found);
 }
 
@@ -99,7 +94,7 @@ void PendingProbes::answer()
             if (!std::binary_search(open.begin(), open.end(), *probe.stream))
                 link.probe_ended.store(number, std::memory_order_relaxed);
             else if (std::exchange(probe.sent, tried) != tried)
-                replies_.server->push(*probe.stream, progress(probe, tried));
+                replies_.server->push(*probe.stream, json_of(progress(probe, tried)));
         }
     }
 }

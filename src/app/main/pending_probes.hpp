@@ -31,7 +31,7 @@ private:
         std::uint32_t sent = 0;              ///< questions, as sent to the stream last
     };
 
-    static control::Json progress(const Probe& probe, std::uint32_t tried);
+    static report::ProbeDriveReply progress(const Probe& probe, std::uint32_t tried);
     void answer(const DriveLine& line, const ProbeReport& report);
 
     const Monitor& monitor_;

@@ -27,15 +27,12 @@ std::vector<std::string> sentences(const toml::Faults& faults)
 
 Json Reload::reply_of(const Outcome& outcome)
 {
-    Json leaving = Json::array();
-    for (const Plan::Leaving& one : outcome.leaving)
-        leaving.push_back(Json::object({{"station", one.station}, {"reason", one.reason}}));
-    return Json::object({{"applied", outcome.applied},
-                         {"changes", outcome.changes},
-                         {"leaving", std::move(leaving)},
-                         {"pending", outcome.pending},
-                         {"warnings", outcome.warnings},
-                         {"faults", outcome.faults}});
+    report::ReloadReply told{outcome.applied, outcome.changes};
+    for (const Plan::Leaving& one : outcome.leaving) told.leaving.push_back({one.station, one.reason});
+    told.pending = outcome.pending;
+    told.warnings = outcome.warnings;
+    told.faults = outcome.faults;
+    return json_of(told);
 }
 
 Reply Reload::request(bool dry_run)

@@ -7,8 +7,6 @@
 
 namespace dpslave::app {
 
-using nlohmann::json;
-
 namespace {
 
 double milliseconds(std::chrono::nanoseconds time)
@@ -16,16 +14,15 @@ double milliseconds(std::chrono::nanoseconds time)
     return std::chrono::duration<double, std::milli>(time).count();
 }
 
-/// How long ago `then` was; null for "never".
-json age_json(Instant then, Instant now)
+/// How long ago `then` was; nothing for "never".
+std::optional<double> age(Instant then, Instant now)
 {
-    if (then == Instant{}) return nullptr;
-    return milliseconds(now - then);
+    return then == Instant{} ? std::nullopt : std::optional{milliseconds(now - then)};
 }
 
-json optional_json(const std::optional<std::string>& value)
+std::optional<std::string> unless_empty(const std::string& words)
 {
-    return value ? json(*value) : json(nullptr);
+    return words.empty() ? std::nullopt : std::optional{words};
 }
 
 std::string_view link_text(const Station& station)
@@ -50,46 +47,45 @@ std::string_view text(WordState state)
     return "?";
 }
 
-json drive_json(const Station& station)
+report::Drive drive_report(const Station& station)
 {
     const drive::UnitSnapshot& drive = station.drive;
-    return {{"line", station.line->name},
-            {"port", station.line->port},
-            {"protocol", station.line->protocol},
-            {"unit", station.config->unit_text},
-            {"link", link_text(station)},
-            {"port_open", station.line_open},
-            {"ever_answered", station.ever_answered},
-            {"baud", station.line->baud},
-            {"format", format_text(station.line->format)},
-            {"timeout_ms", station.line->timeout.count()},
-            {"cycle_ms", drive.cycle.count() > 0 ? json(milliseconds(drive.cycle)) : json(nullptr)},
-            {"reads", drive.reads},
-            {"writes", drive.writes},
-            {"silences", drive.silences},
-            {"refusals", drive.refusals},
-            {"losses", drive.losses},
-            {"last_trouble",
-             station.troubles.empty() ? json(nullptr) : json(station.troubles.back().text.data())}};
+    const config::LineConfig& line = *station.line;
+    report::Drive told;
+    told.line = line.name;
+    told.port = line.port;
+    told.protocol = line.protocol;
+    told.unit = station.config->unit_text;
+    told.link = link_text(station);
+    told.port_open = station.line_open;
+    told.ever_answered = station.ever_answered;
+    told.baud = line.baud;
+    told.format = format_text(line.format);
+    told.timeout_ms = line.timeout.count();
+    if (drive.cycle.count() > 0) told.cycle_ms = milliseconds(drive.cycle);
+    told.reads = integer(drive.reads);
+    told.writes = integer(drive.writes);
+    told.silences = integer(drive.silences);
+    told.refusals = integer(drive.refusals);
+    told.losses = integer(drive.losses);
+    if (!station.troubles.empty()) told.last_trouble = station.troubles.back().text.data();
+    return told;
 }
 
-/// Null: the outputs do not outlive a master. `ends_in_ms` null: they do for ever.
-json ride_json(const Station& station, Instant now)
+/// Nothing: the outputs do not outlive a master. `ends_in_ms` null: they do for ever.
+std::optional<report::Ride> ride_report(const Station& station, Instant now)
 {
     const auto ends = station.drive.ride_ends;
-    if (!ends) return nullptr;
-    return {{"ends_in_ms", *ends == kNever ? json(nullptr) : json(milliseconds(std::max(*ends, now) - now))}};
+    if (!ends) return std::nullopt;
+    return *ends == kNever ? report::Ride{} : report::Ride{milliseconds(std::max(*ends, now) - now)};
 }
 
-json unanswered_json(const View& view, Instant now)
+std::vector<report::Unanswered> unanswered_report(const View& view, Instant now)
 {
-    json all = json::array();
+    std::vector<report::Unanswered> all;
     for (const fdl::UnansweredAddress& one : view.bus.unanswered)
         if (one.requests != 0)
-            all.push_back({{"address", one.address},
-                           {"master", one.master},
-                           {"requests", one.requests},
-                           {"age_ms", milliseconds(now - one.last)}});
+            all.push_back({one.address, one.master, integer(one.requests), milliseconds(now - one.last)});
     return all;
 }
 
@@ -119,28 +115,6 @@ std::string demand_words(const config::StationConfig& station, const std::array<
     return fmt::format("{}: done, value {}", asked, value(reply[3]));
 }
 
-/// " or one of Run, Hold": what stands for a value of this tag, as far as it can be listed.
-std::string names_of_values(const drive::Tag& tag)
-{
-    constexpr std::size_t most = 12;
-    std::string names;
-    std::size_t count = 0;
-    for (const drive::Label& label : tag.labels) {
-        if (label.is_bit) continue;
-        if (++count > most) return names + " ...";
-        names += (names.empty() ? " or one of " : ", ") + label.text;
-    }
-    return names;
-}
-
-/// "an INT", "a WORD".
-std::string with_article(std::string_view type)
-{
-    const bool is_vowel =
-        !type.empty() && std::string_view{"AEIOU"}.find(type.front()) != std::string_view::npos;
-    return fmt::format("{} {}", is_vowel ? "an" : "a", type);
-}
-
 /// A master exchanges data with it. Held at the start it is in the state and exchanges nothing.
 bool exchanges(const Station& station)
 {
@@ -153,9 +127,9 @@ std::ptrdiff_t exchanging(const View& view)
 }
 
 /// As a controller shows it in its Comms list (C-007).
-json comms_status(const Station& station)
+std::optional<std::string> comms_status(const Station& station)
 {
-    if (station.config->profile->leds != led::Language::controller) return nullptr;
+    if (station.config->profile->leds != led::Language::controller) return std::nullopt;
     return station.bus.state == dp::State::data_exch ? "run" : "rdY";
 }
 
@@ -195,131 +169,128 @@ std::string_view text(AccessError error) noexcept
     return "?";
 }
 
-json bus_json(const View& view, Instant now)
+report::Bus bus_report(const View& view, Instant now)
 {
-    return {{"port", view.config->bus.port},
-            {"baud", static_cast<std::uint32_t>(view.bus.baud)},
-            {"baud_state", fdl::text(view.bus.baud_state)},
-            {"configured_baud", view.config->bus.baud
-                                    ? json(static_cast<std::uint32_t>(*view.config->bus.baud))
-                                    : json(nullptr)},
-            {"port_open", view.bus.port_open},
-            {"driver_works", view.bus.driver_works},
-            {"unanswered", unanswered_json(view, now)},
-            {"stations", view.stations.size()},
-            {"exchanging", exchanging(view)},
-            {"last_telegram_age_ms", age_json(view.bus.last_telegram, now)}};
+    report::Bus told;
+    told.port = view.config->bus.port;
+    told.baud = integer(view.bus.baud);
+    told.baud_state = fdl::text(view.bus.baud_state);
+    if (view.config->bus.baud) told.configured_baud = integer(*view.config->bus.baud);
+    told.port_open = view.bus.port_open;
+    told.driver_works = view.bus.driver_works;
+    told.unanswered = unanswered_report(view, now);
+    told.stations = integer(view.stations.size());
+    told.exchanging = exchanging(view);
+    told.last_telegram_age_ms = age(view.bus.last_telegram, now);
+    return told;
 }
 
-json station_json(const Station& station, Instant now)
+report::Station station_report(const Station& station, Instant now)
 {
     const dp::Snapshot& bus = station.bus;
-    return {{"name", station.config->name},
-            {"address", station.address},
-            {"profile", station.config->profile->name},
-            {"device", station.config->profile->device},
-            {"state", dp::text(bus.state)},
-            {"master", bus.master == 0xFF ? json(nullptr) : json(bus.master)},
-            {"watchdog_ms", bus.watchdog_on ? json(bus.watchdog.count()) : json(nullptr)},
-            {"min_tsdr", bus.min_tsdr.count},
-            {"groups", bus.groups},
-            {"sync", bus.sync},
-            {"freeze", bus.freeze},
-            {"clear", bus.clear},
-            {"held", bus.holds},
-            {"ride", ride_json(station, now)},
-            {"silent_because", station.silent_because.empty() ? json(nullptr) : json(station.silent_because)},
-            {"stat_diag", bus.stat_diag},
-            {"diag_pending", bus.diag_pending},
-            {"parameters", bus.layout.count},
-            {"demand_data", bus.demand_data},
-            {"left_count", bus.counters.left_data_exchange},
-            {"left_because",
-             bus.left_because == dp::LeaveReason::none ? json(nullptr) : json(dp::text(bus.left_because))},
-            {"left_code",
-             bus.left_because == dp::LeaveReason::none ? json(nullptr) : json(code(bus.left_because))},
-            {"drive", drive_json(station)}};
+    report::Station told;
+    told.name = station.config->name;
+    told.address = station.address;
+    told.profile = station.config->profile->name;
+    told.device = station.config->profile->device;
+    told.state = dp::text(bus.state);
+    if (bus.master != 0xFF) told.master = bus.master;
+    if (bus.watchdog_on) told.watchdog_ms = bus.watchdog.count();
+    told.min_tsdr = bus.min_tsdr.count;
+    told.groups = bus.groups;
+    told.sync = bus.sync;
+    told.freeze = bus.freeze;
+    told.clear = bus.clear;
+    told.held = bus.holds;
+    told.ride = ride_report(station, now);
+    told.silent_because = unless_empty(station.silent_because);
+    told.stat_diag = bus.stat_diag;
+    told.diag_pending = bus.diag_pending;
+    told.parameters = integer(bus.layout.count);
+    told.demand_data = bus.demand_data;
+    told.left_count = integer(bus.counters.left_data_exchange);
+    if (bus.left_because != dp::LeaveReason::none) {
+        told.left_because = dp::text(bus.left_because);
+        told.left_code = code(bus.left_because);
+    }
+    told.drive = drive_report(station);
+    return told;
 }
 
-json stations_json(const View& view, Instant now)
+std::vector<report::Station> stations_report(const View& view, Instant now)
 {
-    json all = json::array();
-    for (const Station& one : view.stations) all.push_back(station_json(one, now));
+    std::vector<report::Station> all;
+    for (const Station& one : view.stations) all.push_back(station_report(one, now));
     return all;
 }
 
-json info_json(const Station& station, std::optional<std::uint8_t> pending,
-               const std::vector<std::string>& notes)
+report::Info info_report(const Station& station, std::optional<std::uint8_t> pending,
+                         const std::vector<std::string>& notes)
 {
     const config::StationConfig& config = *station.config;
     const profile::Profile& profile = *config.profile;
     const dp::Personality& personality = *config.personality;
-    json bauds = json::array();
-    json max_tsdr = json::array();
-    for (std::size_t i = 0; i < kBauds.size(); ++i) {
-        if (personality.max_tsdr[i].count == 0) continue;
-        bauds.push_back(static_cast<std::uint32_t>(kBauds[i]));
-        max_tsdr.push_back(personality.max_tsdr[i].count);
-    }
     const std::size_t demand_octets = personality.demand == dp::DemandForm::none ? 0 : dp::kDemandOctets;
     std::size_t most_octets = demand_octets + 2 * personality.max_parameters;
     if (personality.max_words != 0) most_octets = std::min(most_octets, 2 * personality.max_words);
-    return {
-        {"name", config.name},
-        {"profile", profile.name},
-        {"device", profile.device},
-        {"order_code", profile.order_code},
-        {"firmware", profile.firmware},
-        {"manual", profile.manual},
-        {"ident", personality.ident},
-        {"address_active", station.address},
-        {"address_pending", pending ? json(*pending) : json(nullptr)},
-        {"address_min", profile.min_address},
-        {"address_max", profile.max_address},
-        {"max_parameters", personality.max_parameters},
-        {"max_input_octets", most_octets},
-        {"max_output_octets", most_octets},
-        {"max_diag_octets", personality.max_diag_length},
-        {"demand_data", personality.demand != dp::DemandForm::none},
-        {"sync", personality.sync},
-        {"freeze", personality.freeze},
-        {"bauds", bauds},
-        {"max_tsdr", max_tsdr},
-        {"tag_table", config.tag_file},
-        {"tags_in_table", config.tags->all().size()},
-        {"option_software", profile.option_software.empty() ? json(nullptr) : json(profile.option_software)},
-        {"comms_status", comms_status(station)},
-        {"resolution", profile.selectable_resolution ? json(config.integer_resolution ? "integer" : "full")
-                                                     : json(nullptr)},
-        {"notes", notes}};
+    report::Info told;
+    told.name = config.name;
+    told.profile = profile.name;
+    told.device = profile.device;
+    told.order_code = profile.order_code;
+    told.firmware = profile.firmware;
+    told.manual = profile.manual;
+    told.ident = personality.ident;
+    told.address_active = station.address;
+    told.address_pending = pending;
+    told.address_min = profile.min_address;
+    told.address_max = profile.max_address;
+    told.max_parameters = integer(personality.max_parameters);
+    told.max_input_octets = told.max_output_octets = integer(most_octets);
+    told.max_diag_octets = integer(personality.max_diag_length);
+    told.demand_data = personality.demand != dp::DemandForm::none;
+    told.sync = personality.sync;
+    told.freeze = personality.freeze;
+    for (std::size_t i = 0; i < kBauds.size(); ++i) {
+        if (personality.max_tsdr[i].count == 0) continue;
+        told.bauds.push_back(integer(kBauds[i]));
+        told.max_tsdr.push_back(personality.max_tsdr[i].count);
+    }
+    told.tag_table = config.tag_file;
+    told.tags_in_table = integer(config.tags->all().size());
+    told.option_software = unless_empty(profile.option_software);
+    told.comms_status = comms_status(station);
+    if (profile.selectable_resolution) told.resolution = config.integer_resolution ? "integer" : "full";
+    told.notes = notes;
+    return told;
 }
 
-json words_json(const Station& station, Instant now)
+std::vector<report::Word> words_report(const Station& station, Instant now)
 {
     const dp::Snapshot& bus = station.bus;
     const drive::UnitSnapshot& drive = station.drive;
     const bool same_layout = drive.generation == bus.layout.generation;
-    std::size_t in_octet = bus.demand_data ? 8 : 0;
-    std::size_t out_octet = in_octet;
-    json words = json::array();
+    std::int64_t in_octet = bus.demand_data ? 8 : 0;
+    std::int64_t out_octet = in_octet;
+    std::vector<report::Word> words;
     const auto add = [&](std::size_t i, bool input) {
+        report::Word told;
         const std::uint16_t tag = bus.layout.parameters[i].tag;
         const std::uint16_t raw = input ? bus.inputs[i] : bus.outputs[i];
-        const drive::Tag* row = station.config->tags->find(tag);
-        const bool is_contradicted = same_layout && drive.errors[i] == AccessError::contradicted;
-        const std::string answer = same_layout ? drive.answer_texts[i].data() : "";
-        std::size_t& octet = input ? in_octet : out_octet;
-        words.push_back(
-            {{"tag", tag},
-             {"name", row != nullptr ? json(row->name) : json(nullptr)},
-             {"direction", input ? "in" : "out"},
-             {"octet", octet},
-             {"raw", raw},
-             {"value", shown_value(*station.config->tags, tag, raw)},
-             {"state",
-              is_contradicted ? "contradicted" : text(same_layout ? drive.states[i] : WordState::untried)},
-             {"answer", answer.empty() ? json(nullptr) : json(answer)},
-             {"age_ms", same_layout ? age_json(drive.updated_at[i], now) : json(nullptr)}});
+        std::int64_t& octet = input ? in_octet : out_octet;
+        told.tag = tag;
+        if (const drive::Tag* row = station.config->tags->find(tag)) told.name = row->name;
+        told.direction = input ? "in" : "out";
+        told.octet = octet;
+        told.raw = raw;
+        told.value = shown_value(*station.config->tags, tag, raw);
+        told.state = text(same_layout ? drive.states[i] : WordState::untried);
+        if (same_layout) {
+            if (drive.errors[i] == AccessError::contradicted) told.state = "contradicted";
+            told.answer = unless_empty(drive.answer_texts[i].data());
+            told.age_ms = age(drive.updated_at[i], now);
+        }
+        words.push_back(std::move(told));
         octet += 2;
     };
     for (std::size_t i = 0; i < bus.layout.count; ++i) {
@@ -329,23 +300,25 @@ json words_json(const Station& station, Instant now)
     return words;
 }
 
-json io_json(const Station& station, Instant now)
+report::StationIo io_report(const Station& station, Instant now)
 {
     const dp::Snapshot& bus = station.bus;
-    json demand = nullptr;
+    report::StationIo told{.name = station.config->name,
+                           .address = station.address,
+                           .state = std::string{dp::text(bus.state)},
+                           .may_write = bus.may_write,
+                           .clear = bus.clear,
+                           .sync = bus.sync,
+                           .freeze = bus.freeze,
+                           .words = words_report(station, now)};
+    const auto registers = [](const auto& words) {
+        return std::vector<std::int64_t>(words.begin(), words.end());
+    };
     if (bus.demand_data)
-        demand = {{"request", bus.demand_request},
-                  {"reply", bus.demand_reply},
-                  {"words", demand_words(*station.config, bus.demand_request, bus.demand_reply)}};
-    return {{"name", station.config->name},
-            {"address", station.address},
-            {"state", dp::text(bus.state)},
-            {"may_write", bus.may_write},
-            {"clear", bus.clear},
-            {"sync", bus.sync},
-            {"freeze", bus.freeze},
-            {"words", words_json(station, now)},
-            {"demand", demand}};
+        told.demand = {.request = registers(bus.demand_request),
+                       .reply = registers(bus.demand_reply),
+                       .words = demand_words(*station.config, bus.demand_request, bus.demand_reply)};
+    return told;
 }
 
 std::string status_line(const View& view)
@@ -374,86 +347,21 @@ bool is_fed(const config::StationConfig& station, std::string_view lamp)
     return lamp != "run" || station.tec->run.tag != 0;
 }
 
-json leds_json(const config::StationConfig& station, const led::Condition& condition, Instant now)
+report::StationLeds leds_report(const config::StationConfig& station, const led::Condition& condition,
+                                Instant now)
 {
-    json leds = json::array();
+    report::StationLeds told{station.name, std::string{led::meaning(station.profile->leds, condition)}};
     for (const led::Lamp& lamp : led::lamps(station.profile->leds, condition)) {
         const auto wired =
             std::find_if(station.leds.begin(), station.leds.end(),
                          [&lamp](const config::LedConfig& one) { return one.lamp == lamp.name; });
-        const bool has_source = is_fed(station, lamp.name);
-        leds.push_back({{"name", lamp.name},
-                        {"sink", wired == station.leds.end() ? "none" : wired->sink},
-                        {"lit", led::lit(lamp.pattern, now)},
-                        {"pattern", has_source ? led::words(station.profile->leds, lamp.pattern)
-                                               : "not configured: no bit of the drive feeds it"}});
+        told.leds.push_back({std::string{lamp.name}, wired == station.leds.end() ? "none" : wired->sink,
+                             led::lit(lamp.pattern, now),
+                             is_fed(station, lamp.name)
+                                 ? std::string{led::words(station.profile->leds, lamp.pattern)}
+                                 : "not configured: no bit of the drive feeds it"});
     }
-    return {
-        {"name", station.name}, {"meaning", led::meaning(station.profile->leds, condition)}, {"leds", leds}};
-}
-
-std::string bad_value_words(const drive::Tag& tag, AccessError error)
-{
-    const auto limit = [&tag](std::int32_t counts) {
-        return drive::displayed(tag, static_cast<std::uint16_t>(counts));
-    };
-    switch (error) {
-        case AccessError::out_of_range:
-            if (tag.min && tag.max) return fmt::format("takes {} to {}", limit(*tag.min), limit(*tag.max));
-            return "does not fit into 16 bit with the decimals of the tag table";
-        case AccessError::unsupported_type:
-            return fmt::format("{} is {}, which is not transported", tag.name,
-                               with_article(drive::text(tag.type)));
-        default:
-            return fmt::format("takes {}{}{}", with_article(drive::text(tag.type)),
-                               tag.decimals > 0 ? fmt::format(" with up to {} decimal{}", tag.decimals,
-                                                              tag.decimals == 1 ? "" : "s")
-                                                : std::string{},
-                               names_of_values(tag));
-    }
-}
-
-json diagnosis_json(const Station& station)
-{
-    json refusal = nullptr;
-    if (station.bus.refusal.why != dp::Refusal::none) {
-        const Explanation why = explain(station.bus.refusal);
-        refusal = {
-            {"code", code(station.bus.refusal.why)},
-            {"telegram", why.telegram},
-            {"what", why.what},
-            {"octet", station.bus.refusal.octet == 0 ? json(nullptr) : json(station.bus.refusal.octet)},
-            {"expected", optional_json(why.expected)},
-            {"got", optional_json(why.got)},
-            {"advice", why.advice}};
-    }
-    json trouble = json::array();
-    if (station.drive.known && !station.drive.answers)
-        trouble.push_back("the drive does not answer: its inputs are held and marked stale");
-    if (const auto scales = scale_words(station)) trouble.push_back(*scales);
-    if (station.config->tec && station.config->tec->trip.bit.tag == 0)
-        trouble.push_back("trips are not known: no tag tells them, so \"no trip\" above means nothing; set "
-                          "trip_tag in [station.tec]");
-    json refused = json::array();
-    for (const Trouble& one : station.troubles) {
-        trouble.push_back(one.text.data());
-        refused.push_back({{"tag", one.tag},
-                           {"write", one.is_write},
-                           {"code", code(one.error)},
-                           {"text", one.text.data()}});
-    }
-
-    json result = diagnosis_octets_json(*station.config, station.bus.diagnosis.bytes());
-    result["name"] = station.config->name;
-    result["hex"] = hex(station.bus.diagnosis.bytes());
-    result["refusal"] = refusal;
-    result["held"] = station.bus.holds;
-    result["unscaled"] = unscaled_json(station);
-    result["last_prm"] = hex(station.bus.prm.bytes());
-    result["last_cfg"] = hex(station.bus.cfg.bytes());
-    result["trouble"] = trouble;
-    result["refused"] = refused;
-    return result;
+    return told;
 }
 
 } // namespace dpslave::app

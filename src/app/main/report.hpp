@@ -7,8 +7,7 @@
 
 #include "dpslave/base/recent_count.hpp"
 #include "dpslave/config/config.hpp"
-
-#include <nlohmann/json.hpp>
+#include "dpslave/report/replies.hpp"
 
 #include <limits>
 #include <optional>
@@ -22,6 +21,12 @@ class DeviceState;
 
 struct View;
 
+/// Any number or enumeration as the interface has it.
+constexpr std::int64_t integer(auto value)
+{
+    return static_cast<std::int64_t>(value);
+}
+
 /// How each counter of the control interface has grown within the last minute.
 class CounterHistory {
 public:
@@ -30,7 +35,7 @@ public:
 
     /// All counters as they are now; to be called about once a second. A station that has gone is forgotten.
     void sample(const View& view, Instant now);
-    /// `counter`: its place in the group that counters_json() tells. Null: it was never sampled.
+    /// `counter`: its place in the group that counters_report() tells. Null: it was never sampled.
     const RecentCount* find(std::uint32_t owner, std::size_t counter) const;
 
 private:
@@ -47,43 +52,36 @@ struct View {
     CounterHistory history;
 };
 
-nlohmann::json bus_json(const View& view, Instant now);
-nlohmann::json station_json(const Station& station, Instant now);
-nlohmann::json stations_json(const View& view, Instant now);
+report::Bus bus_report(const View& view, Instant now);
+report::Station station_report(const Station& station, Instant now);
+std::vector<report::Station> stations_report(const View& view, Instant now);
 /// `pending`: the address in the configuration file now, when it differs from the active one. `notes`: of
 /// DeviceState.
-nlohmann::json info_json(const Station& station, std::optional<std::uint8_t> pending,
+report::Info info_report(const Station& station, std::optional<std::uint8_t> pending,
                          const std::vector<std::string>& notes);
-nlohmann::json io_json(const Station& station, Instant now);
-nlohmann::json words_json(const Station& station, Instant now);
+report::StationIo io_report(const Station& station, Instant now);
+std::vector<report::Word> words_report(const Station& station, Instant now);
 /// Which chosen tags have no scale, what becomes of them, and what to do; nothing: none.
 std::optional<std::string> scale_words(const Station& station);
-/// The same as values: [{tag, direction, answer, contradicted}].
-nlohmann::json unscaled_json(const Station& station);
+/// The same as values.
+std::vector<report::Unscaled> unscaled_report(const Station& station);
 /// What the tag table lacks for this tag, and what to do; empty: nothing.
 std::string row_advice(const config::StationConfig& station, std::uint16_t tag);
-nlohmann::json diagnosis_json(const Station& station);
-/// The whole reply of GetCounters.
-nlohmann::json counters_json(const View& view, Instant now);
+report::Diagnosis diagnosis_report(const Station& station);
+report::GetCountersReply counters_report(const View& view, Instant now);
 /// Of a station that has the function block.
-nlohmann::json tec_json(const std::string& station, const DeviceState& device);
-nlohmann::json leds_json(const config::StationConfig& station, const led::Condition& condition, Instant now);
+report::Tec tec_report(const std::string& station, const DeviceState& device);
+report::StationLeds leds_report(const config::StationConfig& station, const led::Condition& condition,
+                                Instant now);
 
-/// "octets" and "bits" of a Slave_Diag reply of this station, in words (wire reference 5.1).
-nlohmann::json diagnosis_octets_json(const config::StationConfig& station, Bytes diagnosis);
+/// A Slave_Diag reply of this station in words (wire reference 5.1): only `octets` and `bits` are filled.
+report::Diagnosis diagnosis_octets(const config::StationConfig& station, Bytes diagnosis);
 
 /// What the octet at `offset` (from 0, 6 at least) of a Slave_Diag reply says.
 std::string extended_meaning(const config::StationConfig& station, std::size_t offset, Bytes diagnosis);
 
 /// What a refused Set_Prm or Chk_Cfg was refused for, in a sentence and with an advice.
-struct Explanation {
-    std::string telegram; ///< "Set_Prm" or "Chk_Cfg"
-    std::string what;
-    std::optional<std::string> expected;
-    std::optional<std::string> got;
-    std::string advice;
-};
-Explanation explain(const dp::RefusalDetail& refusal);
+report::Refusal explain(const dp::RefusalDetail& refusal);
 
 /// One line for the log.
 std::string sentence(const std::string& station, const dp::Event& event);

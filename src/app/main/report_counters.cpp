@@ -8,8 +8,6 @@
 
 namespace dpslave::app {
 
-using nlohmann::json;
-
 namespace {
 
 struct Counter {
@@ -120,38 +118,35 @@ std::vector<Group> groups_of(const View& view)
     return groups;
 }
 
-json counter_json(const Counter& counter, const RecentCount* recent, Instant now)
+report::Counter counter_report(const Counter& counter, const RecentCount* recent, Instant now)
 {
     const auto age = [now](Instant then) {
-        if (then == Instant{}) return json(nullptr);
-        return json(std::chrono::duration<double, std::milli>(now - then).count());
+        return then == Instant{}
+                   ? std::nullopt
+                   : std::optional{std::chrono::duration<double, std::milli>(now - then).count()};
     };
-    return {{"name", counter.name},
-            {"value", counter.value},
-            {"meaning", counter.meaning},
-            {"minute", recent != nullptr ? recent->in_span() : 0},
-            {"last_age_ms", recent != nullptr ? age(recent->last()) : json(nullptr)},
-            {"since_age_ms", recent != nullptr ? age(recent->since()) : json(nullptr)}};
+    report::Counter told{counter.name, integer(counter.value), std::string{counter.meaning}};
+    if (recent == nullptr) return told;
+    told.minute = integer(recent->in_span());
+    told.last_age_ms = age(recent->last());
+    told.since_age_ms = age(recent->since());
+    return told;
 }
 
-json distribution(std::string_view unit, const Histogram& counted)
+report::Distribution distribution(const char* unit, const Histogram& counted)
 {
-    json classes = json::array();
+    report::Distribution told{unit, integer(counted.count())};
     for (std::size_t n = 0; n < Histogram::kClasses; ++n) {
         if (counted.in_class(n) == 0) continue;
-        json upper; // null: the last class is open
-        if (n + 1 < Histogram::kClasses) upper = Histogram::lower_end(n + 1) - 1;
-        classes.push_back(
-            {{"from", Histogram::lower_end(n)}, {"to", std::move(upper)}, {"count", counted.in_class(n)}});
+        told.classes.push_back({Histogram::lower_end(n), std::nullopt, integer(counted.in_class(n))});
+        if (n + 1 < Histogram::kClasses) told.classes.back().to = integer(Histogram::lower_end(n + 1)) - 1;
     }
-    const auto if_any = [&](std::uint32_t value) { return counted.count() != 0 ? json(value) : json(); };
-    return {{"unit", unit},
-            {"count", counted.count()},
-            {"p50", if_any(counted.quantile(0.5))},
-            {"p99", if_any(counted.quantile(0.99))},
-            {"p999", if_any(counted.quantile(0.999))},
-            {"highest", if_any(counted.highest())},
-            {"classes", std::move(classes)}};
+    if (counted.count() == 0) return told;
+    told.p50 = counted.quantile(0.5);
+    told.p99 = counted.quantile(0.99);
+    told.p999 = counted.quantile(0.999);
+    told.highest = counted.highest();
+    return told;
 }
 
 } // namespace
@@ -182,21 +177,20 @@ const RecentCount* CounterHistory::find(std::uint32_t owner, std::size_t counter
     return counter < counts.size() ? &counts[counter] : nullptr;
 }
 
-json counters_json(const View& view, Instant now)
+report::GetCountersReply counters_report(const View& view, Instant now)
 {
-    json groups = json::array();
+    report::GetCountersReply told;
     const std::vector<Group> all = groups_of(view);
     for (std::size_t i = 0; i < all.size(); ++i) {
         const std::uint32_t owner = i == 0 ? CounterHistory::kOfBus : view.stations[i - 1].number;
-        json counters = json::array();
+        report::CounterGroup& group = told.groups.emplace_back();
+        group.name = all[i].name;
         for (std::size_t k = 0; k < all[i].counters.size(); ++k)
-            counters.push_back(counter_json(all[i].counters[k], view.history.find(owner, k), now));
-        groups.push_back({{"name", all[i].name}, {"counters", std::move(counters)}});
+            group.counters.push_back(counter_report(all[i].counters[k], view.history.find(owner, k), now));
     }
-    json turnaround = json::array();
-    turnaround.push_back(distribution("us", view.bus.turnaround_us));
-    turnaround.push_back(distribution("T_bit", view.bus.turnaround_tbit));
-    return {{"groups", std::move(groups)}, {"turnaround", std::move(turnaround)}};
+    told.turnaround = {distribution("us", view.bus.turnaround_us),
+                       distribution("T_bit", view.bus.turnaround_tbit)};
+    return told;
 }
 
 } // namespace dpslave::app

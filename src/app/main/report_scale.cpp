@@ -6,36 +6,14 @@
 
 namespace dpslave::app {
 
-using nlohmann::json;
-
 namespace {
 
-struct Unscaled {
-    const Parameter* parameter = nullptr;
-    std::string answer;
-    bool is_contradicted = false;
-};
-
-/// Of the present layout, as far as the drive side has it.
-std::vector<Unscaled> unscaled_of(const Station& station)
-{
-    std::vector<Unscaled> found;
-    const drive::UnitSnapshot& drive = station.drive;
-    const Layout& layout = station.bus.layout;
-    if (layout.generation == 0 || drive.generation != layout.generation) return found;
-    for (std::size_t i = 0; i < layout.count; ++i)
-        if (drive.states[i] == WordState::unscaled)
-            found.push_back({&layout.parameters[i], drive.answer_texts[i].data(),
-                             drive.errors[i] == AccessError::contradicted});
-    return found;
-}
-
-std::string listed(const std::vector<Unscaled>& all, bool is_contradicted)
+std::string listed(const std::vector<report::Unscaled>& all, bool is_contradicted)
 {
     std::string list;
-    for (const Unscaled& one : all) {
-        if (one.is_contradicted != is_contradicted) continue;
-        list += fmt::format("{}tag {}", list.empty() ? "" : ", ", one.parameter->tag);
+    for (const report::Unscaled& one : all) {
+        if (one.contradicted != is_contradicted) continue;
+        list += fmt::format("{}tag {}", list.empty() ? "" : ", ", one.tag);
         if (!one.answer.empty()) list += fmt::format(" (answers \'{}\')", one.answer);
     }
     return list;
@@ -45,7 +23,7 @@ std::string listed(const std::vector<Unscaled>& all, bool is_contradicted)
 
 std::optional<std::string> scale_words(const Station& station)
 {
-    const std::vector<Unscaled> all = unscaled_of(station);
+    const std::vector<report::Unscaled> all = unscaled_report(station);
     if (all.empty()) return std::nullopt;
     // What the drive side has found the bus side knows a moment later.
     const bool is_held = station.bus.holds || (station.bus.stat_diag && station.config->unscaled_holds);
@@ -79,16 +57,19 @@ std::string row_advice(const config::StationConfig& station, std::uint16_t tag)
     return {};
 }
 
-json unscaled_json(const Station& station)
+std::vector<report::Unscaled> unscaled_report(const Station& station)
 {
-    json all = json::array();
-    for (const Unscaled& one : unscaled_of(station))
-        all.push_back(
-            {{"tag", one.parameter->tag},
-             {"direction", one.parameter->reads ? one.parameter->writes ? "in and out" : "in" : "out"},
-             {"answer", one.answer},
-             {"contradicted", one.is_contradicted}});
-    return all;
+    std::vector<report::Unscaled> found;
+    const drive::UnitSnapshot& drive = station.drive;
+    const Layout& layout = station.bus.layout;
+    if (layout.generation == 0 || drive.generation != layout.generation) return found;
+    for (std::size_t i = 0; i < layout.count; ++i) {
+        if (drive.states[i] != WordState::unscaled) continue;
+        const Parameter& parameter = layout.parameters[i];
+        found.push_back({parameter.tag, parameter.reads ? parameter.writes ? "in and out" : "in" : "out",
+                         drive.answer_texts[i].data(), drive.errors[i] == AccessError::contradicted});
+    }
+    return found;
 }
 
 } // namespace dpslave::app

@@ -7,27 +7,20 @@
 
 namespace dpslave::app {
 
-using nlohmann::json;
 using profile::DiagForm;
 
-json tec_json(const std::string& station, const DeviceState& device)
+report::Tec tec_report(const std::string& station, const DeviceState& device)
 {
-    json rows = json::array();
+    report::Tec told;
+    told.name = station;
+    told.view = device.settings().type == tec::kProfibusDp ? "profibus" : "generic";
     for (const tec::Row& row : device.rows())
-        rows.push_back({{"name", row.name},
-                        {"generic_name", row.generic_name},
-                        {"input", row.is_input},
-                        {"value", row.value},
-                        {"shown", row.shown},
-                        {"range", row.range}});
-    const auto trip = device.trip();
-    const auto tripped = device.tripped();
-    return {{"name", station},
-            {"view", device.settings().type == tec::kProfibusDp ? "profibus" : "generic"},
-            {"rows", rows},
-            {"trip", trip ? json(*trip) : json(nullptr)},
-            {"tripped", tripped ? json(*tripped) : json(nullptr)},
-            {"notes", device.notes()}};
+        told.rows.push_back({std::string{row.name}, std::string{row.generic_name}, row.is_input,
+                             integer(row.value), row.shown, std::string{row.range}});
+    told.trip = device.trip();
+    told.tripped = device.tripped();
+    told.notes = device.notes();
+    return told;
 }
 
 namespace {

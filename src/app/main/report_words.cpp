@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Diagnosis, refusals and events in words.
+// Diagnosis, refusals, events and values that cannot be written in words.
 #include "report.hpp"
 
 #include "dpslave/dp/diagnosis_bits.hpp"
@@ -7,8 +7,6 @@
 #include <fmt/format.h>
 
 namespace dpslave::app {
-
-using nlohmann::json;
 
 namespace {
 
@@ -55,27 +53,72 @@ std::string_view advice_for(dp::Refusal why)
     return "";
 }
 
-} // namespace
-
-json diagnosis_octets_json(const config::StationConfig& station, Bytes diagnosis)
+/// " or one of Run, Hold": what stands for a value of this tag, as far as it can be listed.
+std::string names_of_values(const drive::Tag& tag)
 {
-    json octets = json::array();
-    for (std::size_t i = 0; i < diagnosis.size(); ++i)
-        octets.push_back({{"octet", i + 1},
-                          {"offset", i},
-                          {"value", diagnosis[i]},
-                          {"meaning", octet_meaning(station, i, diagnosis)}});
-    json bits = json::array();
-    for (const dp::DiagnosisBit& bit : dp::kDiagnosisBits)
-        if (bit.offset < diagnosis.size() && (diagnosis[bit.offset] & bit.mask) != 0)
-            bits.push_back(fmt::format("{}: {}", bit.name, bit.meaning));
-    return {{"octets", octets}, {"bits", bits}};
+    constexpr std::size_t most = 12;
+    std::string names;
+    std::size_t count = 0;
+    for (const drive::Label& label : tag.labels) {
+        if (label.is_bit) continue;
+        if (++count > most) return names + " ...";
+        names += (names.empty() ? " or one of " : ", ") + label.text;
+    }
+    return names;
 }
 
-Explanation explain(const dp::RefusalDetail& refusal)
+/// "an INT", "a WORD".
+std::string with_article(std::string_view type)
+{
+    const bool is_vowel =
+        !type.empty() && std::string_view{"AEIOU"}.find(type.front()) != std::string_view::npos;
+    return fmt::format("{} {}", is_vowel ? "an" : "a", type);
+}
+
+} // namespace
+
+report::Diagnosis diagnosis_octets(const config::StationConfig& station, Bytes diagnosis)
+{
+    report::Diagnosis told;
+    for (std::size_t i = 0; i < diagnosis.size(); ++i)
+        told.octets.push_back(
+            {integer(i + 1), integer(i), diagnosis[i], octet_meaning(station, i, diagnosis)});
+    for (const dp::DiagnosisBit& bit : dp::kDiagnosisBits)
+        if (bit.offset < diagnosis.size() && (diagnosis[bit.offset] & bit.mask) != 0)
+            told.bits.push_back(fmt::format("{}: {}", bit.name, bit.meaning));
+    return told;
+}
+
+report::Diagnosis diagnosis_report(const Station& station)
+{
+    const dp::RefusalDetail& refused = station.bus.refusal;
+    report::Diagnosis told = diagnosis_octets(*station.config, station.bus.diagnosis.bytes());
+    told.name = station.config->name;
+    told.hex = hex(station.bus.diagnosis.bytes());
+    if (refused.why != dp::Refusal::none) told.refusal = explain(refused);
+    told.last_prm = hex(station.bus.prm.bytes());
+    told.last_cfg = hex(station.bus.cfg.bytes());
+    told.held = station.bus.holds;
+    told.unscaled = unscaled_report(station);
+    if (station.drive.known && !station.drive.answers)
+        told.trouble.emplace_back("the drive does not answer: its inputs are held and marked stale");
+    if (const auto scales = scale_words(station)) told.trouble.push_back(*scales);
+    if (station.config->tec && station.config->tec->trip.bit.tag == 0)
+        told.trouble.emplace_back("trips are not known: no tag tells them, so \"no trip\" above means "
+                                  "nothing; set trip_tag in [station.tec]");
+    for (const Trouble& one : station.troubles) {
+        told.trouble.emplace_back(one.text.data());
+        told.refused.push_back({one.tag, one.is_write, std::string{code(one.error)}, one.text.data()});
+    }
+    return told;
+}
+
+report::Refusal explain(const dp::RefusalDetail& refusal)
 {
     using enum dp::Refusal;
-    Explanation result;
+    report::Refusal result;
+    result.code = code(refusal.why);
+    if (refusal.octet != 0) result.octet = integer(refusal.octet);
     result.telegram = dp::service_of(refusal.why) == dp::Service::chk_cfg ? "Chk_Cfg" : "Set_Prm";
     result.what = dp::text(refusal.why);
     result.advice = advice_for(refusal.why);
@@ -188,10 +231,10 @@ std::string sentence(const std::string& station, const dp::Event& event)
             return line;
         }
         case Kind::refused: {
-            const Explanation why = explain(event.refusal);
+            const report::Refusal why = explain(event.refusal);
             std::string line =
                 fmt::format("{}: {} of master {} refused: {}", station, why.telegram, event.master, why.what);
-            if (event.refusal.octet != 0) line += fmt::format(", octet {}", event.refusal.octet);
+            if (why.octet) line += fmt::format(", octet {}", *why.octet);
             if (why.expected) line += fmt::format(", expected {}", *why.expected);
             if (why.got) line += fmt::format(", got {}", *why.got);
             return line + fmt::format("; {}", why.advice);
@@ -211,6 +254,27 @@ std::string sentence(const std::string& station, const dp::Event& event)
         case Kind::overflow: return fmt::format("{}: events were lost, the log has a gap", station);
     }
     return station;
+}
+
+std::string bad_value_words(const drive::Tag& tag, AccessError error)
+{
+    const auto limit = [&tag](std::int32_t counts) {
+        return drive::displayed(tag, static_cast<std::uint16_t>(counts));
+    };
+    switch (error) {
+        case AccessError::out_of_range:
+            if (tag.min && tag.max) return fmt::format("takes {} to {}", limit(*tag.min), limit(*tag.max));
+            return "does not fit into 16 bit with the decimals of the tag table";
+        case AccessError::unsupported_type:
+            return fmt::format("{} is {}, which is not transported", tag.name,
+                               with_article(drive::text(tag.type)));
+        default:
+            return fmt::format("takes {}{}{}", with_article(drive::text(tag.type)),
+                               tag.decimals > 0 ? fmt::format(" with up to {} decimal{}", tag.decimals,
+                                                              tag.decimals == 1 ? "" : "s")
+                                                : std::string{},
+                               names_of_values(tag));
+    }
 }
 
 } // namespace dpslave::app

@@ -13,16 +13,13 @@ using control::Json;
 
 Json Watchers::reply(const Station* station, Instant now) const
 {
-    Json stations = Json::array();
-    Json words = Json::array();
+    report::WatchReply told{bus_report(monitor_.view(), now)};
     for (const Station& one : monitor_.view().stations) {
         if (station != nullptr && station != &one) continue;
-        stations.push_back(station_json(one, now));
-        words.push_back({{"name", one.config->name}, {"words", words_json(one, now)}});
+        told.stations.push_back(station_report(one, now));
+        told.words.push_back({one.config->name, words_report(one, now)});
     }
-    return {{"bus", bus_json(monitor_.view(), now)},
-            {"stations", std::move(stations)},
-            {"words", std::move(words)}};
+    return json_of(told);
 }
 
 /// What counts as a change: states, links and values, but no age and no counter.

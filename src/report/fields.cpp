@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dpslave/report/fields.hpp"
+
+namespace dpslave::report {
+
+std::string take_name(std::string_view& names)
+{
+    const std::string name{names.substr(0, names.find(','))};
+    names.remove_prefix(name.size() == names.size() ? name.size() : name.size() + 2);
+    return name;
+}
+
+void take(const Json& json, bool& value)
+{
+    if (json.is_boolean()) value = json.get<bool>();
+}
+
+void take(const Json& json, std::int64_t& value)
+{
+    if (json.is_number_integer()) value = json.get<std::int64_t>();
+}
+
+void take(const Json& json, double& value)
+{
+    if (json.is_number()) value = json.get<double>();
+}
+
+void take(const Json& json, std::string& value)
+{
+    if (json.is_string()) value = json.get<std::string>();
+}
+
+} // namespace dpslave::report
