@@ -9,11 +9,12 @@ _dpctl_options()
     case $1 in
         '') echo "$_dpctl_common --version" ;;
         doctor) echo "$_dpctl_common --all --probe --yes" ;;
-        is-exchanging) echo "$_dpctl_common --healthy" ;;
+        status) echo "$_dpctl_common --follow --wait --drive --quiet" ;;
+        io) echo "$_dpctl_common --follow" ;;
         'tec set') echo "$_dpctl_common --station --yes" ;;
         read | write) echo "$_dpctl_common --station" ;;
         reload) echo "$_dpctl_common --dry-run" ;;
-        survey) echo "$_dpctl_common --only --table --for --passes --resume" ;;
+        survey) echo "$_dpctl_common --tags --table --for --passes --resume" ;;
         tag) echo '--json --all --table --profile --profiles --help' ;;
         hex) echo '--json --help' ;;
         decode) echo '--json --as --profile --profiles --help' ;;
@@ -34,7 +35,7 @@ _dpctl_stations()
     for ((i = 1; i < COMP_CWORD; i++)); do
         [ "${COMP_WORDS[i]}" != --socket ] || socket=(--socket "${COMP_WORDS[i + 1]}")
     done
-    dpctl "${socket[@]}" --timeout 1 --json stations 2>/dev/null |
+    dpctl "${socket[@]}" --timeout 1 --json status 2>/dev/null |
         grep -oE '"name": *"[^"]*"' | sed -E 's/^"name": *"(.*)"$/\1/'
 }
 
@@ -70,12 +71,12 @@ _dpctl()
         --profile) _dpctl_offer "$cur" < <(_dpctl_profiles); return ;;
         --as) mapfile -t COMPREPLY < <(compgen -W 'prm cfg diag' -- "$cur"); return ;;
         --station) _dpctl_offer "$cur" < <(_dpctl_stations); return ;;
-        --timeout | --only | --for | --passes | --in | --out | --in-out | --ident | --max-tsdr | --description | --model) return ;;
+        --timeout | --wait | --tags | --for | --passes | --in | --out | --in-out | --ident | --max-tsdr | --description | --model) return ;;
     esac
     for ((i = 1; i < COMP_CWORD; i++)); do
         word=${COMP_WORDS[i]}
         case $word in
-            --socket | --timeout | --only | --table | --for | --passes) i=$((i + 1)) ;;
+            --socket | --timeout | --wait | --tags | --table | --for | --passes) i=$((i + 1)) ;;
             -*) ;;
             *)
                 case "$command" in
@@ -90,10 +91,9 @@ _dpctl()
         words=$(_dpctl_options "$command")
     else
         case $command in
-            '') words='status stations info io diag doctor counters read write survey tec leds watch version is-exchanging
-                       reload tune tag hex decode gsd' ;;
-            info | io | diag | doctor | survey | leds | watch | is-exchanging) _dpctl_offer "$cur" < <(_dpctl_stations); return ;;
-            tec) _dpctl_offer "$cur" < <(echo set && _dpctl_stations); return ;;
+            '') words='status show io diag counters doctor read write tec survey reload tune tag hex decode gsd version' ;;
+            status | show | io | diag | doctor | survey) _dpctl_offer "$cur" < <(_dpctl_stations); return ;;
+            tec) words='set' ;;
             'tec set') words='TYPE ADDRESS EXT_DIAGNOSTIC INT_DIAG_SELECT RIDE_THROUGH UNUSED_1' ;;
             gsd) words='check show make types' ;;
             tune | 'gsd check' | 'gsd show') compopt -o filenames 2>/dev/null

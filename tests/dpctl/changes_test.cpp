@@ -14,11 +14,12 @@ const Json kBefore = test::fixture("Watch");
 
 TEST(DpctlChanges, AreEverythingAtTheStart)
 {
-    EXPECT_THAT(changes(Json::object(), kBefore),
+    EXPECT_THAT(status_changes(Json::object(), kBefore),
                 ElementsAre("bus: rate 187.5 kbit/s, state DP_Control",
                             "unwinder: state Data_Exch, master 2, drive answers",
-                            "rewinder: state Wait_Prm, master none, drive silent",
-                            "unwinder: in tag 7 SPEED FEEDBACK = 50.00 (good)",
+                            "rewinder: state Wait_Prm, master none, drive silent"));
+    EXPECT_THAT(io_changes(Json::object(), kBefore),
+                ElementsAre("unwinder: in tag 7 SPEED FEEDBACK = 50.00 (good)",
                             "unwinder: out tag 56 = -12.50 (read only)"));
 }
 
@@ -29,7 +30,8 @@ TEST(DpctlChanges, AreNoneWhenOnlyTimePasses)
     now["words"][0]["words"][0]["age_ms"] = 99;
     now["stations"][0]["drive"]["reads"] = 4001;
 
-    EXPECT_THAT(changes(kBefore, now), IsEmpty());
+    EXPECT_THAT(status_changes(kBefore, now), IsEmpty());
+    EXPECT_THAT(io_changes(kBefore, now), IsEmpty());
 }
 
 TEST(DpctlChanges, NameWhatWasBefore)
@@ -40,10 +42,31 @@ TEST(DpctlChanges, NameWhatWasBefore)
     now["stations"][1]["drive"]["link"] = "answers";
     now["bus"]["baud"] = 500000;
 
-    EXPECT_THAT(changes(kBefore, now),
+    EXPECT_THAT(io_changes(kBefore, now), IsEmpty());
+    EXPECT_THAT(status_changes(kBefore, now),
                 ElementsAre("bus: rate 500 kbit/s (was 187.5 kbit/s)",
                             "unwinder: state Wait_Prm (was Data_Exch), master none (was 2)",
                             "rewinder: drive answers (was silent)"));
+}
+
+TEST(DpctlChanges, AreClearHeldSyncAndAPortThatHasGone)
+{
+    Json now = kBefore;
+    now["stations"][0]["clear"] = true;
+    now["stations"][0]["held"] = true;
+    now["stations"][1]["drive"]["port_open"] = false;
+
+    EXPECT_THAT(status_changes(kBefore, now),
+                ElementsAre("unwinder: state Data_Exch, held in Clear (was Data_Exch)",
+                            "rewinder: drive port gone (was silent)"));
+}
+
+TEST(DpctlChanges, AreStationsThatHaveGone)
+{
+    Json now = kBefore;
+    now["stations"].erase(1);
+
+    EXPECT_THAT(status_changes(kBefore, now), ElementsAre("rewinder: removed"));
 }
 
 TEST(DpctlChanges, AreValuesAndTheirStates)
@@ -52,8 +75,9 @@ TEST(DpctlChanges, AreValuesAndTheirStates)
     now["words"][0]["words"][0]["value"] = "51.00";
     now["words"][0]["words"][1]["state"] = "good";
 
-    EXPECT_THAT(changes(kBefore, now), ElementsAre("unwinder: in tag 7 SPEED FEEDBACK = 51.00 (good)",
-                                                   "unwinder: out tag 56 = -12.50 (good)"));
+    EXPECT_THAT(status_changes(kBefore, now), IsEmpty());
+    EXPECT_THAT(io_changes(kBefore, now), ElementsAre("unwinder: in tag 7 SPEED FEEDBACK = 51.00 (good)",
+                                                      "unwinder: out tag 56 = -12.50 (good)"));
 }
 
 TEST(DpctlChanges, AreWordsThatTheMasterHasChosenAnew)
@@ -62,7 +86,7 @@ TEST(DpctlChanges, AreWordsThatTheMasterHasChosenAnew)
     now["words"][0]["words"][0]["tag"] = 8;
     now["words"][0]["words"][0]["name"] = nullptr;
 
-    EXPECT_THAT(changes(kBefore, now), ElementsAre("unwinder: in tag 8 = 50.00 (good)"));
+    EXPECT_THAT(io_changes(kBefore, now), ElementsAre("unwinder: in tag 8 = 50.00 (good)"));
 }
 
 } // namespace

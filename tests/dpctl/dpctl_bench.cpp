@@ -13,6 +13,7 @@
 #include <utmp.h>
 
 #include <array>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <stdexcept>
@@ -45,11 +46,19 @@ Json with_behind_each_text(Json value, const std::string& added)
 
 Json FixtureDaemon::reply(const std::string& method) const
 {
-    return with_behind_each_text(fixture(method), behind_each_text_);
+    Json all = fixture(method);
+    const std::lock_guard lock(mutex_);
+    if (method == "GetStatus")
+        for (Json& station : all["stations"])
+            if (const auto found = states_.find(station["name"]); found != states_.end())
+                station["state"] = found->second;
+    return with_behind_each_text(std::move(all), behind_each_text_);
 }
 
 FixtureDaemon::FixtureDaemon(std::string behind_each_text)
-    : behind_each_text_(std::move(behind_each_text)), stop_(::eventfd(0, EFD_CLOEXEC))
+    : behind_each_text_(std::move(behind_each_text)),
+      stop_(::eventfd(0, EFD_CLOEXEC)),
+      wake_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK))
 {
     control::ServerSettings settings;
     settings.socket = socket_;
@@ -57,13 +66,20 @@ FixtureDaemon::FixtureDaemon(std::string behind_each_text)
     auto server = control::Server::open(settings, handlers());
     if (!server) throw std::runtime_error(server.error());
     thread_ = std::thread([this, own = *std::move(server)]() mutable {
-        std::array<pollfd, 2> ready{{{own.fd(), POLLIN, 0}, {stop_, POLLIN, 0}}};
+        std::array<pollfd, 3> ready{{{own.fd(), POLLIN, 0}, {stop_, POLLIN, 0}, {wake_, POLLIN, 0}}};
         while (::poll(ready.data(), ready.size(), -1) > 0 && ready[1].revents == 0) {
             own.on_ready();
             for (const auto& [token, reply] : std::exchange(answers_, {})) own.complete(token, reply);
             if (std::exchange(second_picture_due_, false)) {
                 Json picture = reply("Watch");
                 picture["stations"][0]["state"] = "Wait_Prm";
+                for (const std::uint64_t stream : own.streams()) own.push(stream, picture);
+            }
+            eventfd_t woken = 0;
+            if (::eventfd_read(wake_, &woken) == 0) {
+                Json picture = reply("Watch");
+                picture["stations"][0]["state"] = "Wait_Prm";
+                picture["words"][0]["words"][0]["value"] = "51.00";
                 for (const std::uint64_t stream : own.streams()) own.push(stream, picture);
             }
         }
@@ -75,6 +91,25 @@ FixtureDaemon::~FixtureDaemon()
     ::eventfd_write(stop_, 1);
     thread_.join();
     ::close(stop_);
+    ::close(wake_);
+}
+
+void FixtureDaemon::set_state(const std::string& station, const std::string& state)
+{
+    const std::lock_guard lock(mutex_);
+    states_[station] = state;
+}
+
+bool FixtureDaemon::was_asked(const std::string& method)
+{
+    std::unique_lock lock(mutex_);
+    return asked_.wait_for(lock, std::chrono::milliseconds{kPatience},
+                           [&] { return questions_.contains(method); });
+}
+
+void FixtureDaemon::change_value()
+{
+    ::eventfd_write(wake_, 1);
 }
 
 control::Handlers FixtureDaemon::handlers()
@@ -83,6 +118,11 @@ control::Handlers FixtureDaemon::handlers()
     for (const auto& method : control::kMethods) {
         const std::string name{method.name};
         all[name] = [this, name](const Json& parameters, const control::Caller&) -> Reply {
+            {
+                const std::lock_guard lock(mutex_);
+                questions_.insert(name);
+            }
+            asked_.notify_all();
             const std::string station = parameters.value("station", "unwinder");
             if (station == "unwinder" || station == "rewinder" || station == "5" || station == "16")
                 return Done{reply(name)};
@@ -104,8 +144,10 @@ control::Handlers FixtureDaemon::handlers()
             return Error{
                 "BadTecValue",
                 Json::object({{"parameter", "FAULT"}, {"value", "1"}, {"reason", "it is an output"}})};
-        const std::lock_guard lock(mutex_);
-        written_ = parameters;
+        {
+            const std::lock_guard lock(mutex_);
+            written_ = parameters;
+        }
         return Done{reply("SetTec")};
     };
     all["Watch"] = [this](const Json&, const control::Caller&) {

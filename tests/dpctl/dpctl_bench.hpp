@@ -4,8 +4,10 @@
 
 #include "control/bench.hpp"
 
+#include <condition_variable>
 #include <map>
 #include <mutex>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -26,6 +28,12 @@ public:
     ~FixtureDaemon();
 
     std::string socket() const { return socket_.string(); }
+    /// From now on this station is in `state` in the reply of GetStatus.
+    void set_state(const std::string& station, const std::string& state);
+    /// Waits until `method` was called. False: it was not for long.
+    bool was_asked(const std::string& method);
+    /// All who watch get a picture in which the value of tag 7 is 51.00.
+    void change_value();
     /// The parameters of the last WriteTag or SetTec.
     Json written() const
     {
@@ -47,8 +55,11 @@ private:
     std::uint64_t last_number_ = 0;
     std::map<int, int> surveyed_; ///< by tag, how often; only the thread's
     mutable std::mutex mutex_;
+    std::condition_variable asked_;
+    std::set<std::string> questions_;
+    std::map<std::string, std::string> states_; ///< by station
     Json written_;
-    int stop_;
+    int stop_, wake_;
     std::thread thread_;
 };
 

@@ -105,6 +105,16 @@ TEST(DpctlIo, SaysWhichWordsSyncAndFreezeHold)
               std::string::npos);
 }
 
+/// What `show` prints, of this station and the replies of the fixtures with `info`.
+Json shown(std::size_t station, Json info = fixture("GetInfo")["stations"][0])
+{
+    Json one = {{"station", fixture("ListStations")["stations"][station]},
+                {"info", std::move(info)},
+                {"leds", fixture("GetLeds")["stations"][0]},
+                {"tec", nullptr}};
+    return {{"version", "9.8.7"}, {"stations", Json::array({std::move(one)})}};
+}
+
 /// The widest line of a picture, in characters.
 std::size_t widest(const std::string& picture)
 {
@@ -117,7 +127,7 @@ std::size_t widest(const std::string& picture)
 TEST(DpctlPictures, Fit80ColumnsAndUseAWiderTerminal)
 {
     Json io = fixture("GetIo"), diagnosis = fixture("GetDiagnosis"), counters = fixture("GetCounters"),
-         status = fixture("GetStatus"), leds = fixture("GetLeds");
+         status = fixture("GetStatus"), document = shown(0);
     const std::string many(30, 'W');
     const std::string words = many + ' ' + many + ' ' + many + ' ' + many;
     io["stations"][0]["words"][0]["name"] = words;
@@ -126,7 +136,8 @@ TEST(DpctlPictures, Fit80ColumnsAndUseAWiderTerminal)
     diagnosis["stations"][0]["bits"] = Json::array({words, words});
     counters["groups"][0]["counters"][0]["meaning"] = words;
     status["stations"][0]["silent_because"] = words;
-    io["stations"][0]["name"] = leds["stations"][0]["name"] = many + many;
+    io["stations"][0]["name"] = document["stations"][0]["station"]["name"] = many + many;
+    document["stations"][0]["leds"]["meaning"] = words;
     status["bus"]["port"] = "/dev/serial/by-id/" + many + many;
 
     const Look wide{false, 160};
@@ -134,114 +145,139 @@ TEST(DpctlPictures, Fit80ColumnsAndUseAWiderTerminal)
     EXPECT_LE(widest(render_io(io, false)), 80U);
     EXPECT_LE(widest(render_diagnosis(diagnosis, false)), 80U);
     EXPECT_LE(widest(render_counters(counters, false)), 80U);
-    EXPECT_LE(widest(render_leds(leds, false)), 80U);
+    EXPECT_LE(widest(render_show(document, false)), 80U);
     EXPECT_GT(widest(render_io(io, wide)), 80U);
     EXPECT_GT(widest(render_diagnosis(diagnosis, wide)), 80U);
     EXPECT_GT(widest(render_counters(counters, wide)), 80U);
     EXPECT_GT(widest(render_status(status, wide)), 80U);
 }
 
-TEST(DpctlStations, TellsEverythingAboutEach)
+TEST(DpctlShow, TellsEverythingAboutAStation)
 {
-    EXPECT_EQ(render_stations(fixture("ListStations"), false), test::lines(R"(
+    EXPECT_EQ(render_show(shown(0), false), test::lines(R"(
 unwinder, address 5
-  device          590 with PROFIBUS-DP option board (profile 590)
-  state           Data_Exch, master 2
-  watchdog        100 ms
-  min T_SDR       11 T_bit
-  groups          1, 8
-  Sync, Freeze    off, off
-  diagnosis       nothing new
-  parameters      2 and Demand Data
-  left Data_Exch  1 time, the last time: watchdog expired
-  drive           unit 00 on p3 (/dev/ttyS2, ei-ascii): answers
-                  a round takes 123 ms; 4000 reads, 1 write, 3 unanswered, 0
-                  refused, lost 1 time
+  device            590 with PROFIBUS-DP option board (profile 590)
+  state             Data_Exch, master 2
+  watchdog          100 ms
+  min T_SDR         11 T_bit
+  groups            1, 8
+  Sync, Freeze      off, off
+  diagnosis         nothing new
+  parameters        2 and Demand Data
+  left Data_Exch    1 time, the last time: watchdog expired
+  drive             unit 00 on p3 (/dev/ttyS2, ei-ascii): answers
+                    a round takes 123 ms; 4000 reads, 1 write, 3 unanswered, 0
+                    refused, lost 1 time
 
-rewinder, address 16
-  device          590 with PROFIBUS-DP option board (profile 590)
-  state           Wait_Prm, no master
-  watchdog        off
-  min T_SDR       11 T_bit
-  groups          none
-  Sync, Freeze    off, off
-  diagnosis       static diagnosis: not ready for data yet; new, the master has
-                  yet to read it
-  parameters      0
-  left Data_Exch  never
-  drive           unit 01 on p3 (/dev/ttyS2, ei-ascii): silent
-                  0 reads, 0 writes, 12 unanswered, 0 refused, lost 0 times
-                  last trouble: no answer
+  order code        590 option digit 2
+  OPTION VERSION    9.8.7
+  host firmware     4.2 or later
+  manual            HA389815
+  Ident_Number      0x0533
+  address           5 active, 7 pending: the configuration file has it, the next
+                    start of dpslaved takes it
+  legal addresses   0 to 125
+  at most           12 parameters, 32 octets in, 32 octets out, 6 octets of
+                    diagnosis
+  has Demand Data   yes
+  has Sync, Freeze  yes, yes
+  rates             9.6 kbit/s, answers within 60 T_bit
+                    187.5 kbit/s, answers within 60 T_bit
+                    1.5 Mbit/s, answers within 150 T_bit
+  tag table         590.csv, 312 tags
+
+  lamps             data exchange with the master
+  LED    NOW   PATTERN        SINK
+  red    dark  off            gpio:23
+  green  lit   flashing 2 Hz  led:dpslaved-green
 )"));
+}
+
+TEST(DpctlShow, TellsOfAStationWithoutMasterAndOfASilentDrive)
+{
+    EXPECT_NE(render_show(shown(1), false).find(R"(rewinder, address 16
+  device            590 with PROFIBUS-DP option board (profile 590)
+  state             Wait_Prm, no master
+  watchdog          off
+  min T_SDR         11 T_bit
+  groups            none
+  Sync, Freeze      off, off
+  diagnosis         static diagnosis: not ready for data yet; new, the master
+                    has yet to read it
+  parameters        0
+  left Data_Exch    never
+  drive             unit 01 on p3 (/dev/ttyS2, ei-ascii): silent
+                    0 reads, 0 writes, 12 unanswered, 0 refused, lost 0 times
+                    last trouble: no answer
+
+  order code )"),
+              std::string::npos)
+        << render_show(shown(1), false);
+}
+
+TEST(DpctlShow, HasTheFunctionBlockBelowTheLamps)
+{
+    Json document = shown(0);
+    document["stations"][0]["tec"] = fixture("GetTec")["stations"][0];
+
+    const std::string picture = render_show(document, false);
+
+    const auto lamps = picture.find("  LED ");
+    EXPECT_NE(lamps, std::string::npos);
+    EXPECT_GT(picture.find("\n\nbooster: TEC OPTION\n"), lamps);
 }
 
 TEST(DpctlInfo, TellsWhatIsEmulatedAndThePendingAddress)
 {
-    EXPECT_EQ(render_info(fixture("GetInfo"), "9.8.7", {}), test::lines(R"(
-unwinder
-  emulates         590 with PROFIBUS-DP option board
-  order code       590 option digit 2
-  OPTION VERSION   9.8.7
-  host firmware    4.2 or later
-  manual           HA389815
-  profile          590
-  Ident_Number     0x0533
-  address          5 active, 7 pending: the configuration file has it, the next
-                   start of dpslaved takes it
-  legal addresses  0 to 125
-  at most          12 parameters, 32 octets in, 32 octets out, 6 octets of
-                   diagnosis
-  Demand Data      yes
-  Sync, Freeze     yes, yes
-  rates            9.6 kbit/s, answers within 60 T_bit
-                   187.5 kbit/s, answers within 60 T_bit
-                   1.5 Mbit/s, answers within 150 T_bit
-  tag table        590.csv, 312 tags
-)"));
+    const std::string picture = render_show(shown(0), false);
+    for (const char* line : {"590 with PROFIBUS-DP option board", "order code        590 option digit 2",
+                             "OPTION VERSION    9.8.7", "address           5 active, 7 pending"})
+        EXPECT_NE(picture.find(line), std::string::npos) << line;
 }
 
 TEST(DpctlInfo, SaysNothingOfAPendingAddressWhenThereIsNone)
 {
-    Json reply = fixture("GetInfo");
-    reply["stations"][0]["address_pending"] = nullptr;
+    Json info = fixture("GetInfo")["stations"][0];
+    info["address_pending"] = nullptr;
 
-    EXPECT_NE(render_info(reply, "9.8.7", {}).find("  address          5 active\n"), std::string::npos);
+    EXPECT_NE(render_show(shown(0, info), {}).find("  address           5 active\n"), std::string::npos);
 }
 
 TEST(DpctlInfo, TellsReleaseStatusAndResolutionWhereTheDeviceHasThem)
 {
-    Json reply = fixture("GetInfo");
-    EXPECT_EQ(render_info(reply, "9.8.7", {}).find("option software"), std::string::npos);
-    EXPECT_EQ(render_info(reply, "9.8.7", {}).find("comms status"), std::string::npos);
-    EXPECT_EQ(render_info(reply, "9.8.7", {}).find("resolution"), std::string::npos);
+    Json info = fixture("GetInfo")["stations"][0];
+    const std::string without = render_show(shown(0, info), {});
+    EXPECT_EQ(without.find("option software"), std::string::npos);
+    EXPECT_EQ(without.find("comms status"), std::string::npos);
+    EXPECT_EQ(without.find("resolution"), std::string::npos);
 
-    reply["stations"][0]["option_software"] = "Version 3.x";
-    reply["stations"][0]["comms_status"] = "rdY";
-    reply["stations"][0]["resolution"] = "full";
-    const std::string picture = render_info(reply, "9.8.7", {});
-    EXPECT_NE(picture.find("\n  option software  Version 3.x\n"), std::string::npos) << picture;
-    EXPECT_NE(picture.find("\n  comms status     rdY (ready to run)\n"), std::string::npos);
-    EXPECT_NE(picture.find("\n  resolution       full\n"), std::string::npos);
+    info["option_software"] = "Version 3.x";
+    info["comms_status"] = "rdY";
+    info["resolution"] = "full";
+    const std::string picture = render_show(shown(0, info), {});
+    EXPECT_NE(picture.find("\n  option software   Version 3.x\n"), std::string::npos) << picture;
+    EXPECT_NE(picture.find("\n  comms status      rdY (ready to run)\n"), std::string::npos);
+    EXPECT_NE(picture.find("\n  resolution        full\n"), std::string::npos);
 
-    reply["stations"][0]["comms_status"] = "run";
-    EXPECT_NE(render_info(reply, "9.8.7", {}).find("\n  comms status     run (comms running)\n"),
+    info["comms_status"] = "run";
+    EXPECT_NE(render_show(shown(0, info), {}).find("\n  comms status      run (comms running)\n"),
               std::string::npos);
 }
 
 TEST(DpctlInfo, RepeatsWhatTheFunctionBlockWarnsOf)
 {
-    Json reply = fixture("GetInfo");
-    reply["stations"][0]["notes"] = {"WARNING: it could compromise safety.", "ADDRESS 2: a master's."};
+    Json info = fixture("GetInfo")["stations"][0];
+    info["notes"] = {"WARNING: it could compromise safety.", "ADDRESS 2: a master's."};
 
-    EXPECT_NE(render_info(reply, "9.8.7", {})
-                  .find("  notes            WARNING: it could compromise safety.\n"
-                        "                   ADDRESS 2: a master's.\n"),
+    EXPECT_NE(render_show(shown(0, info), {})
+                  .find("  notes             WARNING: it could compromise safety.\n"
+                        "                    ADDRESS 2: a master's.\n"),
               std::string::npos);
 }
 
 TEST(DpctlTec, ShowsTheFunctionBlockTripAndNotes)
 {
-    EXPECT_EQ(render_tec(fixture("GetTec"), false), test::lines(R"(
+    EXPECT_EQ(render_tec(fixture("GetTec")["stations"][0], false), test::lines(R"(
 booster: TEC OPTION
           NAME            VALUE          NUMBER  RANGE
   input   TYPE            PROFIBUS DP         2  0 to 9
@@ -260,7 +296,7 @@ TEST(DpctlTec, TakesTheNamesThatFitAnyOptionInTheGenericView)
     Json reply = fixture("GetTec");
     reply["stations"][0]["view"] = "generic";
 
-    const std::string picture = render_tec(reply, false);
+    const std::string picture = render_tec(reply["stations"][0], false);
 
     EXPECT_EQ(picture.find("booster: TEC OPTION, in names that fit any option\n"), 0u);
     EXPECT_NE(picture.find("  input   INPUT 1   3"), std::string::npos) << picture;
@@ -273,7 +309,7 @@ TEST(DpctlTec, SaysTheThreeStepsOfTheSetUpWhereItIsNotSetUp)
     for (const int fault : {1, 2}) { // PARAMETER, TYPE MISMATCH
         Json reply = fixture("GetTec");
         reply["stations"][0]["rows"][4]["value"] = fault;
-        const std::string picture = render_tec(reply, false);
+        const std::string picture = render_tec(reply["stations"][0], false);
 
         const auto type =
             picture.find("    1. TYPE is to be PROFIBUS DP:  dpctl tec set TYPE \"PROFIBUS DP\"\n");
@@ -284,13 +320,7 @@ TEST(DpctlTec, SaysTheThreeStepsOfTheSetUpWhereItIsNotSetUp)
         EXPECT_LT(address, look);
         EXPECT_NE(look, std::string::npos);
     }
-    EXPECT_EQ(render_tec(fixture("GetTec"), false).find("three steps"), std::string::npos);
-}
-
-TEST(DpctlTec, SaysWhereNoStationHasTheFunctionBlock)
-{
-    EXPECT_EQ(render_tec(Json::parse(R"({"stations":[]})"), false),
-              "no station has a TEC OPTION function block: the profiles of technology boxes have one\n");
+    EXPECT_EQ(render_tec(fixture("GetTec")["stations"][0], false).find("three steps"), std::string::npos);
 }
 
 TEST(DpctlIo, ShowsEachWordRawAndScaledWithItsAge)
@@ -421,16 +451,6 @@ TEST(DpctlCounters, ShowARareClassAsMoreThanNothing)
     EXPECT_NE(render_counters(reply, false).find("64 to 79        1  < 0.1 %  #\n"), std::string::npos);
 }
 
-TEST(DpctlLeds, SayWhatTheyMean)
-{
-    EXPECT_EQ(render_leds(fixture("GetLeds"), false), test::lines(R"(
-unwinder: data exchange with the master
-  LED    NOW   PATTERN        SINK
-  red    dark  off            gpio:23
-  green  lit   flashing 2 Hz  led:dpslaved-green
-)"));
-}
-
 TEST(DpctlTag, IsOneLine)
 {
     Json reply = fixture("ReadTag");
@@ -444,16 +464,21 @@ TEST(DpctlTag, IsOneLine)
               std::string::npos);
 }
 
-TEST(DpctlWatch, IsBusStationsAndWords)
+TEST(DpctlFollowed, StatusIsBusAndStations)
 {
-    EXPECT_EQ(render_watch(fixture("Watch"), false), test::lines(R"(
+    EXPECT_EQ(render_followed_status(fixture("Watch"), false), test::lines(R"(
 /dev/ttyS1, 187.5 kbit/s (DP_Control), last telegram 2 ms ago
 
 STATION   ADDRESS  PROFILE  STATE      MASTER  DRIVE    LINE
 unwinder        5  590      Data_Exch       2  answers  p3
 rewinder       16  590      Wait_Prm        -  silent   p3
+)"));
+}
 
-unwinder
+TEST(DpctlFollowed, IoIsTheWordsOfEachStation)
+{
+    EXPECT_EQ(render_followed_io(fixture("Watch"), false), test::lines(R"(
+unwinder, address 5: Data_Exch
   DIR  OCTET  WORD  TAG  NAME             VALUE            RAW  STATE        AGE
   in       8     1    7  SPEED FEEDBACK   50.00   5000 (1388h)  good       12 ms
   out      8     1   56                  -12.50  64286 (FB1Eh)  read only      -
@@ -476,6 +501,17 @@ Json damaged(const Json& value, int depth)
     return value.is_string() ? Json(17) : Json("odd");
 }
 
+/// What `show` would make of such replies.
+Json odd_document(const Json& odd)
+{
+    Json document = {{"version", "9.8.7"}, {"stations", Json::array()}};
+    const auto stations = odd.is_object() ? odd.find("stations") : odd.end();
+    if (stations == odd.end() || !stations->is_array()) return document;
+    for (const Json& one : *stations)
+        document["stations"].push_back({{"station", one}, {"info", one}, {"leds", one}, {"tec", one}});
+    return document;
+}
+
 TEST(DpctlRenderers, SurviveRepliesOfAnotherVersion)
 {
     for (int depth = 0; depth < 6; ++depth)
@@ -484,17 +520,19 @@ TEST(DpctlRenderers, SurviveRepliesOfAnotherVersion)
             const Json odd = damaged(fixture(method), depth);
             EXPECT_NO_THROW({
                 render_status(odd, false);
-                render_stations(odd, false);
-                render_info(odd, "", {});
+                render_show(odd, false);
+                render_show(odd_document(odd), false);
                 render_io(odd, false);
                 render_diagnosis(odd, false);
                 render_counters(odd, false);
-                render_leds(odd, false);
                 render_tec(odd, false);
                 render_tag(odd, "is");
-                render_watch(odd, false);
-                changes(odd, fixture("Watch"));
-                changes(fixture("Watch"), odd);
+                render_followed_status(odd, false);
+                render_followed_io(odd, false);
+                status_changes(odd, fixture("Watch"));
+                status_changes(fixture("Watch"), odd);
+                io_changes(odd, fixture("Watch"));
+                io_changes(fixture("Watch"), odd);
             }) << method
                << depth;
         }

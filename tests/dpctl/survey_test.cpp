@@ -319,7 +319,7 @@ TEST_F(SurveyProgram, AsksEveryTagWritesTheRowsAndReports)
 
 TEST_F(SurveyProgram, AsksOnlyWhatItIsToldToAndAsOftenAsItIsTold)
 {
-    const Ran ran = dpctl(command({"--only", "1,4-4", "--passes", "3", "--json"}));
+    const Ran ran = dpctl(command({"--tags", "1,4-4", "--passes", "3", "--json"}));
 
     EXPECT_EQ(ran.exit, 0) << ran.err;
     const Json json = Json::parse(ran.out);
@@ -330,7 +330,7 @@ TEST_F(SurveyProgram, AsksOnlyWhatItIsToldToAndAsOftenAsItIsTold)
 
 TEST_F(SurveyProgram, EndsAtCtrlCWithAllThatWasReadAndGoesOnFromThere)
 {
-    Dpctl running{command({"--only", "1,2", "--for", "10m"})};
+    Dpctl running{command({"--tags", "1,2", "--for", "10m"})};
     ASSERT_TRUE(running.prints("2 tags to ask"));
     running.signal(SIGINT);
     const Ran ran = running.wait();
@@ -346,7 +346,7 @@ TEST_F(SurveyProgram, EndsAtCtrlCWithAllThatWasReadAndGoesOnFromThere)
 
 TEST_F(SurveyProgram, GoesOnUntilItsTimeIsOver)
 {
-    const Ran ran = dpctl(command({"--only", "1", "--for", "1s"}));
+    const Ran ran = dpctl(command({"--tags", "1", "--for", "1s"}));
 
     EXPECT_EQ(ran.exit, 0) << ran.err;
     const auto record = profile::read_record(content(folder.path() / "t.survey.csv"), "r", "unwinder");
@@ -356,7 +356,7 @@ TEST_F(SurveyProgram, GoesOnUntilItsTimeIsOver)
 
 TEST_F(SurveyProgram, ShowsABarOnATerminal)
 {
-    Dpctl running{command({"--only", "1,4", "--for", "2s"}), Dpctl::As::this_user, true};
+    Dpctl running{command({"--tags", "1,4", "--for", "2s"}), Dpctl::As::this_user, true};
     EXPECT_TRUE(running.prints("[###"));
     EXPECT_TRUE(running.prints("2 of 2 tags asked"));
     EXPECT_EQ(running.wait().exit, 0);
@@ -364,15 +364,15 @@ TEST_F(SurveyProgram, ShowsABarOnATerminal)
 
 TEST_F(SurveyProgram, CountsOnlyTheTagsThatItWasToldToAskWhereTheRecordHasOthers)
 {
-    ASSERT_EQ(dpctl(command({"--only", "1-2"})).exit, 0);
-    Dpctl running{command({"--resume", "--only", "4", "--for", "2s"}), Dpctl::As::this_user, true};
+    ASSERT_EQ(dpctl(command({"--tags", "1-2"})).exit, 0);
+    Dpctl running{command({"--resume", "--tags", "4", "--for", "2s"}), Dpctl::As::this_user, true};
     EXPECT_TRUE(running.prints("] 1 of 1 tag asked: 1 answer, 0 denied, 0 silent;"));
     EXPECT_EQ(running.wait().exit, 0);
 }
 
 TEST_F(SurveyProgram, ATableThatBecomesNoneUnderItsHandsIsLeftAloneAndTheRecordKeepsWhatWasRead)
 {
-    Dpctl running{command({"--only", "1,4", "--for", "1s"})};
+    Dpctl running{command({"--tags", "1,4", "--for", "1s"})};
     ASSERT_TRUE(running.prints("2 tags to ask"));
     put(table, "no,table\n1,2\n");
 
@@ -388,7 +388,7 @@ TEST_F(SurveyProgram, ATableThatBecomesNoneUnderItsHandsIsLeftAloneAndTheRecordK
 TEST_F(SurveyProgram, AContradictedRowIsNoSuccess)
 {
     put(table, "tag,type,decimals\n1,INT,0\n");
-    const Ran ran = dpctl(command({"--only", "1"}));
+    const Ran ran = dpctl(command({"--tags", "1"}));
     EXPECT_EQ(ran.exit, 1);
     EXPECT_THAT(ran.out, HasSubstr("its row says 0 decimals, the drive answers with 1"));
     EXPECT_EQ(content(table), "tag,type,decimals\n1,INT,0\n");
@@ -396,7 +396,7 @@ TEST_F(SurveyProgram, AContradictedRowIsNoSuccess)
 
 TEST_F(SurveyProgram, WrongArgumentsAreUsage)
 {
-    for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--only", "5-1"},
+    for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--tags", "5-1"},
                                                   {"--for", "soon"},
                                                   {"--passes", "0"},
                                                   {"--passes", "2", "--for", "1m"}})

@@ -47,8 +47,8 @@ TEST(Controller, ExchangesTheStandardMappingInScaledIntegers)
 
     EXPECT_TRUE(gateway.word_becomes(15, "value", "1 (SP2)"));
     EXPECT_EQ(gateway.word(1).at("value"), "999.9");
-    EXPECT_THAT(gateway.dpctl({"info"}).out, HasSubstr("run"));
-    EXPECT_EQ(gateway.json({"info"}).at("stations").at(0).at("comms_status"), "run");
+    EXPECT_THAT(gateway.dpctl({"show"}).out, HasSubstr("run"));
+    EXPECT_EQ(gateway.json({"show"}).at("stations").at(0).at("info").at("comms_status"), "run");
     EXPECT_TRUE(master.leaves());
 }
 
@@ -64,7 +64,7 @@ TEST(Controller, InIntegerResolutionRoundsToWholeNumbersAndWritesThem)
     EXPECT_TRUE(master.does("out 1 = 60"));
     EXPECT_TRUE(gateway.drive().says("tag 24 written 60.0"));
     EXPECT_TRUE(master.does("wait 30s for in 2 = 60"));
-    EXPECT_EQ(gateway.json({"info"}).at("stations").at(0).at("resolution"), "integer");
+    EXPECT_EQ(gateway.json({"show"}).at("stations").at(0).at("info").at("resolution"), "integer");
     EXPECT_TRUE(master.does("demand read 24"));
     EXPECT_TRUE(master.does("expect demand = 60")) << "Demand Data has the same resolution";
 }
@@ -321,14 +321,14 @@ TEST(Rem, FlashesWhileDataIsExchanged)
     Gateway gateway{wiring};
     const auto rem = gateway.make_led("rem");
     gateway.start_daemon();
-    EXPECT_EQ(gateway.json({"info"}).at("stations").at(0).at("comms_status"), "rdY");
+    EXPECT_EQ(gateway.json({"show"}).at("stations").at(0).at("info").at("comms_status"), "rdY");
     EXPECT_EQ(content(rem), "0");
     Master master{gateway, for_controller(kStandard)};
     ASSERT_TRUE(master.does("start 30s"));
     EXPECT_TRUE(gateway.flashes(rem));
     EXPECT_TRUE(master.does("unlock"));
-    EXPECT_TRUE(
-        eventually([&] { return gateway.json({"info"}).at("stations").at(0).at("comms_status") == "rdY"; }));
+    EXPECT_TRUE(eventually(
+        [&] { return gateway.json({"show"}).at("stations").at(0).at("info").at("comms_status") == "rdY"; }));
 }
 
 TEST(Controller, WithoutItsPortIsNotStartedAtAll)

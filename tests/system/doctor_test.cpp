@@ -163,8 +163,8 @@ TEST(DoctorOfTheMaster, NamesClear)
     EXPECT_TRUE(first_cause_is(gateway, "station.clear"));
     EXPECT_THAT(gateway.dpctl({"io"}).out, Not(HasSubstr("outputs go to the drive")));
     EXPECT_THAT(gateway.dpctl({"status"}).out, HasSubstr("Data_Exch in Clear"));
-    EXPECT_EQ(gateway.dpctl({"is-exchanging"}).status, 0);
-    EXPECT_EQ(gateway.dpctl({"is-exchanging", "--healthy"}).status, 1);
+    EXPECT_EQ(gateway.dpctl({"status", "--wait", "0", "--quiet"}).status, 0);
+    EXPECT_EQ(gateway.dpctl({"status", "--wait", "0", "--quiet", "--drive"}).status, 1);
 
     ASSERT_TRUE(master.does("operate"));
     EXPECT_TRUE(first_cause_is(gateway, "well"));

@@ -61,7 +61,7 @@ TEST(DriveLoss, OfOneStationLeavesTheOtherOnTheSameLineAtWork)
     }
     Master second{gateway, {"--tags", "55,56w"}, 6};
     ASSERT_TRUE(second.does("start 30s"));
-    EXPECT_TRUE(gateway.is_exchanging_says(0)) << "both are";
+    EXPECT_TRUE(gateway.exchange_ends_with(0)) << "both are";
 
     drive.tell("unit 00");
     drive.tell("silence");
@@ -128,13 +128,13 @@ TEST(MasterLoss, ByACutCableZeroesTheOutputsOnceAndTheMasterStartsUpAgain)
     for (int i = 0; i < 5; ++i)
         EXPECT_THAT(gateway.dpctl({"read", "56"}).out, HasSubstr("is 0.00")) << "the drive is still served";
     EXPECT_EQ(gateway.drive().how_often("tag 56 written"), 0U) << "zero is written once, then writing stops";
-    EXPECT_TRUE(gateway.is_exchanging_says(1));
+    EXPECT_TRUE(gateway.exchange_ends_with(1));
     EXPECT_EQ(gateway.station().at("left_because"), "the watchdog expired: the master is silent");
 
     gateway.bus().tell("restore");
     EXPECT_TRUE(master.does("wait 30s for state data-exchange"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 5.00"));
-    EXPECT_TRUE(gateway.is_exchanging_says(0));
+    EXPECT_TRUE(gateway.exchange_ends_with(0));
 }
 
 TEST(MasterLoss, WithoutWatchdogIsNoneTheOutputsHold)

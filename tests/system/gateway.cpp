@@ -242,9 +242,9 @@ Outcome Gateway::dpctl(Arguments arguments) const
     return run(dpctl_command(std::move(arguments)));
 }
 
-::testing::AssertionResult Gateway::is_exchanging_says(int status, const std::string& station) const
+::testing::AssertionResult Gateway::exchange_ends_with(int status, const std::string& station) const
 {
-    Arguments question{"is-exchanging"};
+    Arguments question{"status", "--wait", "0", "--quiet"};
     if (!station.empty()) question.push_back(station);
     return eventually([&] { return dpctl(question).status == status; });
 }
@@ -257,7 +257,7 @@ Json Gateway::json(Arguments arguments) const
 
 Json Gateway::station(std::size_t index) const
 {
-    return json({"stations"}).at("stations").at(index);
+    return json({"status"}).at("stations").at(index);
 }
 
 Json Gateway::diagnosis() const
@@ -267,8 +267,8 @@ Json Gateway::diagnosis() const
 
 Json Gateway::tec(const std::string& row) const
 {
-    const Json reply = json({"tec"});
-    for (const Json& one : reply.at("stations").at(0).at("rows"))
+    const Json reply = json({"show"});
+    for (const Json& one : reply.at("stations").at(0).at("tec").at("rows"))
         if (one.at("name") == row) return one.at("value");
     return {};
 }

@@ -96,12 +96,12 @@ public:
 
     Outcome dpctl(Arguments arguments) const;
     Arguments dpctl_command(Arguments arguments) const;
-    /// That dpctl is-exchanging ends with this status soon: what dpctl shows may be a moment old.
-    ::testing::AssertionResult is_exchanging_says(int status, const std::string& station = "") const;
+    /// That dpctl status --wait 0 ends with this status soon: what dpctl shows may be a moment old.
+    ::testing::AssertionResult exchange_ends_with(int status, const std::string& station = "") const;
     Json json(Arguments arguments) const;      ///< what dpctl --json prints
-    Json station(std::size_t index = 0) const; ///< of dpctl stations
+    Json station(std::size_t index = 0) const; ///< of dpctl status
     Json diagnosis() const;                    ///< of dpctl diag, first station
-    Json tec(const std::string& row) const;    ///< value of a row of dpctl tec, first station
+    Json tec(const std::string& row) const;    ///< value of a row of TEC OPTION, first station
     Json word(unsigned tag) const;             ///< of dpctl io, first station; null if no word has this tag
     /// That a field of this word soon has this value: what dpctl shows may be a moment old.
     ::testing::AssertionResult word_becomes(unsigned tag, const char* field, const Json& value) const;

@@ -93,7 +93,7 @@ TEST(Refusal, IsExplainedByDpctlWithOctetExpectedAndGot)
         EXPECT_EQ(refusal.at("expected"), one.expected);
         EXPECT_EQ(refusal.at("got"), one.got);
         EXPECT_THAT(gateway.dpctl({"diag"}).out, HasSubstr(one.words));
-        EXPECT_TRUE(gateway.is_exchanging_says(1));
+        EXPECT_TRUE(gateway.exchange_ends_with(1));
     }
 }
 

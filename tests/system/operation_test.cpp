@@ -13,17 +13,17 @@ using ::testing::HasSubstr;
 TEST(Dpctl, TellsScriptsWithItsExitCodeWhetherDataIsExchanged)
 {
     Gateway gateway;
-    EXPECT_TRUE(gateway.is_exchanging_says(1));
+    EXPECT_TRUE(gateway.exchange_ends_with(1));
     {
         Master master{gateway, {"--tags", "55"}};
         ASSERT_TRUE(master.does("start 30s"));
-        EXPECT_TRUE(gateway.is_exchanging_says(0));
-        EXPECT_TRUE(gateway.is_exchanging_says(0, "unwinder"));
-        EXPECT_TRUE(gateway.is_exchanging_says(0, "5"));
-        EXPECT_TRUE(gateway.is_exchanging_says(2, "other"));
+        EXPECT_TRUE(gateway.exchange_ends_with(0));
+        EXPECT_TRUE(gateway.exchange_ends_with(0, "unwinder"));
+        EXPECT_TRUE(gateway.exchange_ends_with(0, "5"));
+        EXPECT_TRUE(gateway.exchange_ends_with(2, "other"));
         EXPECT_TRUE(master.does("unlock"));
     }
-    EXPECT_TRUE(gateway.is_exchanging_says(1));
+    EXPECT_TRUE(gateway.exchange_ends_with(1));
 }
 
 TEST(Dpctl, EndsWithOneWhenRefusedTwoForUsageAndThreeWithoutDaemon)
@@ -37,7 +37,7 @@ TEST(Dpctl, EndsWithOneWhenRefusedTwoForUsageAndThreeWithoutDaemon)
     const Outcome without = gateway.dpctl({"status"});
     EXPECT_EQ(without.status, 3);
     EXPECT_THAT(without.err, HasSubstr(gateway.socket().string()));
-    EXPECT_EQ(gateway.dpctl({"is-exchanging"}).status, 3);
+    EXPECT_EQ(gateway.dpctl({"status", "--wait", "0", "--quiet"}).status, 3);
 }
 
 TEST(Dpctl, AnswersEachQuestionInWordsAndInJson)
@@ -45,8 +45,7 @@ TEST(Dpctl, AnswersEachQuestionInWordsAndInJson)
     Gateway gateway;
     Master master{gateway, {"--tags", "55,56w"}};
     ASSERT_TRUE(master.does("start 30s"));
-    for (const char* const question :
-         {"status", "stations", "info", "io", "diag", "counters", "leds", "version", "is-exchanging"}) {
+    for (const char* const question : {"status", "show", "io", "diag", "counters", "version"}) {
         SCOPED_TRACE(question);
         const Outcome words = gateway.dpctl({question}), json = gateway.dpctl({"--json", question});
         EXPECT_EQ(words.status, 0);
@@ -55,7 +54,7 @@ TEST(Dpctl, AnswersEachQuestionInWordsAndInJson)
         EXPECT_EQ(json.status, 0);
         EXPECT_TRUE(Json::accept(json.out)) << json.out;
     }
-    EXPECT_THAT(gateway.dpctl({"info"}).out, HasSubstr("590 with PROFIBUS-DP option board"));
+    EXPECT_THAT(gateway.dpctl({"show"}).out, HasSubstr("590 with PROFIBUS-DP option board"));
 }
 
 TEST(Dpctl, ReadsAndWritesATagOfTheDriveInItsOwnUnits)
@@ -103,10 +102,10 @@ TEST(Dpctl, EachWriteIsALineOfTheLogThatTellsWhoAndTheValueBefore)
     EXPECT_TRUE(gateway.daemon().ever_said(": no answer") || gateway.daemon().ever_said("does not answer"));
 }
 
-TEST(Dpctl, WatchShowsChangesAsTheyCome)
+TEST(Dpctl, FollowShowsChangesAsTheyCome)
 {
     Gateway gateway;
-    Process watch{gateway.dpctl_command({"watch", "--json"})};
+    Process watch{gateway.dpctl_command({"io", "--follow", "--json"})};
     EXPECT_TRUE(watch.says("Wait_Prm"));
     Master master{gateway, {"--tags", "55,56w"}};
     ASSERT_TRUE(master.does("start 30s"));
@@ -120,16 +119,16 @@ TEST(Dpctl, WatchShowsChangesAsTheyCome)
 TEST(Dpctl, ShowsAnAddressThatWasChangedInTheFileAsPending)
 {
     Gateway gateway;
-    EXPECT_TRUE(gateway.json({"info"}).at("stations").at(0).at("address_pending").is_null());
+    EXPECT_TRUE(gateway.json({"show"}).at("stations").at(0).at("info").at("address_pending").is_null());
 
     std::string text = gateway.config_text();
     text.replace(text.find("address = 5"), 11, "address = 7");
     write_file(gateway.config(), text);
-    const auto info = [&] { return gateway.json({"info"}).at("stations").at(0); };
+    const auto info = [&] { return gateway.json({"show"}).at("stations").at(0).at("info"); };
     EXPECT_TRUE(eventually([&] { return info().at("address_pending") == 7; }))
         << "it looks at its file itself";
     EXPECT_EQ(info().at("address_active"), 5);
-    EXPECT_THAT(gateway.dpctl({"info"}).out, HasSubstr("5 active, 7 pending"));
+    EXPECT_THAT(gateway.dpctl({"show"}).out, HasSubstr("5 active, 7 pending"));
     {
         Master master{gateway, {"--tags", "55"}, 5};
         EXPECT_TRUE(master.does("start 30s")) << "until the restart the old one counts";
@@ -154,8 +153,8 @@ protected:
     }
     std::string pattern(const char* lamp) const
     {
-        const Json all = gateway.json({"leds"});
-        for (const Json& one : all.at("stations").at(0).at("leds"))
+        const Json all = gateway.json({"show"});
+        for (const Json& one : all.at("stations").at(0).at("leds").at("leds"))
             if (one.at("name") == lamp) return one.at("pattern");
         return "";
     }

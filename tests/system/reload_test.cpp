@@ -100,7 +100,7 @@ TEST_F(Reload, ZeroesTheOutputsOfAStationThatIsRemoved)
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_EQ(told(outcome), "station rewinder removed\n");
     EXPECT_TRUE(gateway.drive().says("unit 01: tag 56 written 0.00"));
-    EXPECT_EQ(gateway.json({"stations"}).at("stations").size(), 1U);
+    EXPECT_EQ(gateway.json({"status"}).at("stations").size(), 1U);
     Master master{gateway, {"--tags", "55"}, 6};
     EXPECT_FALSE(master.does("start 500ms") && master.does("expect state data-exchange"));
     EXPECT_TRUE(master.ever_said("station 6 does not answer"));
@@ -172,7 +172,7 @@ TEST_F(ReloadInService, ThatAddsAndRemovesALineIsNotNoticed)
     EXPECT_TRUE(drive.says("tag 56 written 4.00"));
 
     EXPECT_THAT(reload(text).out, HasSubstr("line p4 removed"));
-    EXPECT_EQ(gateway.json({"stations"}).at("stations").size(), 2U);
+    EXPECT_EQ(gateway.json({"status"}).at("stations").size(), 2U);
     unwinder_noticed_nothing();
     EXPECT_THAT(reload(more).out, HasSubstr("line p4 added")) << "its port was let go";
     EXPECT_TRUE(gateway.daemon().says("dancer: the drive answers"));
@@ -198,7 +198,7 @@ TEST_F(ReloadInService, WithFaultsNamesThemAllAndTheOldConfigurationRunsOn)
     EXPECT_THAT(outcome.err, HasSubstr("adress"));
     EXPECT_THAT(outcome.err, HasSubstr("the one until now runs on"));
     EXPECT_TRUE(gateway.daemon().says("the new configuration is refused"));
-    EXPECT_EQ(gateway.json({"stations"}).at("stations").size(), 2U);
+    EXPECT_EQ(gateway.json({"status"}).at("stations").size(), 2U);
     unwinder_noticed_nothing();
 }
 
@@ -209,7 +209,7 @@ TEST_F(ReloadInService, WithALineThatCannotBeOpenedIsRefusedWhole)
         without_rewinder() + "[[line]]\nname = \"p4\"\nport = \"/dev/not-there\"\nprotocol = \"ei-ascii\"\n");
     EXPECT_EQ(outcome.status, 1);
     EXPECT_THAT(outcome.err, HasSubstr("/dev/not-there"));
-    EXPECT_EQ(gateway.json({"stations"}).at("stations").size(), 2U) << "and the rewinder is still there";
+    EXPECT_EQ(gateway.json({"status"}).at("stations").size(), 2U) << "and the rewinder is still there";
     unwinder_noticed_nothing();
 }
 
@@ -239,14 +239,15 @@ TEST_F(ReloadInService, OfAnotherAddressOfAnOptionBoardIsPendingUntilTheNextStar
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_THAT(outcome.out, HasSubstr("pending: station unwinder: address 7 counts from the next start on"));
     EXPECT_TRUE(gateway.daemon().says("address 7 counts from the next start on"));
-    const Json info = gateway.json({"info", "unwinder"}).at("stations").at(0);
+    const Json info = gateway.json({"show", "unwinder"}).at("stations").at(0).at("info");
     EXPECT_EQ(info.at("address_active"), 5);
     EXPECT_EQ(info.at("address_pending"), 7);
     EXPECT_TRUE(master.does("wait 30s for state data-exchange"));
     EXPECT_EQ(gateway.station(0).at("left_count"), 0);
 
     EXPECT_EQ(told(reload(text)), "Nothing has changed.\n") << "taken back";
-    EXPECT_TRUE(gateway.json({"info", "unwinder"}).at("stations").at(0).at("address_pending").is_null());
+    EXPECT_TRUE(
+        gateway.json({"show", "unwinder"}).at("stations").at(0).at("info").at("address_pending").is_null());
 }
 
 TEST_F(Reload, BySignalAppliesWhatHasChanged)
@@ -254,7 +255,7 @@ TEST_F(Reload, BySignalAppliesWhatHasChanged)
     write_file(gateway.config(), without_rewinder());
     gateway.daemon().send(SIGHUP);
     EXPECT_TRUE(gateway.daemon().says("station rewinder removed"));
-    EXPECT_TRUE(eventually([&] { return gateway.json({"stations"}).at("stations").size() == 1; }));
+    EXPECT_TRUE(eventually([&] { return gateway.json({"status"}).at("stations").size() == 1; }));
 }
 
 TEST_F(Reload, BySeveralAtOnceIsAnsweredToEach)
@@ -263,13 +264,13 @@ TEST_F(Reload, BySeveralAtOnceIsAnsweredToEach)
     Process first{gateway.dpctl_command({"reload"})}, second{gateway.dpctl_command({"reload"})};
     EXPECT_EQ(first.wait(), 0);
     EXPECT_EQ(second.wait(), 0);
-    EXPECT_EQ(gateway.json({"stations"}).at("stations").size(), 1U);
+    EXPECT_EQ(gateway.json({"status"}).at("stations").size(), 1U);
 }
 
 TEST_F(Reload, TellsAWatcherThatHisStationHasGone)
 {
-    Process watch{gateway.dpctl_command({"watch", "rewinder"})};
-    Process all{gateway.dpctl_command({"watch", "--json"})};
+    Process watch{gateway.dpctl_command({"status", "rewinder", "--follow"})};
+    Process all{gateway.dpctl_command({"status", "--follow", "--json"})};
     EXPECT_TRUE(watch.says("Wait_Prm"));
     EXPECT_TRUE(all.says("rewinder"));
     EXPECT_EQ(reload(without_rewinder()).status, 0);

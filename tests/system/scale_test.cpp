@@ -54,7 +54,8 @@ TEST_F(UnknownScale, OfAnInputHoldsTheStartUntilAReloadBringsItsRow)
     EXPECT_EQ(gateway.word(55)["answer"], "12.5");
     EXPECT_EQ(gateway.word(55)["raw"], 0);
     EXPECT_TRUE(diag_says("The exchange does not begin: the scale of tag 55 (answers '12.5') is not known"));
-    EXPECT_EQ(gateway.dpctl({"is-exchanging"}).status, 1) << "it is in Data_Exch and exchanges nothing";
+    EXPECT_EQ(gateway.dpctl({"status", "--wait", "0", "--quiet"}).status, 1)
+        << "it is in Data_Exch and exchanges nothing";
     EXPECT_THAT(gateway.dpctl({"status"}).out,
                 AllOf(HasSubstr("1, 0 in Data_Exch"), HasSubstr("Data_Exch, held")));
     EXPECT_TRUE(gateway.daemon().says("The exchange does not begin"));
@@ -63,7 +64,7 @@ TEST_F(UnknownScale, OfAnInputHoldsTheStartUntilAReloadBringsItsRow)
     EXPECT_EQ(gateway.dpctl({"reload"}).status, 0);
     EXPECT_TRUE(master.does("start 30s"));
     EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
-    EXPECT_TRUE(gateway.is_exchanging_says(0));
+    EXPECT_TRUE(gateway.exchange_ends_with(0));
     EXPECT_TRUE(master.does("out 1 = 700"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 7.00"));
     EXPECT_TRUE(master.leaves());

@@ -160,7 +160,7 @@ TEST(BadStart, NextToARunningDaemonEndsWithThreeAndDoesNotDisturbIt)
     EXPECT_EQ(same_socket.status, 3);
     EXPECT_THAT(same_socket.err, HasSubstr("another dpslaved is running"));
 
-    EXPECT_TRUE(running.is_exchanging_says(0));
+    EXPECT_TRUE(running.exchange_ends_with(0));
     EXPECT_EQ(running.station().at("left_count"), 0);
 }
 

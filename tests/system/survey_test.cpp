@@ -55,14 +55,14 @@ TEST_F(BareDrive, IsSurveyedInterruptedResumedConfirmedAndExchanged)
     gateway.drive().tell("set 55 12.34");
     gateway.drive().tell("set 56 -7.5");
     {
-        Process first{gateway.dpctl_command(survey({"--only", "50-145"}))};
+        Process first{gateway.dpctl_command(survey({"--tags", "50-145"}))};
         ASSERT_TRUE(first.says("96 tags to ask"));
         EXPECT_EQ(first.end(SIGINT), 1);
         EXPECT_TRUE(first.ever_said("--resume"));
     }
     EXPECT_THAT(content(record), HasSubstr("tag,mnemonic,answers"));
 
-    const Outcome all = gateway.dpctl(survey({"--only", "50-145", "--resume"}));
+    const Outcome all = gateway.dpctl(survey({"--tags", "50-145", "--resume"}));
 
     EXPECT_EQ(all.status, 0) << all.out << all.err;
     EXPECT_THAT(all.out, AllOf(HasSubstr("96 of 96 tags asked: 18 answer"), HasSubstr("0 silent")));
@@ -91,13 +91,13 @@ TEST_F(BareDrive, IsSurveyedInterruptedResumedConfirmedAndExchanged)
 
     // The survey goes on beside the exchange, contradicts what was confirmed wrongly and leaves it alone.
     change("SPEED FEEDBACK,INT,2", "SPEED FEEDBACK,INT,1");
-    const Outcome again = gateway.dpctl(survey({"--only", "55-62", "--passes", "2"}));
+    const Outcome again = gateway.dpctl(survey({"--tags", "55-62", "--passes", "2"}));
     EXPECT_EQ(again.status, 1);
     EXPECT_THAT(
         again.out,
         HasSubstr("tag 55 (SPEED FEEDBACK), line 2: its row says 1 decimal, the drive answers with 2"));
     EXPECT_THAT(row(55), HasSubstr("SPEED FEEDBACK,INT,1"));
-    EXPECT_TRUE(gateway.is_exchanging_says(0));
+    EXPECT_TRUE(gateway.exchange_ends_with(0));
     EXPECT_FALSE(gateway.daemon().ever_said("does not answer"));
     EXPECT_EQ(gateway.station().at("left_count"), 0);
 }
@@ -106,7 +106,7 @@ TEST_F(BareDrive, ThatIsSwitchedOffIsWaitedForAndNotHeldForADriveWithoutTags)
 {
     gateway.drive().tell("silence");
     ASSERT_TRUE(gateway.daemon().says("does not answer"));
-    Process running{gateway.dpctl_command(survey({"--only", "55-57"}))};
+    Process running{gateway.dpctl_command(survey({"--tags", "55-57"}))};
     ASSERT_TRUE(running.says("3 tags to ask"));
     gateway.drive().tell("ok");
 
@@ -117,7 +117,7 @@ TEST_F(BareDrive, ThatIsSwitchedOffIsWaitedForAndNotHeldForADriveWithoutTags)
 
 TEST_F(BareDrive, LeavesNoWordInTheLogForATagThatItDoesNotHave)
 {
-    const Outcome all = gateway.dpctl(survey({"--only", "1-20"}));
+    const Outcome all = gateway.dpctl(survey({"--tags", "1-20"}));
 
     EXPECT_THAT(all.out, HasSubstr("20 of 20 tags asked: 0 answer, 20 denied, 0 silent"));
     EXPECT_EQ(gateway.daemon().how_often("tag"), 0U);
@@ -133,7 +133,7 @@ TEST(Survey, OfAnInstrumentSaysThatModbusShowsSixteenBitsOnly)
     const auto table = gateway.folder("own.csv");
     write_file(table, "tag,name,type,decimals\n");
 
-    const Outcome all = gateway.dpctl({"survey", "unwinder", "--table", table, "--only", "1-3"});
+    const Outcome all = gateway.dpctl({"survey", "unwinder", "--table", table, "--tags", "1-3"});
 
     EXPECT_EQ(all.status, 0) << all.err;
     EXPECT_THAT(all.out, AllOf(HasSubstr("Modbus shows 16 bits"), HasSubstr("3 of 3 tags asked: 3 answer")));

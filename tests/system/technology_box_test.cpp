@@ -67,7 +67,7 @@ TEST(TechnologyBox, TellsTripAndExtDiagnosticInTheGoldenDiagnosisTelegram)
 
     EXPECT_TRUE(eventually([&] { return gateway.diagnosis().at("hex") == "00 0C 00 01 16 49 04 01 6A B5"; }));
     EXPECT_THAT(gateway.dpctl({"diag"}).out, AllOf(HasSubstr("LINK OVERVOLTS"), HasSubstr("6AB5")));
-    EXPECT_THAT(gateway.dpctl({"tec"}).out, HasSubstr("1: LINK OVERVOLTS"));
+    EXPECT_THAT(gateway.dpctl({"show"}).out, HasSubstr("1: LINK OVERVOLTS"));
     EXPECT_TRUE(gateway.daemon().says("trip of the drive: 1: LINK OVERVOLTS"));
 
     gateway.drive().tell("set 4 0000");
@@ -114,7 +114,7 @@ TEST(TechnologyBox, Of590PlusIsTrippedWhileItSaysThatItIsNotHealthy)
     Master master{gateway, {"--family", "technology-box", "--ident", "0x0B0B", "--tags", "55"}};
     ASSERT_TRUE(master.does("start 30s"));
     EXPECT_TRUE(
-        eventually([&] { return gateway.dpctl({"tec"}).out.find("trip 0: NO TRIP") != std::string::npos; }));
+        eventually([&] { return gateway.dpctl({"show"}).out.find("trip 0: NO TRIP") != std::string::npos; }));
     EXPECT_TRUE(master.does("wait 30s for diag ext 04000000")) << "a healthy drive has not tripped";
 
     gateway.drive().tell("set 12 0");
@@ -148,13 +148,13 @@ TEST(TechnologyBox, WhoseTripTagTheDriveDoesNotHaveDoesNotKnowTheTrip)
     Gateway gateway{box("trip_tag = 999\n")};
 
     EXPECT_TRUE(eventually([&] {
-        return gateway.dpctl({"tec"}).out.find("trip unknown: tag 999 was never read") != std::string::npos;
+        return gateway.dpctl({"show"}).out.find("trip unknown: tag 999 was never read") != std::string::npos;
     }));
     Master master{gateway, for_box({"--tags", "55,56w"})};
     ASSERT_TRUE(master.does("start 30s"));
     EXPECT_TRUE(master.does("wait 30s for diag ext 04000000")) << "what is not known is no trip";
-    EXPECT_TRUE(gateway.json({"tec"}).at("stations").at(0).at("tripped").is_null());
-    EXPECT_THAT(gateway.dpctl({"tec"}).out, HasSubstr("trip unknown"));
+    EXPECT_TRUE(gateway.json({"show"}).at("stations").at(0).at("tec").at("tripped").is_null());
+    EXPECT_THAT(gateway.dpctl({"show"}).out, HasSubstr("trip unknown"));
 }
 
 class FunctionBlock : public ::testing::Test {
@@ -295,10 +295,10 @@ TEST_F(FunctionBlock, TakesAValueThatNoOperatorStationWouldAndIsFaultyUntilItIsM
     EXPECT_THAT(set("RIDE THROUGH", "60").out, HasSubstr("could compromise safety"));
     EXPECT_TRUE(
         gateway.daemon().says("RIDE THROUGH is 60. Setting the RIDE THROUGH parameter to anything other"));
-    EXPECT_THAT(gateway.dpctl({"info"}).out, HasSubstr("could compromise safety"));
+    EXPECT_THAT(gateway.dpctl({"show"}).out, HasSubstr("could compromise safety"));
     EXPECT_EQ(gateway.tec(kFault), 0);
     EXPECT_THAT(set("ride-through", "0").out, Not(HasSubstr("safety")));
-    EXPECT_THAT(gateway.dpctl({"info"}).out, Not(HasSubstr("safety")));
+    EXPECT_THAT(gateway.dpctl({"show"}).out, Not(HasSubstr("safety")));
 
     EXPECT_EQ(set("RIDE THROUGH", "70000").status, 1) << "no 16 bits";
     EXPECT_EQ(set("FAULT", "0").status, 1) << "an output";
@@ -317,11 +317,11 @@ TEST_F(FunctionBlock, ChangesTheAddressWhileTheProgramRuns)
     EXPECT_EQ(set("ADDRESS", "9").status, 0);
     Master master{gateway, for_box({"--tags", "55,56w"}), 9};
     EXPECT_TRUE(master.does("start 30s"));
-    const Json info = gateway.json({"info"}).at("stations").at(0);
+    const Json info = gateway.json({"show"}).at("stations").at(0).at("info");
     EXPECT_EQ(info.at("address_active"), 9);
     EXPECT_EQ(info.at("address_pending"), 5) << "what the file brings with the next start";
-    EXPECT_TRUE(gateway.is_exchanging_says(0, "9")) << "a station goes by the address that it has";
-    EXPECT_THAT(gateway.dpctl({"tec"}).out, HasSubstr("until the next start"));
+    EXPECT_TRUE(gateway.exchange_ends_with(0, "9")) << "a station goes by the address that it has";
+    EXPECT_THAT(gateway.dpctl({"show"}).out, HasSubstr("until the next start"));
 }
 
 TEST(FunctionBlocks, OfTwoStationsNeverHaveOneAddress)
@@ -346,8 +346,8 @@ TEST(FunctionBlocks, OfTwoStationsNeverHaveOneAddress)
 TEST(FunctionBlocks, AreNoneOfAnOptionBoard)
 {
     Gateway gateway;
-    EXPECT_EQ(gateway.dpctl({"tec"}).status, 0);
-    EXPECT_EQ(gateway.dpctl({"tec", "unwinder"}).status, 1);
+    EXPECT_EQ(gateway.dpctl({"show", "unwinder"}).status, 0);
+    EXPECT_TRUE(gateway.json({"show", "unwinder"}).at("stations").at(0).at("tec").is_null());
     EXPECT_EQ(gateway.dpctl({"tec", "set", "TYPE", "2"}).status, 1);
 }
 
@@ -429,8 +429,8 @@ protected:
     }
     std::string pattern(const char* lamp) const
     {
-        const Json all = gateway.json({"leds"});
-        for (const Json& one : all.at("stations").at(0).at("leds"))
+        const Json all = gateway.json({"show"});
+        for (const Json& one : all.at("stations").at(0).at("leds").at("leds"))
             if (one.at("name") == lamp) return one.at("pattern");
         return "";
     }

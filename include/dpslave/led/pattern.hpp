@@ -50,7 +50,7 @@ enum class Language : std::uint8_t {
 /// the technology box network, module, health, run.
 std::vector<Lamp> lamps(Language language, const Condition& condition);
 
-/// In words, for `dpctl leds`: "normal operation: data exchange with the master" ...
+/// In words, for `dpctl show`: "normal operation: data exchange with the master" ...
 std::string_view meaning(Language language, const Condition& condition);
 
 /// What a lamp shows, as the manual of this language calls it: "off", "on", "flashing 2 Hz"; of a technology

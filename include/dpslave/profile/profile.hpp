@@ -69,7 +69,7 @@ struct GsdFacts {
 struct Profile {
     std::string name;                   ///< "590"
     std::string device;                 ///< in words: "Eurotherm Drives 590 with PROFIBUS-DP option board"
-    std::string order_code;             ///< for `dpctl info` (A-002)
+    std::string order_code;             ///< for `dpctl show` (A-002)
     std::string firmware;               ///< of the host that the board needs: "V4.2 onwards" (A-003)
     std::string manual;                 ///< "HA389815"
     std::optional<std::uint16_t> ident; ///< none: the station must say it

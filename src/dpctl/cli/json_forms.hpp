@@ -4,6 +4,10 @@
 
 namespace dpslave::dpctl {
 
+inline constexpr const char* kShowJson =
+    R"({"version", "stations": [{"station": Station, "info": Info, "leds": StationLeds, "tec": null or Tec}]},
+with the types of org.dpslaved.Control.varlink)";
+
 inline constexpr const char* kDoctorJson =
     R"({"findings": [FINDING], "notes": [FINDING], "earlier": [EARLIER], "line": null or LINE};
 FINDING = {"station": null or name, "rule", "condition", "cause", "evidence", "steps": [text], "source"};

@@ -12,23 +12,23 @@
 namespace dpslave::dpctl {
 
 std::string render_status(const Json& reply, Look look);
-std::string render_stations(const Json& reply, Look look);
-/// `version`: of the daemon, which is what OPTION VERSION of the board was.
-std::string render_info(const Json& reply, std::string_view version, Look look);
+/// `document` as kShowJson (json_forms.hpp) describes it.
+std::string render_show(const Json& document, Look look);
 std::string render_io(const Json& reply, Look look);
 std::string render_diagnosis(const Json& reply, Look look);
 std::string render_counters(const Json& reply, Look look);
-std::string render_leds(const Json& reply, Look look);
-/// TEC OPTION, with the three steps of its set-up where it is not set up (B-054).
-std::string render_tec(const Json& reply, Look look);
+/// TEC OPTION of a station, with the three steps of its set-up where it is not set up (B-054).
+std::string render_tec(const Json& tec, Look look);
 /// What a reload changes, or why it is refused; of a dry run also who would leave the bus.
 std::string render_reload(const Json& reply, bool is_dry_run);
 /// A tag read or written.
 std::string render_tag(const Json& reply, std::string_view verb);
-/// The whole picture of `watch`.
-std::string render_watch(const Json& reply, Look look);
+/// The whole picture of `status --follow` and `io --follow`, of a reply of Watch.
+std::string render_followed_status(const Json& reply, Look look);
+std::string render_followed_io(const Json& reply, Look look);
 
-/// What is different in `now`, a line each; everything when there was nothing before.
-std::vector<std::string> changes(const Json& before, const Json& now);
+/// What is different in `now`, a reply of Watch, a line each; everything when there was nothing before.
+std::vector<std::string> status_changes(const Json& before, const Json& now);
+std::vector<std::string> io_changes(const Json& before, const Json& now);
 
 } // namespace dpslave::dpctl

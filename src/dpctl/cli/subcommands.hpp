@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,12 +22,17 @@ struct Options {
     int tag = 0;
     std::string parameter; ///< of the TEC OPTION function block
     std::string value;
-    bool set = false;     ///< `tec set`
     bool dry_run = false; ///< `reload`
     bool all = false;     ///< `tag`: also names that say more than the query; `doctor`: every rule
 
+    // Of status and io.
+    bool follow = false;          ///< go on, show each change
+    std::optional<double> wait_s; ///< status: wait at most so long for the exchange
+    bool with_drive = false;      ///< status, with wait_s: the drive must answer, too
+    bool quiet = false;           ///< status, with wait_s: the exit code says it
+
     // Of survey; `table` below is the file that it writes.
-    std::string only;         ///< tags as parse_tag_spans() reads them; empty = all
+    std::string tags;         ///< as parse_tag_spans() reads them; empty = all
     std::string duration;     ///< as parse_duration() reads it; empty = not said
     std::uint32_t passes = 1; ///< how often each tag is asked
     bool resume = false;      ///< goes on with the record that is there
@@ -39,7 +45,6 @@ struct Options {
     std::string table;                   ///< a CSV file; empty = not said
     std::string form;                    ///< `decode --as`: prm, cfg or diag; empty = found out
     bool yes = false;                    ///< `tec set`: also what silences a station in exchange
-    bool healthy = false;                ///< `is-exchanging`: and its drive answers
     bool probe = false;                  ///< `doctor`: looks for the drive
     std::string port;                    ///< `tune`: a tty; empty = the daemon's
 
@@ -54,23 +59,26 @@ using Action = std::function<int(const Options&, Terminal&)>;
 
 // look.cpp
 int do_status(const Options&, Terminal&);
-int do_stations(const Options&, Terminal&);
-int do_info(const Options&, Terminal&);
 int do_io(const Options&, Terminal&);
 int do_diag(const Options&, Terminal&);
 int do_counters(const Options&, Terminal&);
-int do_leds(const Options&, Terminal&);
 int do_version(const Options&, Terminal&);
-int do_is_exchanging(const Options&, Terminal&);
+
+// show.cpp
+int do_show(const Options&, Terminal&);
+
+// follow.cpp: status and io with --follow
+int follow_status(const Options&, Terminal&);
+int follow_io(const Options&, Terminal&);
+
+// status.cpp: status with --wait
+int wait_for_exchange(const Options&, Terminal&);
 
 // operate.cpp
 int do_read(const Options&, Terminal&);
 int do_write(const Options&, Terminal&);
-int do_tec(const Options&, Terminal&);
+int do_tec_set(const Options&, Terminal&);
 int do_reload(const Options&, Terminal&);
-
-// watch.cpp
-int do_watch(const Options&, Terminal&);
 
 // survey.cpp
 int do_survey(const Options&, Terminal&);

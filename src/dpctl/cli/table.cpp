@@ -176,6 +176,10 @@ std::string Block::str(std::size_t indent, Look look) const
     for (const Line& line : lines_) names = std::max(names, width(line.name));
     std::string out;
     for (const Line& line : lines_) {
+        if (line.name.empty()) {
+            out += '\n';
+            continue;
+        }
         const std::string head = std::string(indent, ' ') + line.name + blanks(names, line.name) + "  ";
         std::string text = paragraph(head, line.value, look.width);
         if (line.tone != Tone::plain) { // painted after it was measured

@@ -61,6 +61,7 @@ private:
 class Block {
 public:
     void add(std::string name, std::string value, Tone tone = Tone::plain);
+    void add_blank_line() { lines_.push_back({}); }
     std::string str(std::size_t indent = 2, Look look = {}) const;
 
 private:

@@ -6,11 +6,18 @@
 #include "table.hpp"
 
 #include <string>
+#include <string_view>
 
 namespace dpslave::dpctl {
 
 std::string bus_line(const Json& bus);
-Table station_table(const Json& stations);
-Table word_table(const Json& words);
+/// "Data_Exch", "Data_Exch in Clear", "Power_On".
+std::string state_text(const Json& station);
+/// "answers", "silent", "port gone".
+std::string link_text(const Json& drive);
+/// Of a station that is in RIDE THROUGH: for how long its outputs stand.
+std::string ride_text(const Json& station);
+/// What a station emulates, from the reply of GetInfo.
+void add_info(Block& block, const Json& info, std::string_view version);
 
 } // namespace dpslave::dpctl

@@ -12,7 +12,7 @@ namespace dpslave::dpctl {
 struct Terminal {
     std::ostream& out;
     std::ostream& err;
-    bool tty = false;       ///< out is a terminal: watch redraws
+    bool tty = false;       ///< out is a terminal: --follow redraws
     bool colour = false;    ///< out understands colours and nobody forbade them
     std::size_t width = 80; ///< characters of a line
 

@@ -119,7 +119,7 @@ constexpr std::array kRules = std::to_array<Rule>({
      kBox, seen_type},
     {"box.parameter", Rank::stands, "NETWORK off, MODULE long flash (FAULT is PARAMETER)",
      "Set-up fault: a TEC OPTION parameter is out of range",
-     "Select a legal value for the parameter in the TEC OPTION function block: dpctl tec shows values and "
+     "Select a legal value for the parameter in the TEC OPTION function block: dpctl show has values and "
      "ranges.",
      kBox, seen_parameter},
     {"box.no_communications", Rank::checklist,
@@ -161,7 +161,7 @@ constexpr std::array kRules = std::to_array<Rule>({
      "tag.",
      kBox, seen_works},
     {"station.tec_notes", Rank::note, "the TEC OPTION function block has notes", "TEC OPTION",
-     "Look at the function block: dpctl tec", "HA463561U002, MMI parameter descriptions", seen_tec_notes},
+     "Look at the function block: dpctl show", "HA463561U002, MMI parameter descriptions", seen_tec_notes},
 });
 
 } // namespace

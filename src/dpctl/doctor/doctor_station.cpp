@@ -320,7 +320,7 @@ constexpr std::array kRules = std::to_array<Rule>({
      kGateway, seen_range},
     {"station.other_device", Rank::stands, "the drive knows none of the chosen tags",
      "The drive is of another type than the station: profile, tag table or unit is wrong",
-     "Compare the type of the drive with the profile of the station: dpctl info\n"
+     "Compare the type of the drive with the profile of the station: dpctl show\n"
      "Check that the unit and the line are those of this drive, and not of another one.\n"
      "Check that the tag table is the one of this type of drive.",
      kGateway, seen_other_device},
@@ -328,12 +328,12 @@ constexpr std::array kRules = std::to_array<Rule>({
      "The tag table gives another type than the drive",
      "Correct type and decimals of the tag in the tag table, from the drive's product manual. Then: dpctl "
      "reload\n"
-     "Check that the table is for this type of drive: dpctl info",
+     "Check that the table is for this type of drive: dpctl show",
      kGateway, seen_other_type},
     {"station.tags", Rank::stands, "the drive does not know a tag", "A tag number is wrong",
      "Check the tag numbers in the master's project, and those of Demand Data in the PLC program: dpctl io, "
      "dpctl tag NUMBER\n"
-     "Check that the profile of the station is that of the drive: dpctl info",
+     "Check that the profile of the station is that of the drive: dpctl show",
      kGateway, seen_invalid},
     {"station.unscaled", Rank::stands, "a chosen tag answers with a number whose scale is not known",
      "The tag table gives no decimals for a tag, or too few",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpctl/cli/render.hpp"
+#include "dpctl/cli/tables.hpp"
 #include "dpctl/cli/words.hpp"
 
 #include <fmt/format.h>
@@ -42,9 +43,9 @@ std::string station_change(const Json& before, const Json& now)
 {
     const bool anew = before.empty();
     std::string line;
-    compare(line, "state", text(before, "state"), text(now, "state"), anew);
+    compare(line, "state", state_text(before), state_text(now), anew);
     compare(line, "master", number(before, "master", "none"), number(now, "master", "none"), anew);
-    compare(line, "drive", text(part(before, "drive"), "link"), text(part(now, "drive"), "link"), anew);
+    compare(line, "drive", link_text(part(before, "drive")), link_text(part(now, "drive")), anew);
     return line;
 }
 
@@ -58,25 +59,37 @@ std::string word_change(const Json& before, const Json& now)
                        name.empty() ? "" : " " + name, text(now, "value"), text(now, "state"));
 }
 
+void add(std::vector<std::string>& lines, const std::string& what, const std::string& line)
+{
+    if (!line.empty()) lines.push_back(what + ": " + line);
+}
+
 } // namespace
 
-std::vector<std::string> changes(const Json& before, const Json& now)
+std::vector<std::string> status_changes(const Json& before, const Json& now)
 {
     std::vector<std::string> lines;
-    const auto add = [&](const std::string& who, const std::string& line) {
-        if (!line.empty()) lines.push_back(who + ": " + line);
-    };
-    add("bus", bus_change(part(before, "bus"), part(now, "bus")));
+    add(lines, "bus", bus_change(part(before, "bus"), part(now, "bus")));
     for (const Json& station : list(now, "stations"))
         if (station.is_object())
-            add(text(station, "name"),
+            add(lines, text(station, "name"),
                 station_change(same(list(before, "stations"), station, {"name"}), station));
+    for (const Json& station : list(before, "stations"))
+        if (station.is_object() && same(list(now, "stations"), station, {"name"}).empty())
+            add(lines, text(station, "name"), "removed");
+    return lines;
+}
+
+std::vector<std::string> io_changes(const Json& before, const Json& now)
+{
+    std::vector<std::string> lines;
     for (const Json& station : list(now, "words")) {
         if (!station.is_object()) continue;
         const Json& old_words = list(same(list(before, "words"), station, {"name"}), "words");
         for (const Json& w : list(station, "words"))
             if (w.is_object())
-                add(text(station, "name"), word_change(same(old_words, w, {"direction", "octet", "tag"}), w));
+                add(lines, text(station, "name"),
+                    word_change(same(old_words, w, {"direction", "octet", "tag"}), w));
     }
     return lines;
 }

@@ -3,7 +3,7 @@
 #include "dpctl/cli/render.hpp"
 #include "dpctl/cli/subcommands.hpp"
 #include "dpctl/cli/words.hpp"
-#include "dpctl/doctor/doctor.hpp"
+#include "status.hpp"
 
 #include <fmt/format.h>
 
@@ -21,14 +21,16 @@ int plain(const Options& options, Terminal& terminal, std::string_view method, c
 
 int do_status(const Options& options, Terminal& terminal)
 {
-    return plain(options, terminal, "GetStatus", Json::object(), render_status);
-}
-int do_stations(const Options& options, Terminal& terminal)
-{
-    return plain(options, terminal, "ListStations", Json::object(), render_stations);
+    if (options.follow) return follow_status(options, terminal);
+    if (options.wait_s) return wait_for_exchange(options, terminal);
+    const auto reply = ask_status(options, terminal);
+    if (!reply) return reply.error();
+    print_status(*reply, options, terminal);
+    return kFine;
 }
 int do_io(const Options& options, Terminal& terminal)
 {
+    if (options.follow) return follow_io(options, terminal);
     return plain(options, terminal, "GetIo", station_parameter(options), render_io);
 }
 int do_diag(const Options& options, Terminal& terminal)
@@ -39,27 +41,6 @@ int do_counters(const Options& options, Terminal& terminal)
 {
     return plain(options, terminal, "GetCounters", Json::object(), render_counters);
 }
-int do_leds(const Options& options, Terminal& terminal)
-{
-    return plain(options, terminal, "GetLeds", station_parameter(options), render_leds);
-}
-
-/// The boards had OPTION VERSION in the drive's menu; 0.00 there said that no board is fitted (HA389815 ch.
-/// 5).
-int do_info(const Options& options, Terminal& terminal)
-{
-    if (options.json) return show(options, terminal, "GetInfo", station_parameter(options), json_text);
-    const auto version = ask(options, terminal, "GetVersion", Json::object());
-    if (!version) {
-        if (version.error() == kNoDaemon)
-            terminal.err << "OPTION VERSION 0.00: without dpslaved there is no option board.\n";
-        return version.error();
-    }
-    return show(options, terminal, "GetInfo", station_parameter(options), [&](const Json& reply) {
-        return render_info(reply, text(*version, "version"), terminal.look());
-    });
-}
-
 int do_version(const Options& options, Terminal& terminal)
 {
     auto client = control::Client::connect(options.socket, options.timeout());
@@ -80,34 +61,6 @@ int do_version(const Options& options, Terminal& terminal)
         return fmt::format("{} {} ({})\n", text(reply, "program"), text(reply, "version"),
                            text(reply, "interface"));
     });
-}
-
-int do_is_exchanging(const Options& options, Terminal& terminal)
-{
-    const auto reply = ask(options, terminal, "ListStations", Json::object());
-    if (!reply) return reply.error();
-    int meant = 0, exchanging = 0;
-    std::string lines;
-    for (const Json& station : list(*reply, "stations")) {
-        if (!is_meant(station, options.station)) continue;
-        ++meant;
-        const bool is_healthy = text(part(station, "drive"), "link") == "answers" && !flag(station, "clear");
-        const bool is_exchanging = text(station, "state") == "Data_Exch" && !flag(station, "held");
-        if (is_exchanging && (is_healthy || !options.healthy)) ++exchanging;
-        lines += fmt::format("{} (address {}): {}{}{}, drive {}\n", text(station, "name"),
-                             number(station, "address"), text(station, "state"),
-                             flag(station, "held") ? ", held for a tag without scale" : "",
-                             flag(station, "clear") ? " in Clear" : "", text(part(station, "drive"), "link"));
-    }
-    if (options.json) lines = json_text(*reply) + '\n';
-    terminal.out << lines << std::flush;
-    if (meant == 0) {
-        terminal.err << (options.station.empty()
-                             ? std::string{"dpctl: there is no station\n"}
-                             : fmt::format("dpctl: there is no station '{}'\n", options.station));
-        return options.station.empty() ? kNo : kUsage;
-    }
-    return meant == exchanging ? kFine : kNo;
 }
 
 } // namespace dpslave::dpctl

@@ -23,16 +23,18 @@ int do_write(const Options& options, Terminal& terminal)
                 [](const Json& reply) { return render_tag(reply, "is now"); });
 }
 
-int do_tec(const Options& options, Terminal& terminal)
+int do_tec_set(const Options& options, Terminal& terminal)
 {
     Json parameters = station_parameter(options);
-    if (options.set) {
-        parameters["parameter"] = options.parameter;
-        parameters["value"] = options.value;
-        if (options.yes) parameters["yes"] = true;
-    }
-    return show(options, terminal, options.set ? "SetTec" : "GetTec", parameters,
-                [&](const Json& reply) { return render_tec(reply, terminal.look()); });
+    parameters["parameter"] = options.parameter;
+    parameters["value"] = options.value;
+    if (options.yes) parameters["yes"] = true;
+    return show(options, terminal, "SetTec", parameters, [&](const Json& reply) {
+        std::string out;
+        for (const Json& tec : list(reply, "stations"))
+            out += (out.empty() ? "" : "\n") + render_tec(tec, terminal.look());
+        return out;
+    });
 }
 
 /// Says first what it is going to do. Refused is not fine, though the daemon has answered.

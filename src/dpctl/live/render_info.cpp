@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpctl/cli/render.hpp"
-#include "dpctl/cli/table.hpp"
+#include "dpctl/cli/tables.hpp"
 #include "dpctl/cli/words.hpp"
 
 #include <fmt/format.h>
@@ -49,38 +48,30 @@ std::string rates(const Json& info)
 
 } // namespace
 
-std::string render_info(const Json& reply, std::string_view version, Look look)
+void add_info(Block& block, const Json& info, std::string_view version)
 {
-    std::string out;
-    for (const Json& info : list(reply, "stations")) {
-        Block block;
-        block.add("emulates", text(info, "device"));
-        block.add("order code", text(info, "order_code"));
-        block.add("OPTION VERSION", std::string{version});
-        if (const std::string software = text(info, "option_software", ""); !software.empty())
-            block.add("option software", software);
-        block.add("host firmware", text(info, "firmware"));
-        block.add("manual", text(info, "manual"));
-        block.add("profile", text(info, "profile"));
-        block.add("Ident_Number", fmt::format("0x{:04X}", integer(info, "ident").value_or(0)));
-        block.add("address", address(info));
-        if (const std::string status = text(info, "comms_status", ""); !status.empty())
-            block.add("comms status", comms_status(status));
-        if (const std::string resolution = text(info, "resolution", ""); !resolution.empty())
-            block.add("resolution", resolution);
-        block.add("legal addresses",
-                  fmt::format("{} to {}", number(info, "address_min"), number(info, "address_max")));
-        block.add("at most", limits(info));
-        block.add("Demand Data", yes_no(flag(info, "demand_data")));
-        block.add("Sync, Freeze", yes_no(flag(info, "sync")) + ", " + yes_no(flag(info, "freeze")));
-        block.add("rates", rates(info));
-        block.add("tag table", fmt::format("{}, {}", text(info, "tag_table"),
-                                           plural(integer(info, "tags_in_table").value_or(0), "tag")));
-        if (const std::string notes = joined(list(info, "notes"), "\n"); !notes.empty())
-            block.add("notes", notes);
-        out += (out.empty() ? "" : "\n") + text(info, "name") + '\n' + block.str(2, look);
-    }
-    return out;
+    block.add("order code", text(info, "order_code"));
+    block.add("OPTION VERSION", std::string{version});
+    if (const std::string software = text(info, "option_software", ""); !software.empty())
+        block.add("option software", software);
+    block.add("host firmware", text(info, "firmware"));
+    block.add("manual", text(info, "manual"));
+    block.add("Ident_Number", fmt::format("0x{:04X}", integer(info, "ident").value_or(0)));
+    block.add("address", address(info));
+    if (const std::string status = text(info, "comms_status", ""); !status.empty())
+        block.add("comms status", comms_status(status));
+    if (const std::string resolution = text(info, "resolution", ""); !resolution.empty())
+        block.add("resolution", resolution);
+    block.add("legal addresses",
+              fmt::format("{} to {}", number(info, "address_min"), number(info, "address_max")));
+    block.add("at most", limits(info));
+    block.add("has Demand Data", yes_no(flag(info, "demand_data")));
+    block.add("has Sync, Freeze", yes_no(flag(info, "sync")) + ", " + yes_no(flag(info, "freeze")));
+    block.add("rates", rates(info));
+    block.add("tag table", fmt::format("{}, {}", text(info, "tag_table"),
+                                       plural(integer(info, "tags_in_table").value_or(0), "tag")));
+    if (const std::string notes = joined(list(info, "notes"), "\n"); !notes.empty())
+        block.add("notes", notes);
 }
 
 } // namespace dpslave::dpctl

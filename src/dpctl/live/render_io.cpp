@@ -60,8 +60,6 @@ std::string raw_text(const Json& w)
     return raw ? fmt::format("{} ({:04X}h)", *raw, *raw) : "-";
 }
 
-} // namespace
-
 Table word_table(const Json& words)
 {
     Table table({"DIR", ">OCTET", ">WORD", ">TAG", "NAME", ">VALUE", ">RAW", "STATE", ">AGE"});
@@ -78,6 +76,23 @@ Table word_table(const Json& words)
     return table;
 }
 
+/// The station of the same name; an empty object without.
+const Json& station_of(const Json& reply, const Json& words)
+{
+    static const Json nothing = Json::object();
+    for (const Json& s : list(reply, "stations"))
+        if (s.is_object() && text(s, "name") == text(words, "name")) return s;
+    return nothing;
+}
+
+std::string table_text(const Json& words, Look look)
+{
+    const Table table = word_table(words);
+    return table.empty() ? "  no parameters: no master has chosen any\n" : table.str(look, 2);
+}
+
+} // namespace
+
 std::string render_io(const Json& reply, Look look)
 {
     std::string out;
@@ -87,8 +102,7 @@ std::string render_io(const Json& reply, Look look)
             text(s, "name"),
             fmt::format(", address {}: {}; {}", number(s, "address"), text(s, "state"), outputs_text(s)),
             look);
-        const Table table = word_table(list(s, "words"));
-        out += table.empty() ? "  no parameters: no master has chosen any\n" : table.str(look, 2);
+        out += table_text(list(s, "words"), look);
         if (const Json& demand = part(s, "demand"); !demand.empty()) out += demand_lines(demand, look);
     }
     if (!out.empty())
@@ -99,6 +113,20 @@ std::string render_io(const Json& reply, Look look)
                    "counted from 0; word: place among the words of its direction, counted from 1 "
                    "behind Demand Data, as gsd make and dpsim count",
                    look.width);
+    return out;
+}
+
+std::string render_followed_io(const Json& reply, Look look)
+{
+    std::string out;
+    for (const Json& s : list(reply, "words")) {
+        const Json& station = station_of(reply, s);
+        out += out.empty() ? "" : "\n";
+        out +=
+            headline(text(s, "name"),
+                     fmt::format(", address {}: {}", number(station, "address"), state_text(station)), look);
+        out += table_text(list(s, "words"), look);
+    }
     return out;
 }
 

@@ -38,22 +38,15 @@ bool is_set_up(const Json& tec)
 
 } // namespace
 
-std::string render_tec(const Json& reply, Look look)
+std::string render_tec(const Json& tec, Look look)
 {
-    const Json& stations = list(reply, "stations");
-    if (stations.empty())
-        return "no station has a TEC OPTION function block: the profiles of technology boxes have one\n";
-    std::string out;
-    for (const Json& tec : stations) {
-        out += fmt::format("{}{}: TEC OPTION{}\n", out.empty() ? "" : "\n",
-                           painted(text(tec, "name"), Tone::strong, look),
-                           text(tec, "view") == "generic" ? ", in names that fit any option" : "");
-        out += row_table(tec).str(look, 2);
-        if (const std::string trip = text(tec, "trip", ""); !trip.empty()) out += "  trip " + trip + '\n';
-        for (const Json& note : list(tec, "notes"))
-            if (note.is_string()) out += "  " + painted(note.get<std::string>(), Tone::strong, look) + '\n';
-        if (!is_set_up(tec)) out += kSteps;
-    }
+    std::string out = fmt::format("{}: TEC OPTION{}\n", painted(text(tec, "name"), Tone::strong, look),
+                                  text(tec, "view") == "generic" ? ", in names that fit any option" : "");
+    out += row_table(tec).str(look, 2);
+    if (const std::string trip = text(tec, "trip", ""); !trip.empty()) out += "  trip " + trip + '\n';
+    for (const Json& note : list(tec, "notes"))
+        if (note.is_string()) out += "  " + painted(note.get<std::string>(), Tone::strong, look) + '\n';
+    if (!is_set_up(tec)) out += kSteps;
     return out;
 }
 

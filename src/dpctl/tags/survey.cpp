@@ -298,12 +298,12 @@ int do_survey(const Options& options, Terminal& terminal)
     const auto reply = ask(options, terminal, "GetSurveyScope", station_parameter(options));
     if (!reply) return reply.error();
     Scope scope = read_scope(*reply);
-    if (!options.only.empty())
-        scope.tags = *profile::parse_tag_spans(options.only); // the command line was judged
+    if (!options.tags.empty())
+        scope.tags = *profile::parse_tag_spans(options.tags); // the command line was judged
     if (scope.tags.empty()) {
         terminal.err << fmt::format(
             "dpctl: no rule of {} gives tags a mnemonic, and no row of {} has one: add rows with "
-            "tag and mnemonic, or say --only\n",
+            "tag and mnemonic, or say --tags\n",
             scope.station, scope.tag_table);
         return kNo;
     }

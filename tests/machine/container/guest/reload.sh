@@ -97,7 +97,7 @@ keeps_address_pending() {
     answers 6
     is_silent 8
     eventually has_said "systemctl restart dpslaved"
-    expect_text "$(dpctl info rewinder)" "8 pending"
+    expect_text "$(dpctl show rewinder)" "8 pending"
     expect_status 0 systemctl restart dpslaved
     eventually exchanging
     shows '^rewinder +8 '

@@ -15,8 +15,8 @@ prove "given a user in the group dpslaved, when he writes a tag, then the drive 
 
 visitor_looks() {
     local command
-    for command in status stations io diag counters leds; do expect_status 0 as visitor dpctl "$command"; done
-    expect_status 0 as visitor dpctl is-exchanging unwinder
+    for command in status show io diag counters; do expect_status 0 as visitor dpctl "$command"; done
+    expect_status 0 as visitor dpctl status unwinder --wait 0 --quiet
     expect_status 1 as visitor dpctl write --station unwinder 62 33.3
     expect_text "$output" "only root and members of the group 'dpslaved' may do this"
     ! drive_has_said 1 "tag 62 written 33.3" || fail "the drive was written"

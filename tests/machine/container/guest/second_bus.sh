@@ -6,14 +6,14 @@ runs_second_bus() {
     { bus_and_line 2 "$socket_of_second" && station tension 5 00; } >/etc/dpslaved/second.toml
     expect_status 0 systemctl start dpslaved@second
     master 2 start
-    eventually second is-exchanging
+    eventually second status --wait 0 --quiet
     exchanging
 }
 prove "given a second configuration, when dpslaved@second starts, then both buses exchange data" runs_second_bus
 
 lives_alone() {
     systemctl stop dpslaved
-    second is-exchanging
+    second status --wait 0 --quiet
     second status
     systemctl start dpslaved
     eventually exchanging

@@ -5,7 +5,7 @@
 upgrades() {
     local invocation second before
     systemctl enable --now dpslaved@second
-    eventually second is-exchanging
+    eventually second status --wait 0 --quiet
     before=$(sha256sum "$config")
     invocation=$(property dpslaved InvocationID)
     second=$(property dpslaved@second InvocationID)
@@ -16,7 +16,7 @@ upgrades() {
     expect_other "run of dpslaved" "$(property dpslaved InvocationID)" "$invocation"
     expect_other "run of dpslaved@second" "$(property dpslaved@second InvocationID)" "$second"
     eventually exchanging
-    eventually second is-exchanging
+    eventually second status --wait 0 --quiet
     is_enabled
 }
 prove "given an edited configuration, when the package is upgraded, then it is kept and both buses have the new program" upgrades

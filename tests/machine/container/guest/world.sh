@@ -48,7 +48,7 @@ is() { [ "$(property "$1" "$2")" = "$3" ]; } # is UNIT PROPERTY VALUE
 main_pid() { property dpslaved MainPID; }
 restarts() { property dpslaved NRestarts; }
 restarted_since() { [ "$(restarts)" -gt "$1" ]; }
-exchanging() { dpctl is-exchanging unwinder; }
+exchanging() { dpctl status unwinder --wait 0 --quiet; }
 second() { dpctl --socket "$socket_of_second" "$@"; }
 
 drop_in() { # UNIT NAME TEXT

@@ -92,4 +92,4 @@ leave_master() {
     timeout "$patience" tail --pid="$(cat "$bench/master.pid")" -f /dev/null
     rm "$bench/master.pid"
 }
-exchanging() { dpctl is-exchanging; }
+exchanging() { dpctl status --wait 0 --quiet; }

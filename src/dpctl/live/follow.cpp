@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 namespace dpslave::dpctl {
 namespace {
@@ -31,14 +32,23 @@ void redraw(const std::string& picture, std::ostream& out)
     out << "\033[J\033[?7h" << std::flush;
 }
 
-void show_one(const Json& before, const Json& now, const Options& options, Terminal& terminal)
+/// What of the replies of Watch a command follows.
+struct Followed {
+    std::string (*picture)(const Json& now, Look look);
+    std::vector<std::string> (*changes)(const Json& before, const Json& now);
+};
+
+/// A reply in which only something else is different is left out, but the first.
+void show_one(const Followed& followed, const Json& before, const Json& now, const Options& options,
+              Terminal& terminal)
 {
-    if (options.json)
+    const std::vector<std::string> lines = followed.changes(before, now);
+    if (!options.json && terminal.tty)
+        redraw(followed.picture(now, terminal.look()), terminal.out);
+    else if (!options.json)
+        for (const std::string& line : lines) terminal.out << line << '\n';
+    else if (!lines.empty() || before.empty())
         terminal.out << printable_json(now.dump(-1, ' ', false, Json::error_handler_t::replace)) << '\n';
-    else if (terminal.tty)
-        redraw(render_watch(now, terminal.look()), terminal.out);
-    else
-        for (const std::string& line : changes(before, now)) terminal.out << line << '\n';
     terminal.out << std::flush;
 }
 
@@ -49,9 +59,7 @@ int tell_gone(const control::ClientError& error, Terminal& terminal)
     return error.kind == control::ClientError::Kind::ended ? kNoDaemon : code;
 }
 
-} // namespace
-
-int do_watch(const Options& options, Terminal& terminal)
+int follow(const Followed& followed, const Options& options, Terminal& terminal)
 {
     const EndSignals end;
     auto client = control::Client::connect(options.socket, options.timeout());
@@ -66,11 +74,23 @@ int do_watch(const Options& options, Terminal& terminal)
         if (!*reply) return kFine; // Ctrl-C
         if (!(*reply)->error.empty()) return tell(**reply, options, terminal);
         if (!options.json) (*reply)->parameters = printable_texts(std::move((*reply)->parameters));
-        show_one(before, (*reply)->parameters, options, terminal);
+        show_one(followed, before, (*reply)->parameters, options, terminal);
         if (!(*reply)->continues) return kFine;
         before = std::move((*reply)->parameters);
     }
-    return kNo; // nobody takes what we print
+    return kNo; // what we print is not taken any more
+}
+
+} // namespace
+
+int follow_status(const Options& options, Terminal& terminal)
+{
+    return follow({render_followed_status, status_changes}, options, terminal);
+}
+
+int follow_io(const Options& options, Terminal& terminal)
+{
+    return follow({render_followed_io, io_changes}, options, terminal);
 }
 
 } // namespace dpslave::dpctl

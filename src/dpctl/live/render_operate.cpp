@@ -1,26 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpctl/cli/render.hpp"
-#include "dpctl/cli/tables.hpp"
 #include "dpctl/cli/words.hpp"
 
 #include <fmt/format.h>
 
 namespace dpslave::dpctl {
-
-std::string render_leds(const Json& reply, Look look)
-{
-    std::string out;
-    for (const Json& s : list(reply, "stations")) {
-        Table table({"LED", "NOW", "PATTERN", "SINK"});
-        for (const Json& led : list(s, "leds"))
-            table.add({text(led, "name"), flag(led, "lit") ? "lit" : "dark", text(led, "pattern"),
-                       text(led, "sink") == "none" ? "no lamp is configured" : text(led, "sink")});
-        out += out.empty() ? "" : "\n";
-        out += headline(text(s, "name"), ": " + text(s, "meaning"), look);
-        if (!table.empty()) out += table.str(look, 2);
-    }
-    return out;
-}
 
 std::string render_tag(const Json& reply, std::string_view verb)
 {
@@ -54,18 +38,6 @@ std::string render_reload(const Json& reply, bool is_dry_run)
         out += fmt::format("leaves the bus: {} ({})\n", text(one, "station"), text(one, "reason"));
     if (list(reply, "leaving").empty()) out += "no station leaves the bus\n";
     return out + "Nothing was done: this is what a reload would do.\n";
-}
-
-std::string render_watch(const Json& reply, Look look)
-{
-    std::string out =
-        bus_line(part(reply, "bus")) + "\n\n" + station_table(list(reply, "stations")).str(look);
-    for (const Json& s : list(reply, "words")) {
-        const Table table = word_table(list(s, "words"));
-        if (!table.empty())
-            out += '\n' + painted(text(s, "name"), Tone::strong, look) + '\n' + table.str(look, 2);
-    }
-    return out;
 }
 
 } // namespace dpslave::dpctl

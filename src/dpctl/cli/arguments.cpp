@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "arguments.hpp"
+
+#include "dpslave/profile/survey.hpp"
+#include "dpslave/toml/wording.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace dpslave::dpctl {
+namespace {
+
+void follow_flag(CLI::App& app, Options& options)
+{
+    app.add_flag("--follow", options.follow, "Go on and show each change, until Ctrl-C");
+}
+
+void station_option(CLI::App& app, Options& options)
+{
+    app.add_option("--station", options.station, "Name or address; needed when there are several")
+        ->type_name("STATION");
+}
+
+void profile_options(CLI::App& app, Options& options, const char* what_profile_does)
+{
+    app.add_option("--profile", options.profile, what_profile_does)->type_name("NAME");
+    app.add_option("--profiles", options.profiles,
+                   "Folder of the device profiles; the tag tables lie in ../tags")
+        ->type_name("DIR")
+        ->capture_default_str();
+}
+
+} // namespace
+
+void add_json(CLI::App& app, Options& options)
+{
+    app.add_flag("--json", options.json, "Print JSON");
+}
+
+void add_common(CLI::App& app, Options& options)
+{
+    add_json(app, options);
+    app.add_option("--socket", options.socket, "The daemon's control socket")
+        ->type_name("PATH")
+        ->capture_default_str();
+    app.add_option("--timeout", options.timeout_s, "How long to wait for an answer")
+        ->type_name("SECONDS")
+        ->check(CLI::Range(0.01, 3600.0).description(""))
+        ->capture_default_str();
+}
+
+void no_arguments(CLI::App&, Options&) {}
+
+void station_argument(CLI::App& app, Options& options)
+{
+    app.add_option("STATION", options.station, "Name or address; without it: all")->type_name("");
+}
+
+void status_arguments(CLI::App& app, Options& options)
+{
+    station_argument(app, options);
+    follow_flag(app, options);
+    auto* wait = app.add_option("--wait", options.wait_s,
+                                "Wait at most so long until all stations, or this one, are in exchange")
+                     ->type_name("SECONDS")
+                     ->check(CLI::Range(0.0, 86400.0).description(""))
+                     ->excludes("--follow");
+    app.add_flag("--drive", options.with_drive,
+                 "With --wait: the drive must answer, too, and the master must not be in Clear")
+        ->needs(wait);
+    app.add_flag("--quiet", options.quiet, "With --wait: print nothing, the exit code says it")->needs(wait);
+}
+
+void io_arguments(CLI::App& app, Options& options)
+{
+    station_argument(app, options);
+    follow_flag(app, options);
+}
+
+void tag_argument(CLI::App& app, Options& options)
+{
+    app.add_option("TAG", options.tag, "Tag of the drive, decimal, 0 to 65535")
+        ->required()
+        ->type_name("")
+        ->check(CLI::Range(0, 65535).description(""));
+    station_option(app, options);
+}
+
+void tag_and_value_arguments(CLI::App& app, Options& options)
+{
+    tag_argument(app, options);
+    app.add_option("VALUE", options.value,
+                   "As the drive shows it: -12.5, 0x00FF for a WORD, a name of an ENUM")
+        ->required()
+        ->type_name("");
+}
+
+void tec_arguments(CLI::App& app, Options& options)
+{
+    app.require_subcommand(1);
+    CLI::App& set = *app.add_subcommand("set", "Sets an input until the next start");
+    set.add_option("NAME", options.parameter, "Name of the input: TYPE, ADDRESS, RIDE_THROUGH ...")
+        ->required()
+        ->type_name("");
+    set.add_option("VALUE", options.value, "A number (12, -1, 0x6AB5), of TYPE also a name")
+        ->required()
+        ->type_name("");
+    station_option(set, options);
+    set.add_flag("--yes", options.yes, "Also if it silences a station that is in exchange");
+    add_common(set, options);
+}
+
+void doctor_arguments(CLI::App& app, Options& options)
+{
+    station_argument(app, options);
+    auto* all = app.add_flag("--all", options.all, "Print every rule: lamps and symptoms, causes, steps");
+    app.add_flag("--probe", options.probe,
+                 "Let the daemon look for the drive on its line: other rates, formats and units")
+        ->excludes(all);
+    app.add_flag("--yes", options.yes, "With --probe: also while a station of this line is in exchange");
+}
+
+void port_argument(CLI::App& app, Options& options)
+{
+    app.add_option("PORT", options.port, "A tty; without it: that of the running daemon. It is not opened")
+        ->type_name("");
+}
+
+void query_arguments(CLI::App& app, Options& options)
+{
+    app.add_option("WHAT", options.words,
+                   "A tag number (270, 0x10E), or words of its name; a number belongs to the word before it")
+        ->type_name("");
+    app.add_flag("--all", options.all, "Also names that say more than WHAT");
+    auto* table = app.add_option("--table", options.table, "Look into this CSV file only")->type_name("FILE");
+    profile_options(app, options, "Look into the table of this profile only");
+    table->excludes("--profile");
+}
+
+void number_arguments(CLI::App& app, Options& options)
+{
+    app.add_option("NUMBER", options.words,
+                   "Decimal (288, -300.00), hexadecimal (0x120, >120, 120h) or a range (0-559)")
+        ->required()
+        ->type_name("");
+}
+
+void reload_arguments(CLI::App& app, Options& options)
+{
+    app.add_flag("--dry-run", options.dry_run, "Only tells what a reload would do; no port is opened for it");
+}
+
+void octet_arguments(CLI::App& app, Options& options)
+{
+    app.add_option("HEX", options.words, "Octets: 10 05 02 49 50 16, with or without blanks")
+        ->required()
+        ->type_name("");
+    app.add_option("--as", options.form, "The octets are those of a Set_Prm, a Chk_Cfg or a Slave_Diag")
+        ->type_name("prm|cfg|diag")
+        ->check(CLI::IsMember({"prm", "cfg", "diag"}).description(""));
+    profile_options(app, options, "Take tags, modules and the extended diagnosis for those of this device");
+}
+
+void survey_arguments(CLI::App& app, Options& options)
+{
+    app.add_option("STATION", options.station, "Name or address; needed when there are several")
+        ->type_name("");
+    app.add_option("--tags", options.tags, "Ask these tags only: 1-600,1000-1127")
+        ->type_name("LIST")
+        ->check([](const std::string& text) {
+            const auto spans = profile::parse_tag_spans(text);
+            return spans ? std::string{} : spans.error();
+        });
+    app.add_option("--table", options.table,
+                   "The tag table to write; one that is there is joined. Without it: STATION.csv")
+        ->type_name("FILE");
+    auto* duration = app.add_option("--for", options.duration, "Go on for so long: 90s, 10m, 2h")
+                         ->type_name("TIME")
+                         ->check([](const std::string& text) {
+                             return profile::parse_duration(text)
+                                        ? std::string{}
+                                        : toml::in_quotes(text) + ": write a time up to 30 days, as "
+                                                                  "90s, 10m or 2h";
+                         });
+    app.add_option("--passes", options.passes, "Ask each tag so often")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1'000'000).description(""))
+        ->capture_default_str()
+        ->excludes(duration);
+    app.add_flag("--resume", options.resume, "Go on where the survey before this one ended");
+}
+
+} // namespace dpslave::dpctl

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands.hpp"
+
+#include "arguments.hpp"
+#include "json_forms.hpp"
+
+#include <array>
+
+namespace dpslave::dpctl {
+namespace {
+
+constexpr const char* kLook = "Look";
+constexpr const char* kOperate = "Operate";
+
+constexpr const char* kShows = "0 fine, 1 refused or faulty, 2 usage or no such station, 3 no daemon.";
+constexpr const char* kWaits =
+    "0 fine, with --wait: in exchange; 1 refused or faulty, with --wait: not in exchange;\n"
+    "2 usage or no such station; 3 no daemon.";
+constexpr const char* kJudges =
+    "0 all is well, 1 something was found, 2 usage or no such station, 3 no daemon.";
+constexpr const char* kSurveys =
+    "0 complete, 1 refused, faulty or not complete, 2 usage or no such station, 3 no daemon.";
+constexpr const char* kReloads = "0 applied, or can be; 1 refused or faulty; 2 usage; 3 no daemon.";
+constexpr const char* kTunes = "0 fine, 1 the rate of the bus cannot be held or something must be mended,\n"
+                               "2 usage, 3 no PORT and no daemon.";
+constexpr const char* kNeedsNone = "0 fine, 1 not found or faulty, 2 usage; no daemon is needed.";
+constexpr const char* kVersions =
+    "0 fine, also without a daemon; 1 a faulty answer; 2 usage; 3 the socket is closed to this user.";
+
+constexpr std::array kCommands = std::to_array<Command>({
+    {"status", kLook, "The bus, and each station in one line",
+     "GetStatus, with --follow those of Watch, one a line", kWaits,
+     "dpctl status --follow                    each change, until Ctrl-C\n"
+     "dpctl status unwinder --wait 30 --quiet  for scripts: 0 as soon as it is in exchange, 1 if not\n"
+     "dpctl status --wait 0 --quiet --drive    are all in exchange now, and do their drives answer?",
+     status_arguments, do_status},
+    {"show", kLook, "All about a station: state, drive, what it emulates, lamps, TEC OPTION", kShowJson,
+     kShows, "", station_argument, do_show},
+    {"io", kLook, "Inputs and outputs by tag: raw, scaled, state and age",
+     "GetIo, with --follow those of Watch, one a line", kShows, "", io_arguments, do_io},
+    {"diag", kLook, "The diagnosis decoded, and the last refused telegram explained", "GetDiagnosis", kShows,
+     "", station_argument, do_diag},
+    {"counters", kLook, "How often what happened", "GetCounters", kShows, "", no_arguments, do_counters},
+    {"doctor", kLook, "Names the likely cause of a fault and the next step", kDoctorJson, kJudges,
+     "dpctl doctor            every station\n"
+     "dpctl doctor unwinder   this one\n"
+     "dpctl doctor --probe    looks for a drive that was never heard (root and the operator group)\n"
+     "dpctl doctor --all      all rules, for lamps and symptoms that you see",
+     doctor_arguments, do_doctor},
+    {"read", kOperate, "Reads a tag from the drive now", "ReadTag", kShows,
+     "dpctl read 55 --station unwinder", tag_argument, do_read},
+    {"write", kOperate, "Writes a tag of the drive now (root and the operator group)", "WriteTag", kShows,
+     "dpctl write 56 -12.5 --station unwinder", tag_and_value_arguments, do_write},
+    {"tec", kOperate,
+     "tec set: sets an input of the TEC OPTION function block of a technology box (root and the operator "
+     "group)",
+     "SetTec", kShows,
+     "dpctl tec set TYPE \"PROFIBUS DP\"\n"
+     "dpctl tec set RIDE_THROUGH -1 --station unwinder\n"
+     "dpctl show                                  shows the function block",
+     tec_arguments, do_tec_set},
+    {"survey", kOperate,
+     "Reads every tag of a drive and writes a tag table, whose rows you confirm (root and the operator "
+     "group)",
+     kSurveyJson, kSurveys,
+     "dpctl survey unwinder                          every tag once, into unwinder.csv\n"
+     "dpctl survey unwinder --resume                 goes on after Ctrl-C\n"
+     "dpctl survey unwinder --tags 1-600 --for 10m   the extremes of ten minutes",
+     survey_arguments, do_survey},
+    {"reload", kOperate,
+     "Reads the configuration file again and applies it, or says why not (root and the operator group)",
+     "Reload", kReloads,
+     "dpctl reload --dry-run   what it would change, and which stations would leave the bus and why",
+     reload_arguments, do_reload},
+    {"tune", kOperate, "What this machine can promise at each rate, and what would make it better", kTuneJson,
+     kTunes,
+     "dpctl tune               the port of the running daemon, with what was measured\n"
+     "dpctl tune /dev/ttyS1    this port, before there is a daemon",
+     port_argument, do_tune},
+    {"tag", kOffline, "Looks a parameter of a drive up in the tag tables, by number or by words", kTagJson,
+     kNeedsNone,
+     "dpctl tag                            the tables that are shipped\n"
+     "dpctl tag 270\n"
+     "dpctl tag autotune\n"
+     "dpctl tag program 1 segment 4 type   the address of a word of a program\n"
+     "dpctl tag speed --profile 590plus",
+     query_arguments, do_tag},
+    {"hex", kOffline, "Numbers of 16 bits in decimal and hexadecimal, with the octets for User_Prm_Data",
+     kHexJson, kNeedsNone,
+     "dpctl hex 288 0x120\n"
+     "dpctl hex -300.00       with two decimals, as it goes over the bus: 8AD0\n"
+     "dpctl hex 0-559         the table of the manuals",
+     number_arguments, do_hex},
+    {"decode", kOffline, "A PROFIBUS telegram or a diagnosis in words", kDecodeJson, kNeedsNone,
+     "dpctl decode 68 05 05 68 85 82 6D 3C 3E EE 16\n"
+     "dpctl decode --as prm 88 01 0A 0B 05 33 00    octets as dpctl diag prints them\n"
+     "dpctl decode 00 0C 00 01 16 49 04 01 6A B5 --profile 605",
+     octet_arguments, do_decode},
+    {"version", "Version", "Versions of dpctl and of the daemon", "GetVersion", kVersions, "", no_arguments,
+     do_version},
+});
+
+} // namespace
+
+std::span<const Command> commands()
+{
+    return kCommands;
+}
+
+const char* const kFooter =
+    "STATION is a name or an address. Values are in the drive's displayed units: dpctl write 56 -12.5\n"
+    "--json prints the parameters of the daemon's reply as they come (an error with its name and "
+    "parameters).\n"
+    "The Varlink interface org.dpslaved.Control describes them: see\n" DPSLAVE_DATA_FOLDER
+    "/org.dpslaved.Control.varlink, or ask the daemon:\n"
+    "varlinkctl introspect /run/dpslaved/control.sock org.dpslaved.Control\n"
+    "show, doctor, survey, tune, tag, hex and decode have a form of their own: see their --help.\n"
+    "Exit codes, more exactly in the --help of each command:\n"
+    "  0  fine\n"
+    "  1  refused by the daemon or the drive, a faulty answer or input, not found, or not so (status --wait, "
+    "doctor, survey, tune)\n"
+    "  2  usage, or there is no such station\n"
+    "  3  no daemon";
+
+std::string footer_of(const Command& command)
+{
+    std::string footer;
+    if (*command.examples != '\0') {
+        footer = std::string{"Examples:\n"} + command.examples;
+        for (std::size_t at = 0; (at = footer.find('\n', at)) != std::string::npos; at += 3)
+            footer.insert(at + 1, "  ");
+        footer += '\n';
+    }
+    const std::string json = command.json;
+    footer += "--json prints " +
+              (json.front() == '{' ? json : "the reply of " + json + " (org.dpslaved.Control.varlink)");
+    return footer + ".\nExit codes: " + command.exits;
+}
+
+} // namespace dpslave::dpctl
