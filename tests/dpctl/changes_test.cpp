@@ -61,6 +61,14 @@ TEST(DpctlChanges, AreClearHeldSyncAndAPortThatHasGone)
                             "rewinder: drive port gone (was silent)"));
 }
 
+TEST(DpctlChanges, AreAPortOfTheBusThatHasGone)
+{
+    Json now = kBefore;
+    now["bus"]["port_open"] = false;
+
+    EXPECT_THAT(status_changes(kBefore, now), ElementsAre("bus: state port gone (was DP_Control)"));
+}
+
 TEST(DpctlChanges, AreStationsThatHaveGone)
 {
     Json now = kBefore;

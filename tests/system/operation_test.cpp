@@ -116,6 +116,20 @@ TEST(Dpctl, FollowShowsChangesAsTheyCome)
     EXPECT_TRUE(watch.wait().has_value()) << "without a daemon there is nothing to watch";
 }
 
+TEST(Dpctl, FollowOfStatusShowsWhatTheMasterOrders)
+{
+    Gateway gateway;
+    Process following{gateway.dpctl_command({"status", "--follow"})};
+    EXPECT_TRUE(following.says("state Wait_Prm"));
+    Master master{gateway, {"--tags", "55,56w"}};
+    ASSERT_TRUE(master.does("start 30s"));
+    EXPECT_TRUE(following.says("state Data_Exch (was"));
+    ASSERT_TRUE(master.does("sync"));
+    EXPECT_TRUE(following.says("state Data_Exch, Sync (was Data_Exch)"));
+    ASSERT_TRUE(master.does("freeze"));
+    EXPECT_TRUE(following.says("state Data_Exch, Sync, Freeze (was Data_Exch, Sync)"));
+}
+
 TEST(Dpctl, ShowsAnAddressThatWasChangedInTheFileAsPending)
 {
     Gateway gateway;

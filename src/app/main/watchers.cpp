@@ -22,15 +22,20 @@ Json Watchers::reply(const Station* station, Instant now) const
     return json_of(told);
 }
 
-/// What counts as a change: states, links and values, but no age and no counter.
+/// What counts as a change: states, links and values, and what the bus is at, but no age and no counter.
 std::string Watchers::fingerprint(const Station* station) const
 {
-    std::string all;
+    const auto& bus = monitor_.view().bus;
+    const bool searches = bus.baud_state == fdl::BaudState::baud_search; // its rates go by
+    std::string all =
+        fmt::format("{}/{}/{}/{}:", static_cast<int>(bus.baud_state),
+                    searches ? 0 : static_cast<std::uint32_t>(bus.baud), bus.port_open, bus.driver_works);
     for (const Station& one : monitor_.view().stations) {
         if (station != nullptr && station != &one) continue;
-        all += fmt::format("{}/{}/{}/{}/{}/{}/{}/{}:", one.address, static_cast<int>(one.bus.state),
-                           one.bus.master, one.bus.clear, one.drive.known, one.drive.answers, one.line_open,
-                           one.drive.ride_ends.has_value());
+        all +=
+            fmt::format("{}/{}/{}/{}/{}/{}/{}/{}/{}/{}/{}:", one.address, static_cast<int>(one.bus.state),
+                        one.bus.master, one.bus.clear, one.bus.sync, one.bus.freeze, one.bus.holds,
+                        one.drive.known, one.drive.answers, one.line_open, one.drive.ride_ends.has_value());
         for (std::size_t k = 0; k < one.bus.layout.count; ++k)
             all += fmt::format("{}.{}.{}.{};", one.bus.layout.parameters[k].tag, one.bus.inputs[k],
                                one.bus.outputs[k], static_cast<int>(one.drive.states[k]));

@@ -29,13 +29,18 @@ void compare(std::string& line, const char* what, const std::string& before, con
     if (!anew) line += fmt::format(" (was {})", before);
 }
 
+std::string bus_state(const Json& bus)
+{
+    return bus.contains("port_open") && !flag(bus, "port_open") ? "port gone" : text(bus, "baud_state");
+}
+
 std::string bus_change(const Json& before, const Json& now)
 {
     const bool anew = before.empty();
     std::string line;
     compare(line, "rate", rate(integer(before, "baud").value_or(0)), rate(integer(now, "baud").value_or(0)),
             anew);
-    compare(line, "state", text(before, "baud_state"), text(now, "baud_state"), anew);
+    compare(line, "state", bus_state(before), bus_state(now), anew);
     return line;
 }
 
