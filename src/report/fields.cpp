@@ -27,7 +27,7 @@ void take(const Json& json, double& value)
 
 void take(const Json& json, std::string& value)
 {
-    if (json.is_string()) value = json.get<std::string>();
+    value = json.is_string() ? json.get<std::string>() : "?";
 }
 
 } // namespace dpslave::report

@@ -23,7 +23,7 @@ class DoctorLine : public testing::TestWithParam<Line> {};
 
 TEST_P(DoctorLine, LengthIsLimitedByTheRate)
 {
-    const auto limit = line_limit(Json::object({{"baud", GetParam().baud}, {"baud_state", "DP_Control"}}));
+    const auto limit = line_limit({.baud = GetParam().baud, .baud_state = "DP_Control"});
 
     ASSERT_TRUE(limit);
     EXPECT_EQ(limit->cable_a, GetParam().cable_a);
@@ -39,14 +39,14 @@ INSTANTIATE_TEST_SUITE_P(B022, DoctorLine,
 
 TEST(DoctorLines, AreNotLimitedWhileTheRateIsSearched)
 {
-    EXPECT_FALSE(line_limit(Json::object({{"baud", 9600}, {"baud_state", "Baud_Search"}})));
+    EXPECT_FALSE(line_limit({.baud = 9600, .baud_state = "Baud_Search"}));
 }
 
 // ---------------------------------------------------------------- pictures
 
 TEST_F(Doctor, PrintsStationsCausesAndTheLine)
 {
-    station()["drive"]["link"] = "silent";
+    station().drive.link = "silent";
 
     EXPECT_EQ(render_doctor(replies, diagnose(replies, ""), earlier_troubles(replies, ""), "", false),
               test::lines(R"(
@@ -83,7 +83,7 @@ ohm between B and A, 390 ohm to 0 V
 
 TEST_F(Doctor, DoesNotRepeatTheFirstCauseInTheManualsList)
 {
-    station()["state"] = "Wait_Prm";
+    station().state = "Wait_Prm";
     never_heard_anything();
 
     const std::string said =
@@ -101,7 +101,7 @@ TEST_F(Doctor, SaysThatAllIsWell)
 
 TEST_F(Doctor, PrintsTheWholeLineTableWhileTheRateIsSearched)
 {
-    bus()["baud_state"] = "Baud_Search";
+    bus().baud_state = "Baud_Search";
 
     EXPECT_THAT(render_doctor(replies, diagnose(replies, ""), earlier_troubles(replies, ""), "", false),
                 HasSubstr(test::lines(R"(
@@ -114,15 +114,15 @@ line length of a segment at most:
 
 TEST_F(Doctor, AsksOnlyForTheStationThatIsMeant)
 {
-    replies.status = fixture("GetStatus");
-    replies.status["stations"][0]["left_count"] = 0;
+    replies.status = report::read<report::GetStatusReply>(fixture("GetStatus"));
+    replies.status.stations[0].left_count = 0;
     EXPECT_THAT(diagnose(replies, "unwinder"), IsEmpty());
     EXPECT_EQ(diagnose(replies, "16").size(), 3u); // the drive, and the lists for its lamps
 }
 
 TEST_F(Doctor, GivesTheSameAsJson)
 {
-    station()["state"] = "Power_On";
+    station().state = "Power_On";
 
     EXPECT_EQ(doctor_json(replies, diagnose(replies, ""), {}),
               Json::parse(R"({"findings":[{"station":"unwinder",
@@ -150,10 +150,12 @@ TEST(DoctorRules, AreAllPrintedForThoseWhoSeeLampsOnly)
 
 TEST_F(Doctor, SurvivesRepliesOfAnotherVersion)
 {
+    const Json reply =
+        Json::parse(R"({"bus":7,"stations":[null,"x",{"name":5,"drive":[],"rows":[1],"trouble":[1]}],
+                        "groups":[{"name":"bus","counters":[3,{"name":1}]}],"uptime_ms":"x"})");
     Replies odd;
-    for (Json* reply : {&odd.status, &odd.info, &odd.diagnosis, &odd.counters, &odd.leds, &odd.tec, &odd.io})
-        *reply = Json::parse(R"({"bus":7,"stations":[null,"x",{"name":5,"drive":[],"rows":[1],"trouble":[1]}],
-                                "groups":[{"name":"bus","counters":[3,{"name":1}]}],"uptime_ms":"x"})");
+    const auto take = [&](auto&... each) { (report::take(reply, each), ...); };
+    take(odd.status, odd.info, odd.diagnosis, odd.counters, odd.leds, odd.tec, odd.io);
     EXPECT_NO_THROW(render_doctor(odd, diagnose(odd, ""), earlier_troubles(odd, ""), "", true));
     EXPECT_NO_THROW(diagnose(Replies{}, "x"));
 }

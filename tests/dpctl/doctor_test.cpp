@@ -25,7 +25,7 @@ TEST_F(Doctor, FindsNothingWhereAllIsWell)
 
 TEST_F(Doctor, NamesTheSilentBusAndThenTheExternalFaultOfAnOptionBoard)
 {
-    station()["state"] = "Wait_Prm";
+    station().state = "Wait_Prm";
     never_heard_anything();
 
     EXPECT_THAT(found(), ElementsAre("bus.silent", "board.external"));
@@ -38,7 +38,7 @@ TEST_F(Doctor, NamesTheSilentBusAndThenTheExternalFaultOfAnOptionBoard)
 
 TEST_F(Doctor, NamesACableThatIsCutWithinSeconds)
 {
-    station()["state"] = "Wait_Prm";
+    station().state = "Wait_Prm";
     hears_nothing_for(4'000);
 
     EXPECT_EQ(found().front(), "bus.silent");
@@ -47,12 +47,12 @@ TEST_F(Doctor, NamesACableThatIsCutWithinSeconds)
 
 TEST_F(Doctor, TellsAWrongRateFromSilenceAndSaysWhichOneIsConfigured)
 {
-    station()["state"] = "Wait_Prm";
+    station().state = "Wait_Prm";
     is_not_asked();
-    bus()["configured_baud"] = 500'000;
+    bus().configured_baud = 500'000;
     set_count(0, "octets", 9'000, 600, 500.0);
     set_count(0, "checked", 0, 0, std::nullopt);
-    bus()["last_telegram_age_ms"] = nullptr;
+    bus().last_telegram_age_ms = std::nullopt;
 
     EXPECT_THAT(found(), ElementsAre("bus.rate", "board.external"));
     EXPECT_EQ(evidence("bus.rate"),
@@ -65,10 +65,10 @@ TEST_F(Doctor, TellsAWrongRateFromSilenceAndSaysWhichOneIsConfigured)
 
 TEST_F(Doctor, SaysWhichRateTheSearchLeavesOut)
 {
-    station()["state"] = "Wait_Prm";
+    station().state = "Wait_Prm";
     never_heard_anything();
-    bus()["configured_baud"] = nullptr;
-    bus()["baud_state"] = "Baud_Search";
+    bus().configured_baud = std::nullopt;
+    bus().baud_state = "Baud_Search";
     set_count(0, "octets", 9'000, 600, 500.0);
 
     EXPECT_EQ(found().front(), "bus.rate");
@@ -78,9 +78,9 @@ TEST_F(Doctor, SaysWhichRateTheSearchLeavesOut)
 
 TEST_F(Doctor, BlamesNothingBeforeAMasterCanHaveAsked)
 {
-    station()["state"] = "Wait_Prm";
+    station().state = "Wait_Prm";
     is_not_asked();
-    replies.status["uptime_ms"] = 1'500;
+    replies.status.uptime_ms = 1'500;
     EXPECT_THAT(found(), ElementsAre("station.just_started"));
     EXPECT_EQ(evidence("station.just_started"),
               "no master has asked address 5 yet; dpslaved has run for 1.5 s");
@@ -91,26 +91,26 @@ TEST_F(Doctor, BlamesNothingBeforeAMasterCanHaveAsked)
     is_technology_box(0, "NONE", 4);
     EXPECT_THAT(found(), ElementsAre("station.just_started")) << "NETWORK STATE is BAUD SEARCH";
 
-    replies.tec["stations"].clear();
+    replies.tec.stations.clear();
     is_controller();
     EXPECT_THAT(found(), ElementsAre("station.just_started"));
 
-    replies.status["uptime_ms"] = 20'000;
+    replies.status.uptime_ms = 20'000;
     EXPECT_EQ(found().front(), "bus.silent");
 }
 
 TEST_F(Doctor, BelievesATelegramThatTheCountersDoNotHaveYet)
 {
     hears_nothing_for(20'000);
-    bus()["last_telegram_age_ms"] = 5.0;
-    station()["watchdog_ms"] = 100;
+    bus().last_telegram_age_ms = 5.0;
+    station().watchdog_ms = 100;
 
     EXPECT_THAT(found(), IsEmpty()) << "the master has just come back";
 }
 
 TEST_F(Doctor, DoesNotSayThatOutputsOfAnExchangeThatHasJustBegunStand)
 {
-    station()["watchdog_ms"] = nullptr;
+    station().watchdog_ms = std::nullopt;
     set_count(1, "data_exchange", 0, 0, std::nullopt);
 
     EXPECT_THAT(found(), IsEmpty());
@@ -127,8 +127,8 @@ TEST_F(Doctor, NamesTwoMastersThatWantTheSameSlave)
 
 TEST_F(Doctor, NamesTheAddressThatTheMasterAsksForInThePlaceOfOurs)
 {
-    station()["state"] = "Wait_Prm";
-    bus()["unanswered"] = Json::parse(R"([{"address":7,"master":2,"requests":40,"age_ms":80.0}])");
+    station().state = "Wait_Prm";
+    bus().unanswered = {{.address = 7, .master = 2, .requests = 40, .age_ms = 80.0}};
     EXPECT_THAT(found(), Not(Contains("bus.other_address"))) << "ours is asked";
 
     is_not_asked();
@@ -136,24 +136,24 @@ TEST_F(Doctor, NamesTheAddressThatTheMasterAsksForInThePlaceOfOurs)
     EXPECT_EQ(evidence("bus.other_address"),
               "master 2 asks for address 7 (40 times) and gets no answer; no master asks for ours: 5");
 
-    bus()["unanswered"][0]["age_ms"] = 60'000.0;
+    bus().unanswered[0].age_ms = 60'000.0;
     EXPECT_THAT(found(), Not(Contains("bus.other_address"))) << "it has stopped asking";
 }
 
 TEST_F(Doctor, NamesAStationThatNoMasterAsks)
 {
-    station()["state"] = "Wait_Prm";
+    station().state = "Wait_Prm";
     is_not_asked();
     EXPECT_THAT(found(), ElementsAre("station.not_asked", "board.external"));
     EXPECT_EQ(evidence("board.external"), "telegrams are heard, but no master asks address 5");
 
-    station()["state"] = "Wait_Cfg";
+    station().state = "Wait_Cfg";
     EXPECT_EQ(evidence("board.external"), "the master has parameterised address 5 and sends no Chk_Cfg");
 }
 
 TEST_F(Doctor, NamesAMasterThatOnlyReadsTheDiagnosis)
 {
-    station()["state"] = "Wait_Prm";
+    station().state = "Wait_Prm";
     count_of_station("slave_diag", 12);
 
     EXPECT_EQ(found().front(), "station.asked_only");
@@ -161,7 +161,7 @@ TEST_F(Doctor, NamesAMasterThatOnlyReadsTheDiagnosis)
 
 TEST_F(Doctor, NamesTheRefusedTelegramAndThenTheConfigurationFault)
 {
-    station()["state"] = "Wait_Prm";
+    station().state = "Wait_Prm";
     refuse("Set_Prm", "the Ident_Number is that of another device");
     count_of_station("set_prm", 12);
 
@@ -187,7 +187,7 @@ TEST_F(Doctor, NamesTheDriveThatWasNeverHeardInOneCauseWithAProbe)
 
 TEST_F(Doctor, TellsADriveThatFellSilentFromOneThatWasNeverHeard)
 {
-    station()["drive"]["link"] = "silent";
+    station().drive.link = "silent";
     set_count(1, "drive_losses", 1, 1, 90'000.0);
 
     EXPECT_THAT(found(), ElementsAre("drive.silent", "board.internal"));
@@ -197,19 +197,19 @@ TEST_F(Doctor, TellsADriveThatFellSilentFromOneThatWasNeverHeard)
 TEST_F(Doctor, PutsAPortThatHasVanishedBeforeAllElse)
 {
     drive_was_never_heard();
-    station()["drive"]["port_open"] = false;
+    station().drive.port_open = false;
     EXPECT_EQ(found().front(), "drive.gone");
     EXPECT_THAT(found(), Not(Contains("drive.never")));
 
     hears_nothing_for(20'000);
-    bus()["port_open"] = false;
+    bus().port_open = false;
     EXPECT_EQ(found().front(), "bus.gone");
     EXPECT_THAT(found(), Not(Contains("bus.silent")));
 }
 
 TEST_F(Doctor, NamesTheMajorFaultWhereTheStationIsNotServed)
 {
-    station()["state"] = "Power_On";
+    station().state = "Power_On";
 
     EXPECT_THAT(found(), ElementsAre("board.dark"));
 }
@@ -261,10 +261,10 @@ class DoctorMatrix : public Doctor, public testing::WithParamInterface<MatrixRow
 TEST_P(DoctorMatrix, NamesTheCauseOfThesePatternsOfNetworkAndModule)
 {
     const MatrixRow& row = GetParam();
-    station()["state"] = row.fault != 0                         ? "Power_On"
-                         : row.network == 0 || row.network == 1 ? "Data_Exch"
-                         : row.network == 2                     ? "Wait_Cfg"
-                                                                : "Wait_Prm";
+    station().state = row.fault != 0                         ? "Power_On"
+                      : row.network == 0 || row.network == 1 ? "Data_Exch"
+                      : row.network == 2                     ? "Wait_Cfg"
+                                                             : "Wait_Prm";
     if (row.network == 3) count_of_station("set_prm", 3);
     is_technology_box(row.fault, row.fault_shown, row.network);
 
@@ -306,7 +306,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_F(Doctor, LooksForTheLineWhereABoxWaitsOnASilentBus)
 {
-    station()["state"] = "Wait_Prm";
+    station().state = "Wait_Prm";
     hears_nothing_for(60'000);
     is_technology_box(0, "NONE", 3);
 
@@ -315,7 +315,7 @@ TEST_F(Doctor, LooksForTheLineWhereABoxWaitsOnASilentBus)
 
 TEST_F(Doctor, TellsWhichTelegramABoxRefused)
 {
-    station()["state"] = "Wait_Prm";
+    station().state = "Wait_Prm";
     refuse("Chk_Cfg", "Cfg_Data is empty");
     is_technology_box(0, "NONE", 3);
 
@@ -326,16 +326,16 @@ TEST_F(Doctor, TellsWhichTelegramABoxRefused)
 TEST_F(Doctor, TellsTheTripOfTheDrive)
 {
     is_technology_box(0, "NONE", 0);
-    Json& tec = replies.tec["stations"][0];
-    tec["trip"] = "0: NO TRIP";
-    tec["tripped"] = false;
+    report::Tec& tec = replies.tec.stations[0];
+    tec.trip = "0: NO TRIP";
+    tec.tripped = false;
     EXPECT_THAT(found(), IsEmpty());
-    tec["trip"] = "unknown: tag 4 was never read";
-    tec["tripped"] = nullptr;
+    tec.trip = "unknown: tag 4 was never read";
+    tec.tripped = std::nullopt;
     EXPECT_THAT(found(), IsEmpty());
 
-    tec["trip"] = "1: LINK OVERVOLTS";
-    tec["tripped"] = true;
+    tec.trip = "1: LINK OVERVOLTS";
+    tec.tripped = true;
     EXPECT_THAT(found(), ElementsAre("box.trip"));
     EXPECT_EQ(evidence("box.trip"), "trip 1: LINK OVERVOLTS");
 }
@@ -343,8 +343,7 @@ TEST_F(Doctor, TellsTheTripOfTheDrive)
 TEST_F(Doctor, RepeatsWhatTheFunctionBlockWarnsOf)
 {
     is_technology_box(0, "NONE", 0);
-    replies.tec["stations"][0]["notes"] =
-        Json::parse(R"(["RIDE THROUGH other than 0 could compromise safety."])");
+    replies.tec.stations[0].notes = {"RIDE THROUGH other than 0 could compromise safety."};
 
     EXPECT_THAT(found(true), ElementsAre("box.works", "station.tec_notes"));
     EXPECT_EQ(evidence("station.tec_notes"), "RIDE THROUGH other than 0 could compromise safety.");
@@ -355,7 +354,7 @@ TEST_F(Doctor, RepeatsWhatTheFunctionBlockWarnsOf)
 TEST_F(Doctor, GoesThroughTheListOfNoCommunicationsOfAController)
 {
     is_controller();
-    station()["state"] = "Wait_Prm";
+    station().state = "Wait_Prm";
     is_not_asked();
 
     EXPECT_THAT(found(), ElementsAre("station.not_asked", "controller.no_communications"));
@@ -370,7 +369,7 @@ TEST_F(Doctor, FindsAnIntermittentFailureOfAController)
 {
     is_controller();
     count_of_station("left_data_exchange", 5);
-    station()["left_because"] = "the watchdog expired: the master is silent";
+    station().left_because = "the watchdog expired: the master is silent";
 
     EXPECT_THAT(found(), ElementsAre("controller.intermittent"));
     EXPECT_EQ(evidence("controller.intermittent"),
@@ -397,7 +396,7 @@ TEST_F(Doctor, ExplainsValuesThatSeemJammedOrInAWrongFormat)
 TEST_F(Doctor, ASilentInstrumentIsTheLinkAndNotTheBus)
 {
     is_controller();
-    station()["drive"]["link"] = "silent";
+    station().drive.link = "silent";
 
     EXPECT_THAT(found(), ElementsAre("drive.silent"));
 }
@@ -415,7 +414,7 @@ class DoctorCounter : public Doctor, public testing::WithParamInterface<Counted>
 
 TEST_P(DoctorCounter, FromThisNumberOnIsAFinding)
 {
-    const Json before = replies.counters;
+    const report::GetCountersReply before = replies.counters;
     count(GetParam().counter, GetParam().too_few);
     EXPECT_THAT(found(), IsEmpty());
 
@@ -453,7 +452,7 @@ TEST_F(Doctor, NoiseThatGoesOnIsNotLostAmongGoodTelegramsAndSaysSinceWhen)
 {
     set_count(0, "telegrams", 110'000, 30'000, 500.0);
     count("flaw: checksum", 12);
-    replies.counters["groups"][0]["counters"].back()["since_age_ms"] = 720'000.0;
+    replies.counters.groups[0].counters.back().since_age_ms = 720'000.0;
 
     EXPECT_THAT(found(), ElementsAre("bus.flaws"));
     EXPECT_EQ(evidence("bus.flaws"), "12 flaws (damaged telegrams, or noise between them) beside "
@@ -462,9 +461,9 @@ TEST_F(Doctor, NoiseThatGoesOnIsNotLostAmongGoodTelegramsAndSaysSinceWhen)
 
 TEST_F(Doctor, FlawsBeforeTheFirstTelegramAreNoDisturbedLine)
 {
-    station()["state"] = "Wait_Prm";
+    station().state = "Wait_Prm";
     never_heard_anything();
-    replies.status["uptime_ms"] = 4'000;
+    replies.status.uptime_ms = 4'000;
     count("octets", 600);
     count("flaw: bad character", 300);
 
@@ -474,10 +473,10 @@ TEST_F(Doctor, FlawsBeforeTheFirstTelegramAreNoDisturbedLine)
 TEST_F(Doctor, OneBurstOfFlawsIsAPlugOrASwitchAndNoDisturbedLine)
 {
     set_count(0, "flaw: start delimiter", 60, 60, 20'000.0);
-    replies.counters["groups"][0]["counters"].back()["since_age_ms"] = 21'000.0;
+    replies.counters.groups[0].counters.back().since_age_ms = 21'000.0;
     EXPECT_THAT(found(), IsEmpty());
 
-    replies.counters["groups"][0]["counters"].back()["since_age_ms"] = 22'000.0;
+    replies.counters.groups[0].counters.back().since_age_ms = 22'000.0;
     EXPECT_THAT(found(), ElementsAre("bus.flaws"));
 }
 
@@ -509,10 +508,10 @@ TEST_F(Doctor, AnExchangeThatTheMasterEndsByItselfIsNoFaultOfTheCable)
 {
     count_of_station("left_data_exchange", 6);
     for (const char* const code : {"unlock", "new_parameters"}) {
-        station()["left_code"] = code;
+        station().left_code = code;
         EXPECT_THAT(found(), ElementsAre("station.restarts")) << code;
     }
-    station()["left_code"] = "output_length";
+    station().left_code = "output_length";
     EXPECT_THAT(found(), ElementsAre("station.output_length"));
 
     is_controller();
@@ -521,8 +520,8 @@ TEST_F(Doctor, AnExchangeThatTheMasterEndsByItselfIsNoFaultOfTheCable)
 
 TEST_F(Doctor, AStationThatLeavesMoreThanOnceInAMinuteIsRestless)
 {
-    station()["left_because"] = "the watchdog expired";
-    station()["left_code"] = "watchdog";
+    station().left_because = "the watchdog expired";
+    station().left_code = "watchdog";
     count_of_station("left_data_exchange", 1);
     EXPECT_THAT(found(), IsEmpty());
 
@@ -543,7 +542,7 @@ TEST_F(Doctor, AWatchdogThatExpiresAndAMasterThatComesBackIsAWatchdogTooShort)
 
 TEST_F(Doctor, AMasterInClearIsNamed)
 {
-    station()["clear"] = true;
+    station().clear = true;
 
     EXPECT_THAT(found(), ElementsAre("station.clear"));
     EXPECT_EQ(evidence("station.clear"), "master 2 is in Clear: 0 goes to every output of the drive");
@@ -551,7 +550,7 @@ TEST_F(Doctor, AMasterInClearIsNamed)
 
 TEST_F(Doctor, RideThroughIsNamedWithWhatIsLeftOfIt)
 {
-    station()["ride"] = Json::parse(R"({"ends_in_ms":4200.0})");
+    station().ride = report::Ride{4200.0};
 
     EXPECT_THAT(found(), ElementsAre("station.ride_through"));
     EXPECT_EQ(evidence("station.ride_through"), "the outputs stand for 4.2 s more");
@@ -608,7 +607,7 @@ TEST_F(Doctor, ADriveThatKnowsNoneOfTheTagsIsAnotherOne)
 TEST_F(Doctor, AnAnswerThatDoesNotFitItsRowIsAFaultOfTheTable)
 {
     word_is(0, "refused");
-    replies.io["stations"][0]["words"][0]["answer"] = "12.5";
+    replies.io.stations[0].words[0].answer = "12.5";
 
     EXPECT_THAT(found(), ElementsAre("station.other_type"));
     EXPECT_THAT(evidence("station.other_type"),
@@ -665,7 +664,7 @@ TEST_F(Doctor, ADriveThatIsAlwaysLateIsToldTheTimeThatItNeeds)
 
 TEST_F(Doctor, ADriveWhoseAnswersCannotBeReadIsNotCalledSilent)
 {
-    station()["drive"]["link"] = "silent";
+    station().drive.link = "silent";
     count_of_station("drive_damaged", 23);
     count_of_station("drive_bad_checksum", 20);
 
@@ -692,7 +691,7 @@ TEST_F(Doctor, ALineThatHearsItselfIsNeitherSilentNorUnreadable)
 
 TEST_F(Doctor, ADriveThatWasLateAWhileAgoMayBeSilentNow)
 {
-    station()["drive"]["link"] = "silent";
+    station().drive.link = "silent";
     set_count(1, "drive_late", 23, 23, 40'000.0);
 
     EXPECT_EQ(found().front(), "drive.silent");
@@ -705,7 +704,7 @@ TEST_F(Doctor, ADriveThatComesAndGoesIsOneCauseWhetherItAnswersNowOrNot)
     EXPECT_THAT(found(), ElementsAre("drive.unsteady"));
     EXPECT_THAT(evidence("drive.unsteady"), HasSubstr("it was lost 4 times in the last minute"));
 
-    station()["drive"]["link"] = "silent";
+    station().drive.link = "silent";
     EXPECT_THAT(found(), ElementsAre("drive.unsteady", "board.internal"));
 
     set_count(1, "drive_losses", 4, 4, 40'000.0);
@@ -715,12 +714,12 @@ TEST_F(Doctor, ADriveThatComesAndGoesIsOneCauseWhetherItAnswersNowOrNot)
 TEST_F(Doctor, NamesTheOnlyTagThatADriveDoesNotAnswer)
 {
     set_count(1, "drive_losses", 4, 4, 6'000.0);
-    Json& words = replies.io["stations"][0]["words"];
-    const Json once_more = words[0];
+    auto& words = replies.io.stations[0].words;
+    const report::Word once_more = words[0];
     words.push_back(once_more);
-    words.back()["tag"] = 57;
-    words.back()["age_ms"] = 14'600.0;
-    words[0]["age_ms"] = 40.0;
+    words.back().tag = 57;
+    words.back().age_ms = 14'600.0;
+    words[0].age_ms = 40.0;
 
     EXPECT_THAT(evidence("drive.unsteady"), HasSubstr("; tag 57 was not read for 14.6 s"));
 }
@@ -728,10 +727,10 @@ TEST_F(Doctor, NamesTheOnlyTagThatADriveDoesNotAnswer)
 TEST_F(Doctor, ARequestThatWasSpoiltOnItsWaySaysNothingAboutItsTag)
 {
     word_is(0, "refused");
-    const Json tag = replies.io["stations"][0]["words"][0]["tag"];
+    const std::int64_t tag = replies.io.stations[0].words[0].tag;
     EXPECT_EQ(found().front(), "station.refused");
 
-    drive_refuses(tag.get<unsigned>(), "not_understood", "tag 7: NAK, EE >02C2 (checksum (BCC) error)");
+    drive_refuses(tag, "not_understood", "tag 7: NAK, EE >02C2 (checksum (BCC) error)");
     count_of_station("drive_not_understood", 23);
     count_of_station("drive_not_accepted", 23);
     EXPECT_THAT(found(), ElementsAre("drive.not_accepted"));
@@ -740,7 +739,7 @@ TEST_F(Doctor, ARequestThatWasSpoiltOnItsWaySaysNothingAboutItsTag)
 TEST_F(Doctor, SaysThatOutputsStandWhereTheMasterIsGoneAndTheWatchdogIsOff)
 {
     hears_nothing_for(20'000);
-    station()["watchdog_ms"] = nullptr;
+    station().watchdog_ms = std::nullopt;
     set_count(1, "data_exchange", 50'000, 100, 20'000.0);
 
     EXPECT_THAT(found(), ElementsAre("bus.silent", "station.stands"));
@@ -750,8 +749,8 @@ TEST_F(Doctor, SaysThatOutputsStandWhereTheMasterIsGoneAndTheWatchdogIsOff)
 
 TEST_F(Doctor, NotesSyncAndFreezeThatHoldTheData)
 {
-    station()["sync"] = true;
-    station()["freeze"] = true;
+    station().sync = true;
+    station().freeze = true;
 
     EXPECT_THAT(found(), IsEmpty());
     EXPECT_THAT(found(true), ElementsAre("station.sync", "station.freeze"));
@@ -760,7 +759,7 @@ TEST_F(Doctor, NotesSyncAndFreezeThatHoldTheData)
 TEST_F(Doctor, NamesThreeCausesForAStationAtMost)
 {
     drive_was_never_heard();
-    station()["clear"] = true;
+    station().clear = true;
     word_is(1, "read only");
     word_is(0, "invalid tag");
     count_of_station("left_data_exchange", 9);
@@ -770,8 +769,8 @@ TEST_F(Doctor, NamesThreeCausesForAStationAtMost)
 
 TEST_F(Doctor, RemindsOfAPendingAddressAndOfTheAddressesOfMasters)
 {
-    info()["address_pending"] = 7;
-    station()["address"] = 2;
+    info().address_pending = 7;
+    station().address = 2;
 
     EXPECT_THAT(found(true), ElementsAre("station.address_pending", "station.low_address"));
     EXPECT_EQ(evidence("station.address_pending"), "address 5 is active, the configuration file has 7");
@@ -781,10 +780,8 @@ TEST_F(Doctor, RemindsOfAPendingAddressAndOfTheAddressesOfMasters)
 
 TEST_F(Doctor, NamesTheTagsWithoutAScaleAndTheirAnswers)
 {
-    replies.diagnosis["stations"][0]["held"] = true;
-    replies.diagnosis["stations"][0]["unscaled"] =
-        Json::array({{{"tag", 55}, {"direction", "in"}, {"answer", "12.5"}, {"contradicted", false}},
-                     {{"tag", 56}, {"direction", "in"}, {"answer", "12.34"}, {"contradicted", true}}});
+    replies.diagnosis.stations[0].held = true;
+    replies.diagnosis.stations[0].unscaled = {{55, "in", "12.5", false}, {56, "in", "12.34", true}};
 
     EXPECT_THAT(found(), ElementsAre("station.unscaled"));
     EXPECT_EQ(evidence("station.unscaled"), "tag 55 answers '12.5', tag 56 answers '12.34', more decimals "
@@ -794,14 +791,14 @@ TEST_F(Doctor, NamesTheTagsWithoutAScaleAndTheirAnswers)
 
 TEST_F(Doctor, SaysThatAStationHasNoTagTable)
 {
-    info()["tags_in_table"] = 0;
+    info().tags_in_table = 0;
     EXPECT_THAT(found(true), testing::Contains("station.no_table"));
 }
 
 TEST_F(Doctor, SaysThatTripsAreNotKnown)
 {
     is_technology_box(0, "NONE", 0);
-    replies.tec["stations"][0]["trip"] = "not known: no tag tells it";
+    replies.tec.stations[0].trip = "not known: no tag tells it";
     EXPECT_THAT(found(true), testing::Contains("station.no_trip"));
 }
 

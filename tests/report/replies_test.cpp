@@ -128,21 +128,24 @@ TEST(Replies, OfANewerDaemonMayHaveKeysThatAreNotKnown)
     EXPECT_EQ(json_of(read<StationWords>(newer)), kWords);
 }
 
-TEST(Replies, OfAnOlderDaemonLackKeysWhoseFieldsStayEmpty)
+TEST(Replies, OfAnOlderDaemonLackKeysWhoseTextsAreUnknownAndWhoseOtherFieldsKeepTheirDefault)
 {
-    EXPECT_EQ(read<StationWords>(Json::parse(R"({"words": [{}]})")), (StationWords{"", {Word{}}}));
-    EXPECT_EQ(read<StationWords>(Json::parse(R"([1])")), StationWords{});
+    const Word word{.direction = "?", .value = "?", .state = "?"};
+
+    EXPECT_EQ(read<StationWords>(Json::parse(R"({"words": [{}]})")), (StationWords{"?", {word}}));
+    EXPECT_EQ(read<StationWords>(Json::parse(R"([1])")), (StationWords{"?", {}}));
 }
 
-TEST(Replies, WithAValueOfAnotherTypeLeaveTheFieldEmpty)
+TEST(Replies, WithAValueOfAnotherTypeAreReadAsIfItWereMissing)
 {
     const auto word = read<Word>(Json::parse(R"({"tag": "20", "raw": 1.5, "value": 7, "age_ms": 2})"));
 
     EXPECT_EQ(word.tag, 0);
     EXPECT_EQ(word.raw, 0);
-    EXPECT_EQ(word.value, "");
+    EXPECT_EQ(word.value, "?");
     EXPECT_EQ(word.age_ms, 2.0);
-    EXPECT_EQ(read<Bus>(Json::parse(R"({"unanswered": {"address": 1}, "port_open": 0})")), Bus{});
+    EXPECT_EQ(read<Bus>(Json::parse(R"({"unanswered": {"address": 1}, "port_open": 0})")),
+              (Bus{.port = "?", .baud_state = "?"}));
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// From a struct to JSON and back, by the one list of its fields. Reading never throws: a key that is
-/// missing, null or of another type leaves the field as it was, and an unknown key is passed over, so that
-/// daemon and dpctl of different releases understand each other.
+/// From a struct to JSON and back, by the one list of its fields. Reading never throws, so that daemon and
+/// dpctl of different releases understand each other: a text that is missing, null or of another type is
+/// "?", another field keeps its default, and an unknown key is passed over.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -69,11 +69,11 @@ void take(const Json& json, std::optional<T>& value)
 template <HasFields T>
 void take(const Json& json, T& value)
 {
-    if (!json.is_object()) return;
+    static const Json kNothing;
     std::string_view names = T::kFields;
     const auto take_field = [&](auto& field) {
         const auto found = json.find(take_name(names));
-        if (found != json.end()) take(*found, field);
+        take(found != json.end() ? *found : kNothing, field);
     };
     std::apply([&](auto&... each) { (take_field(each), ...); }, value.fields());
 }
@@ -109,7 +109,6 @@ Json json_of(const T& value)
     return json;
 }
 
-/// `json` as a T; what it lacks has the value of an empty T.
 template <HasFields T>
 T read(const Json& json)
 {

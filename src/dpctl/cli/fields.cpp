@@ -41,7 +41,11 @@ std::optional<double> real(const Json& object, const char* key)
 
 std::string number(const Json& object, const char* key, std::string_view without)
 {
-    const auto value = integer(object, key);
+    return number(integer(object, key), without);
+}
+
+std::string number(std::optional<std::int64_t> value, std::string_view without)
+{
     return value ? std::to_string(*value) : std::string{without};
 }
 
@@ -68,6 +72,16 @@ std::string joined(const Json& array, std::string_view between)
         if (item.is_number_integer()) result += std::to_string(item.get<std::int64_t>());
     }
     return result;
+}
+
+std::string joined(const std::vector<std::string>& texts, std::string_view between)
+{
+    std::string all;
+    for (const std::string& one : texts) {
+        if (!all.empty()) all += between;
+        all += one;
+    }
+    return all;
 }
 
 } // namespace dpslave::dpctl

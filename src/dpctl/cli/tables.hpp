@@ -5,12 +5,14 @@
 #include "fields.hpp"
 #include "table.hpp"
 
+#include "dpslave/report/replies.hpp"
+
 #include <string>
 #include <string_view>
 
 namespace dpslave::dpctl {
 
-std::string bus_line(const Json& bus);
+std::string bus_line(const report::Bus& bus);
 /// "Data_Exch", "Data_Exch in Clear", "Power_On".
 std::string state_text(const Json& station);
 /// "answers", "silent", "port gone".

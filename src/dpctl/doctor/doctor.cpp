@@ -14,29 +14,31 @@
 namespace dpslave::dpctl {
 namespace {
 
-/// The object of `array` with this name; an empty one without.
-const Json& named(const Json& array, const std::string& name)
+template <class T>
+const T kNothing{};
+
+/// The one with this name; an empty one without.
+template <class T>
+const T& named(const std::vector<T>& all, const std::string& name)
 {
-    static const Json nothing = Json::object();
-    for (const Json& item : array)
-        if (text(item, "name") == name) return item;
-    return nothing;
+    for (const T& one : all)
+        if (one.name == name) return one;
+    return kNothing<T>;
 }
 
-Family family_of(const Json& info, const Json& tec)
+Family family_of(const report::Info& info, const report::Tec& tec)
 {
-    if (!tec.empty()) return Family::technology_box;
-    return text(info, "comms_status", "").empty() ? Family::option_board : Family::controller;
+    if (!tec.name.empty()) return Family::technology_box;
+    return info.comms_status.value_or("").empty() ? Family::option_board : Family::controller;
 }
 
 /// The counters of a station: the first group is that of the bus, whatever a station is called.
-const Json& group_of(const Json& counters, const std::string& name)
+const report::CounterGroup& group_of(const report::GetCountersReply& counters, const std::string& name)
 {
-    static const Json nothing = Json::object();
     bool is_bus = true;
-    for (const Json& group : list(counters, "groups"))
-        if (!std::exchange(is_bus, false) && text(group, "name") == name) return group;
-    return nothing;
+    for (const report::CounterGroup& group : counters.groups)
+        if (!std::exchange(is_bus, false) && group.name == name) return group;
+    return kNothing<report::CounterGroup>;
 }
 
 /// The first causes of each station and of the bus, and all notes.
@@ -49,40 +51,47 @@ std::vector<Finding> without_the_least(std::vector<Finding> findings)
     return findings;
 }
 
-bool is_known(const Json& status, const std::string& wanted)
+bool is_known(const std::vector<report::Station>& stations, const std::string& wanted)
 {
-    const Json& stations = list(status, "stations");
     return std::any_of(stations.begin(), stations.end(),
-                       [&](const Json& one) { return is_meant(one, wanted); });
+                       [&](const report::Station& one) { return is_meant(one, wanted); });
 }
 
 } // namespace
 
-bool is_meant(const Json& station, const std::string& wanted)
+bool is_meant(const report::Station& station, const std::string& wanted)
 {
-    return wanted.empty() || text(station, "name") == wanted || number(station, "address") == wanted;
+    return wanted.empty() || station.name == wanted || std::to_string(station.address) == wanted;
 }
 
 std::vector<Finding> diagnose(const Replies& replies, const std::string& wanted)
 {
-    static const Json nothing = Json::object();
-    const Json& bus = part(replies.status, "bus");
-    const Json& counters = named(list(replies.counters, "groups"), "bus");
-    const std::int64_t uptime = integer(replies.status, "uptime_ms").value_or(0);
+    const report::Bus& bus = replies.status.bus;
+    const report::CounterGroup& counters = named(replies.counters.groups, "bus");
+    const std::int64_t uptime = replies.status.uptime_ms;
     std::vector<Finding> findings;
     for (const Rule& rule : rules()) {
         if (is_of_bus(rule)) {
-            const Facts facts{replies, bus,     counters, uptime, Family::option_board, nothing, nothing,
-                              nothing, nothing, nothing,  nothing};
+            const Facts facts{replies,
+                              bus,
+                              counters,
+                              uptime,
+                              Family::option_board,
+                              kNothing<report::Station>,
+                              kNothing<report::CounterGroup>,
+                              kNothing<report::Info>,
+                              kNothing<report::Diagnosis>,
+                              kNothing<report::Tec>,
+                              kNothing<report::StationIo>};
             if (std::string seen = rule.seen(facts); !seen.empty())
                 findings.push_back({"", &rule, std::move(seen)});
             continue;
         }
-        for (const Json& station : list(replies.status, "stations")) {
-            if (!station.is_object() || !is_meant(station, wanted)) continue;
-            const std::string name = text(station, "name");
-            const Json& info = named(list(replies.info, "stations"), name);
-            const Json& tec = named(list(replies.tec, "stations"), name);
+        for (const report::Station& station : replies.status.stations) {
+            if (!is_meant(station, wanted)) continue;
+            const std::string& name = station.name;
+            const report::Info& info = named(replies.info.stations, name);
+            const report::Tec& tec = named(replies.tec.stations, name);
             const Facts facts{replies,
                               bus,
                               counters,
@@ -91,9 +100,9 @@ std::vector<Finding> diagnose(const Replies& replies, const std::string& wanted)
                               station,
                               group_of(replies.counters, name),
                               info,
-                              named(list(replies.diagnosis, "stations"), name),
+                              named(replies.diagnosis.stations, name),
                               tec,
-                              named(list(replies.io, "stations"), name)};
+                              named(replies.io.stations, name)};
             if (std::string seen = rule.seen(facts); !seen.empty())
                 findings.push_back({name, &rule, std::move(seen)});
         }
@@ -104,27 +113,24 @@ std::vector<Finding> diagnose(const Replies& replies, const std::string& wanted)
     return without_the_least(std::move(findings));
 }
 
-std::optional<LineLimit> line_limit(const Json& bus)
+std::optional<LineLimit> line_limit(const report::Bus& bus)
 {
-    if (text(bus, "baud_state") == "Baud_Search") return std::nullopt;
-    const auto baud = integer(bus, "baud");
+    if (bus.baud_state == "Baud_Search") return std::nullopt;
     for (const LineLimit& limit : kLineLimits)
-        if (limit.baud == baud) return limit;
+        if (limit.baud == bus.baud) return limit;
     return std::nullopt;
 }
 
 namespace {
 
-std::string probe_text(const Json& reply)
+std::string probe_text(const report::ProbeDriveReply& reply)
 {
-    const Json& answering = list(reply, "answering");
-    std::string out = fmt::format("{}: asked {} on line {} ({})\n", text(reply, "station"),
-                                  plural(integer(reply, "tried").value_or(0), "time"), text(reply, "line"),
-                                  text(reply, "port"));
-    for (const Json& one : answering)
-        out += fmt::format("a drive answers: {} unit {} at {}, {}\n", text(one, "protocol"),
-                           text(one, "unit"), rate(integer(one, "baud").value_or(0)), text(one, "format"));
-    if (answering.empty())
+    std::string out = fmt::format("{}: asked {} on line {} ({})\n", reply.station,
+                                  plural(reply.tried, "time"), reply.line, reply.port);
+    for (const report::Answering& one : reply.answering)
+        out += fmt::format("a drive answers: {} unit {} at {}, {}\n", one.protocol, one.unit, rate(one.baud),
+                           one.format);
+    if (reply.answering.empty())
         return out +
                "nothing answers at any rate, format or unit: cable, power, or the drive's port is not set "
                "to this protocol\n";
@@ -134,13 +140,13 @@ std::string probe_text(const Json& reply)
 }
 
 /// How long it takes at most, and then how far it is: on a terminal only, over the same line.
-void tell_progress(const Json& reply, bool is_first, Terminal& terminal)
+void tell_progress(const report::ProbeDriveReply& reply, bool is_first, Terminal& terminal)
 {
     if (is_first)
         terminal.err << fmt::format("looking for the drive of {} on {}: {} s at most; Ctrl-C ends it\n",
-                                    text(reply, "station"), text(reply, "port"), number(reply, "longest_s"));
+                                    reply.station, reply.port, reply.longest_s);
     else if (terminal.tty)
-        terminal.err << fmt::format("\r{} of {} asked", number(reply, "tried"), number(reply, "to_try"));
+        terminal.err << fmt::format("\r{} of {} asked", reply.tried, reply.to_try);
     terminal.err << std::flush;
 }
 
@@ -160,12 +166,13 @@ int do_probe(const Options& options, Terminal& terminal)
             return kNo;
         }
         if (!(*reply)->error.empty()) return tell(**reply, options, terminal);
-        Json now =
+        const Json told =
             options.json ? std::move((*reply)->parameters) : printable_texts(std::move((*reply)->parameters));
-        if (flag(now, "done") || !(*reply)->continues) {
+        const auto now = report::read<report::ProbeDriveReply>(told);
+        if (now.done || !(*reply)->continues) {
             if (terminal.tty) terminal.err << "\r\033[K" << std::flush;
-            terminal.out << (options.json ? json_text(now) + '\n' : probe_text(now)) << std::flush;
-            return list(now, "answering").empty() ? kNo : kFine;
+            terminal.out << (options.json ? json_text(told) + '\n' : probe_text(now)) << std::flush;
+            return now.answering.empty() ? kNo : kFine;
         }
         tell_progress(now, is_first, terminal);
     }
@@ -181,19 +188,24 @@ int do_doctor(const Options& options, Terminal& terminal)
         return kFine;
     }
     Replies replies;
-    const std::array<std::pair<const char*, Json*>, 7> questions = {{{"GetStatus", &replies.status},
-                                                                     {"GetInfo", &replies.info},
-                                                                     {"GetDiagnosis", &replies.diagnosis},
-                                                                     {"GetCounters", &replies.counters},
-                                                                     {"GetLeds", &replies.leds},
-                                                                     {"GetTec", &replies.tec},
-                                                                     {"GetIo", &replies.io}}};
-    for (const auto& [method, reply] : questions) {
-        auto answer = ask(options, terminal, method, Json::object());
-        if (!answer) return answer.error();
-        *reply = *std::move(answer);
-    }
-    if (!is_known(replies.status, options.station)) {
+    std::optional<int> failed;
+    const auto fetch = [&](std::string_view method, auto& reply) {
+        if (failed) return;
+        const auto answer = ask(options, terminal, method, Json::object());
+        if (!answer)
+            failed = answer.error();
+        else
+            report::take(*answer, reply);
+    };
+    fetch("GetStatus", replies.status);
+    fetch("GetInfo", replies.info);
+    fetch("GetDiagnosis", replies.diagnosis);
+    fetch("GetCounters", replies.counters);
+    fetch("GetLeds", replies.leds);
+    fetch("GetTec", replies.tec);
+    fetch("GetIo", replies.io);
+    if (failed) return *failed;
+    if (!is_known(replies.status.stations, options.station)) {
         terminal.err << (options.station.empty()
                              ? std::string{"dpctl: there is no station\n"}
                              : fmt::format("dpctl: there is no station '{}'\n", options.station));

@@ -7,6 +7,8 @@
 #include "dpctl/cli/fields.hpp"
 #include "dpctl/cli/table.hpp"
 
+#include "dpslave/report/replies.hpp"
+
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -17,27 +19,34 @@
 
 namespace dpslave::dpctl {
 
-/// The parameters of the replies, by method.
+/// What a diagnosis asks for.
 struct Replies {
-    Json status, info, diagnosis, counters, leds, tec, io;
+    report::GetStatusReply status{};
+    report::GetInfoReply info{};
+    report::GetDiagnosisReply diagnosis{};
+    report::GetCountersReply counters{};
+    report::GetLedsReply leds{};
+    report::GetTecReply tec{};
+    report::GetIoReply io{};
 };
 
 /// Whose troubleshooting table counts.
 enum class Family : std::uint8_t { option_board, technology_box, controller };
 
-/// What a rule may look at: the bus, and one station (empty objects in rules of the bus).
+/// What a rule may look at: the bus, and one station (empty in rules of the bus, and what the daemon does not
+/// tell of it).
 struct Facts {
     const Replies& replies;
-    const Json& bus;
-    const Json& counters; ///< of the bus
+    const report::Bus& bus;
+    const report::CounterGroup& counters; ///< of the bus
     std::int64_t uptime_ms = 0;
     Family family = Family::option_board;
-    const Json& station;
-    const Json& station_counters;
-    const Json& info;
-    const Json& diagnosis;
-    const Json& tec;
-    const Json& io;
+    const report::Station& station;
+    const report::CounterGroup& station_counters;
+    const report::Info& info;
+    const report::Diagnosis& diagnosis;
+    const report::Tec& tec;
+    const report::StationIo& io;
 };
 
 /// What comes first: what explains the rest. Within a rank the order of rules() counts.
@@ -101,9 +110,9 @@ inline constexpr std::array kLineLimits = std::to_array<LineLimit>({
     {1500000, 200, std::nullopt},
 });
 /// Nothing while the rate is searched, or for a rate that the table does not have.
-std::optional<LineLimit> line_limit(const Json& bus);
+std::optional<LineLimit> line_limit(const report::Bus& bus);
 
-bool is_meant(const Json& station, const std::string& wanted);
+bool is_meant(const report::Station& station, const std::string& wanted);
 
 Json doctor_json(const Replies& replies, const std::vector<Finding>& findings,
                  const std::vector<Earlier>& earlier);

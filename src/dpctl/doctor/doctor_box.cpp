@@ -11,30 +11,34 @@
 namespace dpslave::dpctl {
 namespace {
 
-/// The row of the function block; an empty object without the block.
-const Json& row(const Facts& f, std::string_view name)
+/// The row of the function block; null without the block.
+const report::TecRow* row(const Facts& f, std::string_view name)
 {
-    static const Json nothing = Json::object();
-    for (const Json& one : list(f.tec, "rows"))
-        if (text(one, "name") == name) return one;
-    return nothing;
+    for (const report::TecRow& one : f.tec.rows)
+        if (one.name == name) return &one;
+    return nullptr;
+}
+
+bool is_row(const Facts& f, std::string_view name, auto value)
+{
+    const report::TecRow* one = row(f, name);
+    return one != nullptr && one->value == static_cast<std::int64_t>(value);
 }
 
 bool fault_is(const Facts& f, OptionFault fault)
 {
-    return integer(row(f, "FAULT"), "value") == static_cast<std::int64_t>(fault);
+    return is_row(f, "FAULT", fault);
 }
 
 /// FAULT is NONE, and NETWORK STATE this.
 bool network_is(const Facts& f, NetworkState state)
 {
-    return fault_is(f, OptionFault::none) &&
-           integer(row(f, "NETWORK STATE"), "value") == static_cast<std::int64_t>(state);
+    return fault_is(f, OptionFault::none) && is_row(f, "NETWORK STATE", state);
 }
 
 std::string fault_words(const Facts& f)
 {
-    return "FAULT is " + text(row(f, "FAULT"), "shown");
+    return "FAULT is " + row(f, "FAULT")->shown;
 }
 
 std::string with_refusal(const Facts& f, std::string_view network_state)
@@ -89,11 +93,11 @@ std::string seen_works(const Facts& f)
 }
 std::string seen_trip(const Facts& f)
 {
-    return flag(f.tec, "tripped") ? "trip " + text(f.tec, "trip") : std::string{};
+    return f.tec.tripped.value_or(false) ? "trip " + f.tec.trip.value_or("?") : std::string{};
 }
 std::string seen_tec_notes(const Facts& f)
 {
-    return joined(list(f.tec, "notes"), " ");
+    return joined(f.tec.notes, " ");
 }
 
 constexpr std::array kRules = std::to_array<Rule>({

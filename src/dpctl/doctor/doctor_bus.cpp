@@ -32,8 +32,8 @@ constexpr std::array kNotUnderstood = std::to_array<std::string_view>({
 Count flaws(const Facts& f)
 {
     Count sum;
-    for (const Json& counter : list(f.counters, "counters")) {
-        const std::string name = text(counter, "name");
+    for (const report::Counter& counter : f.counters.counters) {
+        const std::string& name = counter.name;
         if (!name.starts_with("flaw: ") ||
             std::find(kNotUnderstood.begin(), kNotUnderstood.end(), name) != kNotUnderstood.end())
             continue;
@@ -49,12 +49,12 @@ Count flaws(const Facts& f)
 
 std::string seen_gone(const Facts& f)
 {
-    if (!f.bus.contains("port_open") || flag(f.bus, "port_open")) return {};
-    return text(f.bus, "port") + " is not there";
+    if (f.bus.port_open) return {};
+    return f.bus.port + " is not there";
 }
 std::string seen_driver_gone(const Facts& f)
 {
-    if (!f.bus.contains("driver_works") || flag(f.bus, "driver_works")) return {};
+    if (f.bus.driver_works) return {};
     return fmt::format("{} failed; nothing is sent until one works again",
                        plural(counted(f.counters, "driver_errors").total, "edge"));
 }
@@ -99,8 +99,8 @@ std::string seen_silent(const Facts& f)
 std::string seen_rate(const Facts& f)
 {
     if (!bus_is_heard(f) || telegrams_are_heard(f)) return {};
-    if (f.bus.contains("port_open") && !flag(f.bus, "port_open")) return {};
-    const auto fixed = integer(f.bus, "configured_baud");
+    if (!f.bus.port_open) return {};
+    const auto fixed = f.bus.configured_baud;
     return silence(f) +
            (fixed ? fmt::format("; the rate is fixed at {} ([bus] baud)", rate(*fixed))
                   : std::string{"; the rate is searched (all but 45.45 kbit/s), and none gives telegrams"});
@@ -111,18 +111,18 @@ std::string seen_other_address(const Facts& f)
     constexpr std::int64_t kEnough = 3; // a master that starts asks each of its slaves
     if (!telegrams_are_heard(f)) return {};
     bool is_bus = true;
-    for (const Json& group : list(f.replies.counters, "groups"))
+    for (const report::CounterGroup& group : f.replies.counters.groups)
         if (!std::exchange(is_bus, false) && is_asked(group)) return {};
     std::string asked;
-    for (const Json& one : list(f.bus, "unanswered"))
-        if (integer(one, "requests").value_or(0) >= kEnough && real(one, "age_ms").value_or(kNow) < kNow)
-            asked += fmt::format("{}master {} asks for address {} ({}) and gets no answer",
-                                 asked.empty() ? "" : "; ", number(one, "master"), number(one, "address"),
-                                 plural(integer(one, "requests").value_or(0), "time"));
+    for (const report::Unanswered& one : f.bus.unanswered)
+        if (one.requests >= kEnough && one.age_ms < kNow)
+            asked +=
+                fmt::format("{}master {} asks for address {} ({}) and gets no answer",
+                            asked.empty() ? "" : "; ", one.master, one.address, plural(one.requests, "time"));
     if (asked.empty()) return {};
     std::string ours;
-    for (const Json& station : list(f.replies.status, "stations"))
-        ours += (ours.empty() ? "" : ", ") + number(station, "address");
+    for (const report::Station& station : f.replies.status.stations)
+        ours += (ours.empty() ? "" : ", ") + std::to_string(station.address);
     return asked + "; no master asks for ours: " + ours;
 }
 std::string seen_late(const Facts& f)

@@ -26,17 +26,17 @@ std::string seen_jammed(const Facts& f)
 {
     if (!is_controller(f) || !exchanges(f)) return {};
     std::string written;
-    for (const Json& word : list(f.io, "words")) {
-        if (text(word, "direction") != "out") continue;
-        const std::string name = text(word, "name", "");
-        written += fmt::format("{}{}{}", written.empty() ? "" : ", ", number(word, "tag"),
-                               name.empty() ? "" : " " + name);
+    for (const report::Word& word : f.io.words) {
+        if (word.direction != "out") continue;
+        const std::string name = word.name.value_or("");
+        written +=
+            fmt::format("{}{}{}", written.empty() ? "" : ", ", word.tag, name.empty() ? "" : " " + name);
     }
     return written.empty() ? std::string{} : "outputs of the master: " + written;
 }
 std::string seen_format(const Facts& f)
 {
-    const std::string resolution = text(f.info, "resolution", "");
+    const std::string resolution = f.info.resolution.value_or("");
     return is_controller(f) && exchanges(f) && !resolution.empty() ? "resolution is " + resolution
                                                                    : std::string{};
 }

@@ -24,28 +24,23 @@ constexpr double kFirstQuestions = 5'000; ///< ms: a drive that was not asked ye
 constexpr double kComesBack = 30'000;     ///< ms: a drive that comes and goes is lost again within that
 constexpr double kOfNow = 15'000;         ///< ms: a lost drive is asked every few seconds
 
-bool is_gone(const Json& drive)
-{
-    return drive.contains("port_open") && !flag(drive, "port_open");
-}
 bool is_silent(const Facts& f)
 {
-    const Json& d = part(f.station, "drive");
-    return !is_gone(d) && text(d, "link") == "silent";
+    const report::Drive& d = f.station.drive;
+    return d.port_open && d.link == "silent";
 }
 
 /// "EI-ASCII unit 00 on p3: /dev/ttyS2 at 9.6 kbit/s, 7E1".
-std::string settings_of(const Json& d)
+std::string settings_of(const report::Drive& d)
 {
-    return fmt::format("{} unit {} on {}: {} at {}, {}", text(d, "protocol"), text(d, "unit"),
-                       text(d, "line"), text(d, "port"), rate(integer(d, "baud").value_or(0)),
-                       text(d, "format"));
+    return fmt::format("{} unit {} on {}: {} at {}, {}", d.protocol, d.unit, d.line, d.port, rate(d.baud),
+                       d.format);
 }
 
 std::string seen_gone(const Facts& f)
 {
-    const Json& d = part(f.station, "drive");
-    return is_gone(d) ? fmt::format("{} of line {} is not there", text(d, "port"), text(d, "line")) : "";
+    const report::Drive& d = f.station.drive;
+    return !d.port_open ? fmt::format("{} of line {} is not there", d.port, d.line) : "";
 }
 /// Do we hear ourselves? Then what else is heard says nothing of the drive.
 bool is_echo(const Facts& f)
@@ -58,7 +53,7 @@ std::string seen_echo(const Facts& f)
     const Count back = counted(f.station_counters, "drive_came_back");
     if (!is_echo(f)) return {};
     return fmt::format("{} came back {}: the adapter of {} hears what it sends, and [[line]] echo is off",
-                       plural(back.minute, "request"), lately(back), text(part(f.station, "drive"), "port"));
+                       plural(back.minute, "request"), lately(back), f.station.drive.port);
 }
 /// Is it the time-out, and not the drive, that is wrong? Then it is not silent.
 bool is_late(const Facts& f)
@@ -85,22 +80,21 @@ bool is_unreadable(const Facts& f)
 std::string seen_unreadable(const Facts& f)
 {
     if (!is_unreadable(f)) return {};
-    const Json& d = part(f.station, "drive");
+    const report::Drive& d = f.station.drive;
     return fmt::format("{}; {}, and {}", settings_of(d), damaged_words(f),
-                       flag(d, "ever_answered") ? "it answered well before" : "none was ever good");
+                       d.ever_answered ? "it answered well before" : "none was ever good");
 }
 std::string seen_never(const Facts& f)
 {
-    const Json& d = part(f.station, "drive");
-    if (!is_silent(f) || flag(d, "ever_answered") || is_late(f) || is_unreadable(f) || is_echo(f)) return {};
-    return fmt::format("{}; {} and never an answer", settings_of(d),
-                       plural(integer(d, "silences").value_or(0), "request"));
+    const report::Drive& d = f.station.drive;
+    if (!is_silent(f) || d.ever_answered || is_late(f) || is_unreadable(f) || is_echo(f)) return {};
+    return fmt::format("{}; {} and never an answer", settings_of(d), plural(d.silences, "request"));
 }
 /// Was it lost more than once, and not for a reason that has a rule of its own?
 bool is_unsteady(const Facts& f)
 {
     const Count lost = counted(f.station_counters, "drive_losses");
-    return !is_gone(part(f.station, "drive")) && lost.minute >= 2 && lost.within(kComesBack) && !is_late(f) &&
+    return f.station.drive.port_open && lost.minute >= 2 && lost.within(kComesBack) && !is_late(f) &&
            !is_unreadable(f) && !is_echo(f);
 }
 /// "; tag 57 was not read for 14.6 s": where others were.
@@ -109,10 +103,10 @@ std::string unread(const Facts& f)
     constexpr double kOld = 10'000, kNew = 5'000;
     std::string old;
     bool is_one_new = false;
-    for (const Json& word : list(f.io, "words")) {
-        const auto ms = real(word, "age_ms");
-        if (text(word, "direction") != "in" || !ms) continue;
-        if (*ms > kOld) old += fmt::format("; tag {} was not read for {}", number(word, "tag"), age(ms));
+    for (const report::Word& word : f.io.words) {
+        const auto ms = word.age_ms;
+        if (word.direction != "in" || !ms) continue;
+        if (*ms > kOld) old += fmt::format("; tag {} was not read for {}", word.tag, age(ms));
         is_one_new = is_one_new || *ms < kNew;
     }
     return is_one_new ? old : std::string{};
@@ -121,14 +115,13 @@ std::string seen_unsteady(const Facts& f)
 {
     if (!is_unsteady(f)) return {};
     const Count lost = counted(f.station_counters, "drive_losses");
-    return fmt::format("{}; it was lost {} {}{}", settings_of(part(f.station, "drive")),
-                       plural(lost.minute, "time"), lately(lost), unread(f));
+    return fmt::format("{}; it was lost {} {}{}", settings_of(f.station.drive), plural(lost.minute, "time"),
+                       lately(lost), unread(f));
 }
 std::string seen_silent(const Facts& f)
 {
-    const Json& d = part(f.station, "drive");
-    if (is_unsteady(f) || !is_silent(f) || !flag(d, "ever_answered") || is_late(f) || is_unreadable(f) ||
-        is_echo(f))
+    const report::Drive& d = f.station.drive;
+    if (is_unsteady(f) || !is_silent(f) || !d.ever_answered || is_late(f) || is_unreadable(f) || is_echo(f))
         return {};
     const Count lost = counted(f.station_counters, "drive_losses");
     return fmt::format("{}; it does not answer{}", settings_of(d),
@@ -138,12 +131,11 @@ std::string seen_late(const Facts& f)
 {
     const Count late = counted(f.station_counters, "drive_late");
     if (late.minute < kSome || !is_late(f)) return {};
-    const Json& d = part(f.station, "drive");
+    const report::Drive& d = f.station.drive;
     const std::int64_t needed = counted(f.station_counters, "drive_needs_timeout_ms").total;
     const std::int64_t delay = counted(f.station_counters, "drive_delay_ms").total;
     return fmt::format(
-        "{} came after timeout_ms = {} {}{}", plural(late.minute, "answer"), number(d, "timeout_ms"),
-        lately(late),
+        "{} came after timeout_ms = {} {}{}", plural(late.minute, "answer"), d.timeout_ms, lately(late),
         needed > 0 ? fmt::format("; the slowest took {} ms: set timeout_ms = {} at least", delay, needed)
                    : std::string{});
 }
@@ -151,7 +143,7 @@ std::string seen_damaged(const Facts& f)
 {
     if (counted(f.station_counters, "drive_damaged").minute < kSome || is_unreadable(f) || is_echo(f))
         return {};
-    if (!flag(part(f.station, "drive"), "ever_answered")) return {};
+    if (!f.station.drive.ever_answered) return {};
     const std::int64_t good = counted(f.station_counters, "drive_reads").minute +
                               counted(f.station_counters, "drive_writes").minute;
     return fmt::format("{}, beside {} good ones", damaged_words(f), good);
@@ -181,7 +173,7 @@ std::string seen_not_understood(const Facts& f)
 }
 std::string seen_noise(const Facts& f)
 {
-    if (text(part(f.station, "drive"), "link") != "answers") return {};
+    if (f.station.drive.link != "answers") return {};
     const Count silences = counted(f.station_counters, "drive_silences");
     const std::int64_t all = silences.minute + counted(f.station_counters, "drive_reads").minute +
                              counted(f.station_counters, "drive_writes").minute;
@@ -194,9 +186,8 @@ std::string seen_noise(const Facts& f)
 }
 std::string seen_unknown(const Facts& f)
 {
-    const Json& d = part(f.station, "drive");
-    if (is_gone(d) || text(d, "link") != "unknown" || static_cast<double>(f.uptime_ms) < kFirstQuestions)
-        return {};
+    const report::Drive& d = f.station.drive;
+    if (!d.port_open || d.link != "unknown" || static_cast<double>(f.uptime_ms) < kFirstQuestions) return {};
     return settings_of(d) + "; it was not asked yet";
 }
 

@@ -46,19 +46,19 @@ std::vector<Earlier> earlier_troubles(const Replies& replies, const std::string&
 {
     std::vector<Earlier> all;
     bool is_bus = true;
-    for (const Json& group : list(replies.counters, "groups")) {
+    for (const report::CounterGroup& group : replies.counters.groups) {
         if (std::exchange(is_bus, false)) {
             for (const Named& one : kOfBus) add(all, "", counted(group, one.counter), std::string{one.what});
-            for (const Json& counter : list(group, "counters"))
-                if (const std::string name = text(counter, "name"); name.starts_with(kFlaw))
-                    add(all, "", counted(group, name), "flaws of the line: " + name.substr(kFlaw.size()));
+            for (const report::Counter& counter : group.counters)
+                if (counter.name.starts_with(kFlaw))
+                    add(all, "", counted(group, counter.name),
+                        "flaws of the line: " + counter.name.substr(kFlaw.size()));
             continue;
         }
-        const std::string name = text(group, "name");
-        for (const Json& station : list(replies.status, "stations"))
-            if (station.is_object() && text(station, "name") == name && is_meant(station, wanted))
+        for (const report::Station& station : replies.status.stations)
+            if (station.name == group.name && is_meant(station, wanted))
                 for (const Named& one : kOfStation)
-                    add(all, name, counted(group, one.counter), std::string{one.what});
+                    add(all, group.name, counted(group, one.counter), std::string{one.what});
     }
     return all;
 }

@@ -21,21 +21,21 @@ constexpr double kAsked = 10'000;
 
 bool is_in(const Facts& f, std::string_view state)
 {
-    return text(f.station, "state") == state;
+    return f.station.state == state;
 }
 bool exchanges(const Facts& f)
 {
     return is_in(f, "Data_Exch");
 }
 
-Count counted(const Json& group, std::string_view name)
+Count counted(const report::CounterGroup& group, std::string_view name)
 {
-    for (const Json& counter : list(group, "counters"))
-        if (text(counter, "name") == name)
-            return {.total = integer(counter, "value").value_or(0),
-                    .minute = integer(counter, "minute").value_or(0),
-                    .last_ms = real(counter, "last_age_ms"),
-                    .since_ms = real(counter, "since_age_ms")};
+    for (const report::Counter& counter : group.counters)
+        if (counter.name == name)
+            return {.total = counter.value,
+                    .minute = counter.minute,
+                    .last_ms = counter.last_age_ms,
+                    .since_ms = counter.since_age_ms};
     return {};
 }
 
@@ -46,7 +46,7 @@ std::string lately(const Count& count)
     return "in the last minute, since " + age(count.since_ms);
 }
 
-bool is_asked(const Json& station_counters)
+bool is_asked(const report::CounterGroup& station_counters)
 {
     constexpr std::array kAsks = std::to_array<std::string_view>(
         {"data_exchange", "slave_diag", "set_prm", "chk_cfg", "get_cfg", "rd_inp", "rd_outp"});
@@ -59,7 +59,7 @@ namespace {
 /// As of now, where the counters may be a second old.
 bool is_telegram_within(const Facts& f, double ms)
 {
-    const auto last = real(f.bus, "last_telegram_age_ms");
+    const auto last = f.bus.last_telegram_age_ms;
     return last && *last <= ms;
 }
 
@@ -67,7 +67,7 @@ bool is_telegram_within(const Facts& f, double ms)
 
 bool bus_is_heard(const Facts& f)
 {
-    if (f.bus.contains("port_open") && !flag(f.bus, "port_open")) return true;
+    if (!f.bus.port_open) return true;
     const Count octets = counted(f.counters, "octets");
     return octets.within(kSilence) || is_telegram_within(f, kSilence) ||
            static_cast<double>(f.uptime_ms) < kSilence;
@@ -75,7 +75,7 @@ bool bus_is_heard(const Facts& f)
 
 bool telegrams_are_heard(const Facts& f)
 {
-    const double limit = text(f.bus, "baud_state") == "Baud_Search" ? kNoTelegramInSearch : kNoTelegram;
+    const double limit = f.bus.baud_state == "Baud_Search" ? kNoTelegramInSearch : kNoTelegram;
     return counted(f.counters, "checked").within(limit) || is_telegram_within(f, limit) ||
            static_cast<double>(f.uptime_ms) < limit;
 }
@@ -84,7 +84,7 @@ bool has_just_started(const Facts& f)
 {
     if (!is_in(f, "Wait_Prm") && !is_in(f, "Wait_Cfg")) return false;
     if (is_asked(f.station_counters) || !silence(f).empty()) return false;
-    const bool is_heard = counted(f.counters, "checked").last_ms || real(f.bus, "last_telegram_age_ms");
+    const bool is_heard = counted(f.counters, "checked").last_ms || f.bus.last_telegram_age_ms;
     return !is_heard || static_cast<double>(f.uptime_ms) < kAsked;
 }
 
@@ -104,36 +104,33 @@ std::string silence(const Facts& f)
 
 std::string refusal(const Facts& f)
 {
-    const Json& r = part(f.diagnosis, "refusal");
-    if (r.empty()) return {};
-    const auto octet = integer(r, "octet");
-    const std::string expected = text(r, "expected", ""), got = text(r, "got", "");
-    return fmt::format("{} was refused{}: {}{}{}; {}", text(r, "telegram"),
-                       octet ? fmt::format(", octet {}", *octet) : "", text(r, "what"),
+    if (!f.diagnosis.refusal) return {};
+    const report::Refusal& r = *f.diagnosis.refusal;
+    const std::string expected = r.expected.value_or(""), got = r.got.value_or("");
+    return fmt::format("{} was refused{}: {}{}{}; {}", r.telegram,
+                       r.octet ? fmt::format(", octet {}", *r.octet) : "", r.what,
                        expected.empty() ? "" : ", expected " + expected, got.empty() ? "" : ", got " + got,
-                       text(r, "advice"));
+                       r.advice);
 }
 
 std::string tag_trouble(const Facts& f)
 {
     std::string all;
-    for (const Json& item : list(f.diagnosis, "refused"))
-        if (item.is_object()) all += (all.empty() ? "" : "; ") + text(item, "text");
+    for (const report::RefusedTag& item : f.diagnosis.refused) all += (all.empty() ? "" : "; ") + item.text;
     return all;
 }
 
 std::string drive_silence(const Facts& f)
 {
-    const Json& d = part(f.station, "drive");
-    if (text(d, "link") != "silent") return {};
-    return fmt::format("unit {} on {} ({}, {}) does not answer: {} unanswered", text(d, "unit"),
-                       text(d, "line"), text(d, "port"), text(d, "protocol"),
-                       plural(integer(d, "silences").value_or(0), "request"));
+    const report::Drive& d = f.station.drive;
+    if (d.link != "silent") return {};
+    return fmt::format("unit {} on {} ({}, {}) does not answer: {} unanswered", d.unit, d.line, d.port,
+                       d.protocol, plural(d.silences, "request"));
 }
 
 bool master_left(const Facts& f)
 {
-    const std::string code = text(f.station, "left_code", "");
+    const std::string code = f.station.left_code.value_or("");
     return code == "output_length" || code == "unlock" || code == "new_parameters";
 }
 
@@ -142,13 +139,13 @@ std::string restlessness(const Facts& f)
     const Count left = counted(f.station_counters, "left_data_exchange");
     if (left.minute < 2) return {};
     return fmt::format("Data_Exch was left {} {}, the last time: {}", plural(left.minute, "time"),
-                       lately(left), text(f.station, "left_because"));
+                       lately(left), f.station.left_because.value_or("?"));
 }
 
 std::string no_exchange(const Facts& f)
 {
     if (std::string silent = silence(f); !silent.empty()) return silent;
-    const std::string address = number(f.station, "address");
+    const std::string address = std::to_string(f.station.address);
     if (is_in(f, "Wait_Cfg"))
         return "the master has parameterised address " + address + " and sends no Chk_Cfg";
     if (is_asked(f.station_counters))
@@ -158,7 +155,7 @@ std::string no_exchange(const Facts& f)
 
 std::string not_asked(const Facts& f)
 {
-    return "telegrams are heard, but no master asks address " + number(f.station, "address");
+    return "telegrams are heard, but no master asks address " + std::to_string(f.station.address);
 }
 
 bool is_of_bus(const Rule& rule)

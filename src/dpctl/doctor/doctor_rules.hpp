@@ -35,12 +35,12 @@ struct Count {
     /// It counted within this time; told to the second.
     bool within(double ms) const { return last_ms && *last_ms <= ms; }
 };
-Count counted(const Json& group, std::string_view name);
+Count counted(const report::CounterGroup& group, std::string_view name);
 /// "in the last minute, since 12 min": for how long it has counted.
 std::string lately(const Count& count);
 
 /// Has a master asked this station for anything but its FDL status within the last ten seconds?
-bool is_asked(const Json& station_counters);
+bool is_asked(const report::CounterGroup& station_counters);
 /// Octets come from the bus, or the port is not there: what is wrong then is no silence.
 bool bus_is_heard(const Facts& f);
 /// Telegrams with a checksum come from the bus.

@@ -19,7 +19,8 @@ bool is_tried(const Facts& f)
 
 std::string seen_refused(const Facts& f, std::string_view telegram)
 {
-    if (exchanges(f) || !is_tried(f) || text(part(f.diagnosis, "refusal"), "telegram") != telegram) return {};
+    if (exchanges(f) || !is_tried(f) || !f.diagnosis.refusal || f.diagnosis.refusal->telegram != telegram)
+        return {};
     return refusal(f);
 }
 std::string seen_prm(const Facts& f)
@@ -33,8 +34,8 @@ std::string seen_cfg(const Facts& f)
 std::string seen_just_started(const Facts& f)
 {
     if (!has_just_started(f)) return {};
-    return fmt::format("no master has asked address {} yet; dpslaved has run for {}",
-                       number(f.station, "address"), age(static_cast<double>(f.uptime_ms)));
+    return fmt::format("no master has asked address {} yet; dpslaved has run for {}", f.station.address,
+                       age(static_cast<double>(f.uptime_ms)));
 }
 /// Telegrams come, but none for this station: what the bus has to say about it comes first.
 std::string seen_not_asked(const Facts& f)
@@ -46,13 +47,13 @@ std::string seen_not_asked(const Facts& f)
 std::string seen_two_masters(const Facts& f)
 {
     const Count foreign = counted(f.station_counters, "foreign_prm");
-    if (foreign.minute == 0 || !integer(f.station, "master")) return {};
-    return fmt::format("master {} has this slave, and another master sent {} Set_Prm {}",
-                       number(f.station, "master"), foreign.minute, lately(foreign));
+    if (foreign.minute == 0 || !f.station.master) return {};
+    return fmt::format("master {} has this slave, and another master sent {} Set_Prm {}", *f.station.master,
+                       foreign.minute, lately(foreign));
 }
 std::string seen_length(const Facts& f)
 {
-    return text(f.station, "left_code", "") == "output_length" ? restlessness(f) : std::string{};
+    return f.station.left_code == "output_length" ? restlessness(f) : std::string{};
 }
 std::string seen_restarts(const Facts& f)
 {
@@ -68,11 +69,11 @@ std::string seen_asked_only(const Facts& f)
 }
 
 /// The request was spoilt on its way: that says nothing about the tag.
-bool was_spoilt(const Facts& f, const Json& word)
+bool was_spoilt(const Facts& f, const report::Word& word)
 {
-    const Json& refused = list(f.diagnosis, "refused");
-    return std::any_of(refused.begin(), refused.end(), [&](const Json& one) {
-        return text(one, "code") == "not_understood" && integer(one, "tag") == integer(word, "tag");
+    const auto& refused = f.diagnosis.refused;
+    return std::any_of(refused.begin(), refused.end(), [&](const report::RefusedTag& one) {
+        return one.code == "not_understood" && one.tag == word.tag;
     });
 }
 
@@ -80,14 +81,12 @@ bool was_spoilt(const Facts& f, const Json& word)
 std::string words_that_are(const Facts& f, std::string_view direction, std::string_view state)
 {
     std::string all;
-    for (const Json& word : list(f.io, "words")) {
-        if (text(word, "state") != state || (!direction.empty() && text(word, "direction") != direction))
-            continue;
+    for (const report::Word& word : f.io.words) {
+        if (word.state != state || (!direction.empty() && word.direction != direction)) continue;
         if (was_spoilt(f, word)) continue;
-        const std::string name = text(word, "name", "");
-        all += fmt::format("{}tag {}{} = {} ({} octet {})", all.empty() ? "" : ", ", number(word, "tag"),
-                           name.empty() ? "" : " " + name, text(word, "value"), text(word, "direction"),
-                           number(word, "octet"));
+        const std::string name = word.name.value_or("");
+        all += fmt::format("{}tag {}{} = {} ({} octet {})", all.empty() ? "" : ", ", word.tag,
+                           name.empty() ? "" : " " + name, word.value, word.direction, word.octet);
     }
     return all;
 }
@@ -96,8 +95,8 @@ std::string words_that_are(const Facts& f, std::string_view direction, std::stri
 std::string said(const Facts& f, std::string_view code)
 {
     std::string all;
-    for (const Json& one : list(f.diagnosis, "refused"))
-        if (text(one, "code") == code) all += (all.empty() ? "" : "; ") + text(one, "text");
+    for (const report::RefusedTag& one : f.diagnosis.refused)
+        if (one.code == code) all += (all.empty() ? "" : "; ") + one.text;
     return all;
 }
 
@@ -120,14 +119,14 @@ std::string seen_range(const Facts& f)
 bool is_other_device(const Facts& f)
 {
     std::int64_t denied = 0, inputs = 0;
-    for (const Json& word : list(f.io, "words")) {
-        if (text(word, "direction") != "in") continue;
+    for (const report::Word& word : f.io.words) {
+        if (word.direction != "in") continue;
         ++inputs;
-        denied += text(word, "state") == "invalid tag";
+        denied += word.state == "invalid tag";
     }
     if (inputs == 0 || denied < inputs) return false;
-    for (const Json& one : list(f.diagnosis, "refused")) denied += text(one, "code") == "invalid_tag";
-    return denied >= 2 && inputs + static_cast<std::int64_t>(list(f.diagnosis, "refused").size()) >= 2;
+    for (const report::RefusedTag& one : f.diagnosis.refused) denied += one.code == "invalid_tag";
+    return denied >= 2 && inputs + static_cast<std::int64_t>(f.diagnosis.refused.size()) >= 2;
 }
 std::string seen_other_device(const Facts& f)
 {
@@ -148,12 +147,11 @@ std::string seen_not_now(const Facts& f)
 std::string seen_other_type(const Facts& f)
 {
     std::string all;
-    for (const Json& word : list(f.io, "words"))
-        if (text(word, "state") == "refused" && !text(word, "answer", "").empty())
-            all += fmt::format("{}tag {} answers '{}'", all.empty() ? "" : ", ", number(word, "tag"),
-                               text(word, "answer"));
+    for (const report::Word& word : f.io.words)
+        if (word.state == "refused" && !word.answer.value_or("").empty())
+            all += fmt::format("{}tag {} answers '{}'", all.empty() ? "" : ", ", word.tag, *word.answer);
     if (!exchanges(f) || all.empty()) return {};
-    return either(all, said(f, "unsupported_type")) + "; the table is " + text(f.info, "tag_table");
+    return either(all, said(f, "unsupported_type")) + "; the table is " + f.info.tag_table;
 }
 std::string seen_other_refusal(const Facts& f)
 {
@@ -163,9 +161,9 @@ std::string seen_other_refusal(const Facts& f)
 }
 std::string seen_clear(const Facts& f)
 {
-    if (!exchanges(f) || !flag(f.station, "clear")) return {};
+    if (!exchanges(f) || !f.station.clear) return {};
     return fmt::format("master {} is in Clear: 0 goes to every output of the drive",
-                       number(f.station, "master"));
+                       number(f.station.master));
 }
 std::string seen_watchdog(const Facts& f)
 {
@@ -173,25 +171,24 @@ std::string seen_watchdog(const Facts& f)
     if (expired.minute < 2 || counted(f.station_counters, "set_prm").minute < 2) return {};
     return fmt::format("it expired {} {}, and each time the master came back{}",
                        plural(expired.minute, "time"), lately(expired),
-                       integer(f.station, "watchdog_ms")
-                           ? fmt::format("; it is {} ms", number(f.station, "watchdog_ms"))
-                           : std::string{});
+                       f.station.watchdog_ms ? fmt::format("; it is {} ms", *f.station.watchdog_ms)
+                                             : std::string{});
 }
 /// No telegram comes, and without a watchdog nothing ends the exchange.
 std::string seen_stands(const Facts& f)
 {
-    if (!exchanges(f) || integer(f.station, "watchdog_ms") || is_asked(f.station_counters)) return {};
+    if (!exchanges(f) || f.station.watchdog_ms || is_asked(f.station_counters)) return {};
     const auto last = counted(f.station_counters, "data_exchange").last_ms;
     if (!last) return {}; // it has just begun
     return fmt::format("its watchdog is off, and the last Data_Exchange was {} ago", age(last));
 }
 std::string seen_sync(const Facts& f)
 {
-    return exchanges(f) && flag(f.station, "sync") ? "Sync is on" : std::string{};
+    return exchanges(f) && f.station.sync ? "Sync is on" : std::string{};
 }
 std::string seen_freeze(const Facts& f)
 {
-    return exchanges(f) && flag(f.station, "freeze") ? "Freeze is on" : std::string{};
+    return exchanges(f) && f.station.freeze ? "Freeze is on" : std::string{};
 }
 std::string seen_restless(const Facts& f)
 {
@@ -200,42 +197,40 @@ std::string seen_restless(const Facts& f)
 }
 std::string seen_ride(const Facts& f)
 {
-    const Json& ride = part(f.station, "ride");
-    if (ride.empty()) return {};
-    const auto ends = real(ride, "ends_in_ms");
+    if (!f.station.ride) return {};
+    const auto ends = f.station.ride->ends_in_ms;
     return ends ? "the outputs stand for " + age(ends) + " more" : "the outputs stand until it returns";
 }
 std::string seen_unscaled(const Facts& f)
 {
     std::string tags;
-    for (const Json& one : list(f.diagnosis, "unscaled"))
-        tags += fmt::format("{}tag {} answers '{}'{}", tags.empty() ? "" : ", ", number(one, "tag"),
-                            text(one, "answer"),
-                            flag(one, "contradicted") ? ", more decimals than its row has" : "");
+    for (const report::Unscaled& one : f.diagnosis.unscaled)
+        tags += fmt::format("{}tag {} answers '{}'{}", tags.empty() ? "" : ", ", one.tag, one.answer,
+                            one.contradicted ? ", more decimals than its row has" : "");
     if (tags.empty()) return {};
-    tags += "; the table is " + text(f.info, "tag_table");
-    return flag(f.diagnosis, "held") ? tags + "; the master is held at the start" : tags;
+    tags += "; the table is " + f.info.tag_table;
+    return f.diagnosis.held ? tags + "; the master is held at the start" : tags;
 }
 std::string seen_no_table(const Facts& f)
 {
-    const auto rows = integer(f.info, "tags_in_table");
-    return rows && *rows == 0 ? text(f.info, "tag_table") + " holds no row" : std::string{};
+    return !f.info.name.empty() && f.info.tags_in_table == 0 ? f.info.tag_table + " holds no row"
+                                                             : std::string{};
 }
 std::string seen_no_trip(const Facts& f)
 {
-    return text(f.tec, "trip", "").starts_with("not known") ? "trip: " + text(f.tec, "trip") : std::string{};
+    return f.tec.trip.value_or("").starts_with("not known") ? "trip: " + *f.tec.trip : std::string{};
 }
 std::string seen_pending(const Facts& f)
 {
-    const auto active = integer(f.info, "address_active"), pending = integer(f.info, "address_pending");
-    if (!pending || pending == active) return {};
-    return fmt::format("address {} is active, the configuration file has {}", active.value_or(-1), *pending);
+    const auto pending = f.info.address_pending;
+    if (!pending || pending == f.info.address_active) return {};
+    return fmt::format("address {} is active, the configuration file has {}", f.info.address_active,
+                       *pending);
 }
 std::string seen_low_address(const Facts& f)
 {
-    const auto address = integer(f.station, "address");
-    return f.family != Family::technology_box && address && *address <= 2
-               ? fmt::format("the address is {}", *address)
+    return f.family != Family::technology_box && f.station.address <= 2
+               ? fmt::format("the address is {}", f.station.address)
                : std::string{};
 }
 

@@ -39,7 +39,7 @@ std::string termination(Look look)
                      look.width);
 }
 
-std::string line_words(const Json& bus, Look look)
+std::string line_words(const report::Bus& bus, Look look)
 {
     const auto limit = line_limit(bus);
     if (!limit) return line_table(look) + termination(look);
@@ -48,15 +48,14 @@ std::string line_words(const Json& bus, Look look)
            termination(look);
 }
 
-std::string lamps(const Json& leds, const std::string& name)
+std::string lamps(const report::GetLedsReply& leds, const std::string& name)
 {
-    for (const Json& station : list(leds, "stations")) {
-        if (text(station, "name") != name) continue;
+    for (const report::StationLeds& station : leds.stations) {
+        if (station.name != name) continue;
         std::string shown;
-        for (const Json& led : list(station, "leds"))
-            shown +=
-                fmt::format("{}{} {}", shown.empty() ? "" : ", ", text(led, "name"), text(led, "pattern"));
-        return shown + ": " + text(station, "meaning");
+        for (const report::Led& led : station.leds)
+            shown += fmt::format("{}{} {}", shown.empty() ? "" : ", ", led.name, led.pattern);
+        return shown + ": " + station.meaning;
     }
     return "-";
 }
@@ -64,11 +63,11 @@ std::string lamps(const Json& leds, const std::string& name)
 std::string picture(const Replies& replies, const std::string& wanted, Look look)
 {
     Table table({"STATION", ">ADDRESS", "STATE", "DRIVE", "LAMPS"});
-    for (const Json& station : list(replies.status, "stations"))
-        if (station.is_object() && is_meant(station, wanted))
-            table.add({text(station, "name"), number(station, "address"), text(station, "state"),
-                       text(part(station, "drive"), "link"), lamps(replies.leds, text(station, "name"))});
-    return paragraph("", bus_line(part(replies.status, "bus")), look.width) + '\n' + table.str(look);
+    for (const report::Station& station : replies.status.stations)
+        if (is_meant(station, wanted))
+            table.add({station.name, std::to_string(station.address), station.state, station.drive.link,
+                       lamps(replies.leds, station.name)});
+    return paragraph("", bus_line(replies.status.bus), look.width) + '\n' + table.str(look);
 }
 
 std::string steps(const Rule& rule, Look look)
@@ -162,7 +161,7 @@ Json doctor_json(const Replies& replies, const std::vector<Finding>& findings,
                           {"what", one.what},
                           {"count", one.count},
                           {"age_ms", one.age_ms}});
-    const auto limit = line_limit(part(replies.status, "bus"));
+    const auto limit = line_limit(replies.status.bus);
     return {{"findings", found},
             {"notes", notes},
             {"earlier", before},
@@ -177,7 +176,7 @@ std::string render_doctor(const Replies& replies, const std::vector<Finding>& fi
         paragraphs(findings, Kind::cause, look) + paragraphs(findings, Kind::checklist, look);
     out += found.empty() ? '\n' + painted("all is well", Tone::good, look) + '\n' : found;
     return out + earlier_lines(earlier, look) + paragraphs(findings, Kind::note, look) + '\n' +
-           line_words(part(replies.status, "bus"), look);
+           line_words(replies.status.bus, look);
 }
 
 Json rules_json()

@@ -64,18 +64,14 @@ std::string ride_text(const Json& s)
                       : fmt::format("the master is lost; its outputs stand for {} more", age(ends));
 }
 
-std::string bus_line(const Json& bus)
+std::string bus_line(const report::Bus& bus)
 {
-    const std::string state = text(bus, "baud_state");
-    const std::int64_t baud = integer(bus, "baud").value_or(0);
-    std::string speed = rate(baud);
-    if (state == "Baud_Search")
-        speed = "searching the rate" + (baud > 0 ? ", now at " + speed : std::string{});
-    const auto heard = real(bus, "last_telegram_age_ms");
-    if (bus.contains("port_open") && !flag(bus, "port_open"))
-        return text(bus, "port") + " has vanished; it is opened again as soon as it returns";
-    return fmt::format("{}, {}{}, {}", text(bus, "port"), speed,
-                       state == "Baud_Search" ? "" : " (" + state + ")",
+    if (!bus.port_open) return bus.port + " has vanished; it is opened again as soon as it returns";
+    const bool is_search = bus.baud_state == "Baud_Search";
+    std::string speed = rate(bus.baud);
+    if (is_search) speed = "searching the rate" + (bus.baud > 0 ? ", now at " + speed : std::string{});
+    const auto heard = bus.last_telegram_age_ms;
+    return fmt::format("{}, {}{}, {}", bus.port, speed, is_search ? "" : " (" + bus.baud_state + ")",
                        heard ? "last telegram " + age(heard) + " ago" : "no telegram heard yet");
 }
 
@@ -108,7 +104,7 @@ std::string render_status(const Json& reply, Look look)
 {
     const Json& bus = part(reply, "bus");
     Block block;
-    block.add("bus", bus_line(bus));
+    block.add("bus", bus_line(report::read<report::Bus>(bus)));
     block.add("stations",
               fmt::format("{}, {} in Data_Exch", number(bus, "stations"), number(bus, "exchanging")));
     block.add("daemon",
@@ -118,7 +114,8 @@ std::string render_status(const Json& reply, Look look)
 
 std::string render_followed_status(const Json& reply, Look look)
 {
-    return bus_line(part(reply, "bus")) + "\n\n" + stations_text(list(reply, "stations"), look);
+    return bus_line(report::read<report::Bus>(part(reply, "bus"))) + "\n\n" +
+           stations_text(list(reply, "stations"), look);
 }
 
 } // namespace dpslave::dpctl

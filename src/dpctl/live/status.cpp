@@ -36,7 +36,7 @@ Result<Json, int> ask_status(const Options& options, Terminal& terminal)
     Json known = Json::array(), meant = Json::array();
     for (const Json& station : list(*reply, "stations")) {
         known.push_back(text(station, "name"));
-        if (is_meant(station, options.station)) meant.push_back(station);
+        if (is_meant(report::read<report::Station>(station), options.station)) meant.push_back(station);
     }
     if (meant.empty())
         return Failure{tell({Json::object({{"station", options.station}, {"known", known}}),

@@ -6,6 +6,8 @@
 #include "dpctl/cli/subcommands.hpp"
 #include "dpctl/cli/words.hpp"
 
+#include "dpslave/report/replies.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,12 +30,12 @@ struct Scope {
     std::vector<profile::TagSpan> tags;
 };
 
-Scope read_scope(const Json& reply)
+Scope read_scope(const report::GetSurveyScopeReply& reply)
 {
-    Scope scope{text(reply, "station"), text(reply, "protocol"), text(reply, "tag_table", ""), {}};
-    for (const Json& span : list(reply, "tags"))
-        scope.tags.push_back({static_cast<std::uint16_t>(integer(span, "first").value_or(0)),
-                              static_cast<std::uint16_t>(integer(span, "last").value_or(0))});
+    Scope scope{reply.station, reply.protocol, reply.tag_table, {}};
+    for (const report::TagSpan& span : reply.tags)
+        scope.tags.push_back(
+            {static_cast<std::uint16_t>(span.first), static_cast<std::uint16_t>(span.last)});
     return scope;
 }
 
@@ -66,7 +68,7 @@ private:
     End read_all(control::Client& client, const EndSignals& end);
     std::optional<End> read_one(control::Client& client, const EndSignals& end, std::uint16_t tag);
     std::optional<End> wait_for(bool for_drive, const EndSignals& end);
-    bool take(const Json& reply, std::uint16_t tag);
+    bool take(const report::SurveyReply& reply, std::uint16_t tag);
     profile::Survey seen_in_scope() const;
     SurveyProgress progress() const;
     void say_progress(bool last);
@@ -144,7 +146,7 @@ std::optional<End> Run::read_one(control::Client& client, const EndSignals& end,
             tell(**reply, options_, terminal_);
             return End::failed;
         }
-        if (!is_busy && take((*reply)->parameters, tag)) {
+        if (!is_busy && take(report::read<report::SurveyReply>((*reply)->parameters), tag)) {
             pace_.took(Clock::now() - asked_at);
             patience_.was_answered();
             waits_for_drive_ = false;
@@ -170,22 +172,20 @@ std::optional<End> Run::wait_for(bool for_drive, const EndSignals& end)
 }
 
 /// False: the drive does not answer at all, so nothing was learnt of this tag.
-bool Run::take(const Json& reply, std::uint16_t tag)
+bool Run::take(const report::SurveyReply& reply, std::uint16_t tag)
 {
-    const std::string outcome = text(reply, "outcome", "");
-    if (outcome == "lost") return false;
+    if (reply.outcome == "lost") return false;
     SurveyAnswer answer;
-    if (outcome == "value") {
-        const auto raw = integer(reply, "raw");
-        answer.kind = raw ? SurveyAnswer::Kind::word : SurveyAnswer::Kind::text;
-        answer.word = static_cast<std::uint16_t>(raw.value_or(0));
-        answer.text = text(reply, "text", "");
-    } else if (outcome == "denied") {
+    if (reply.outcome == "value") {
+        answer.kind = reply.raw ? SurveyAnswer::Kind::word : SurveyAnswer::Kind::text;
+        answer.word = static_cast<std::uint16_t>(reply.raw.value_or(0));
+        answer.text = reply.text.value_or("");
+    } else if (reply.outcome == "denied") {
         answer.kind = SurveyAnswer::Kind::denied;
-        answer.text = text(reply, "reason", "refused");
+        answer.text = reply.reason.value_or("refused");
     }
     profile::Sighting& one = files_.seen[tag];
-    one.mnemonic = text(reply, "mnemonic", "");
+    one.mnemonic = reply.mnemonic.value_or("");
     one.add(answer);
     return true;
 }
@@ -297,7 +297,7 @@ int do_survey(const Options& options, Terminal& terminal)
     const EndSignals end;
     const auto reply = ask(options, terminal, "GetSurveyScope", station_parameter(options));
     if (!reply) return reply.error();
-    Scope scope = read_scope(*reply);
+    Scope scope = read_scope(report::read<report::GetSurveyScopeReply>(*reply));
     if (!options.tags.empty())
         scope.tags = *profile::parse_tag_spans(options.tags); // the command line was judged
     if (scope.tags.empty()) {
