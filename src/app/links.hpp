@@ -163,7 +163,7 @@ struct LineWork {
     bool opens_port = false;                ///< the port is another one, or set in another way
     bool is_other_port = false;             ///< with `opens_port`: standing outputs are written there at once
     bool leaves_drives = false; ///< with `is_other_port`: the drives at the old one go to the safe state
-    /// With `opens_port`: opened already; null: one of ours has it and is about to let go of it.
+    /// With `opens_port`: opened already; null: another line has it still and will close it.
     std::unique_ptr<LineBackend> backend;
 };
 

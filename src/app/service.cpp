@@ -29,7 +29,7 @@ bool is_unconfigured(const std::filesystem::path& file)
 
 std::filesystem::path runtime_folder()
 {
-    const char* const folders = std::getenv("RUNTIME_DIRECTORY"); // nobody sets variables in this program
+    const char* const folders = std::getenv("RUNTIME_DIRECTORY"); // this program never sets a variable
     if (folders == nullptr) return {};
     const std::string_view all = folders;
     return all.substr(0, all.find(':')); // the first of them

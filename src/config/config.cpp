@@ -72,8 +72,8 @@ std::shared_ptr<const drive::TagTable> Shelf::tags(const std::filesystem::path& 
     return entry->second;
 }
 
-/// Said once, of the first table that is too much. A file that cannot be read takes no room: its reader says
-/// why.
+/// Reported once, for the first table above the limit. A file that cannot be read counts as empty: its reader
+/// reports it.
 bool Shelf::has_room_for(const std::filesystem::path& table)
 {
     const bool had_room = size_of_tables_ <= kMaxTablesTogether;
@@ -86,14 +86,15 @@ bool Shelf::has_room_for(const std::filesystem::path& table)
         keep({{table.string(), 0, 0,
                "with this table the tag tables of the stations have more than 2 MiB together: name one table "
                "for "
-               "drives of one kind, and leave out the tags that nobody uses."}});
+               "drives of one kind, and leave out unused tags."}});
     return false;
 }
 
 void Shelf::keep(const toml::Faults& faults)
 {
-    for (const toml::Fault& fault : faults) // two profiles may name one tag table: its faults are said once
-        if (told_.insert(to_string(fault)).second) faults_.push_back(fault);
+    for (const toml::Fault& fault :
+         faults) // two profiles may name one tag table: its faults are reported once
+        if (reported_.insert(to_string(fault)).second) faults_.push_back(fault);
 }
 
 void Unlike::check(Table& table, std::string_view key, const std::string& value, const std::string& shown,

@@ -31,7 +31,7 @@ void read_lamp(Table& tec, const char* key, profile::MirroredLamp& lamp)
                             R"(lit while the bit is 0; "272" for any bit of the tag; or "none".)");
 }
 
-/// What a PC tool could set is taken, also what no operator station would: FAULT = PARAMETER tells it
+/// What a PC tool could set is taken, also what no operator station would: FAULT = PARAMETER shows it
 /// (B-049).
 void read_setting(Table& tec, std::string_view key, std::int32_t& setting)
 {

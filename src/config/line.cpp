@@ -28,7 +28,7 @@ void read_baud(Table& bus, BusConfig& config)
     }
 }
 
-/// A key that only another direction makes use of: whoever set it believes that it does something.
+/// A key that only another direction uses: here it has no effect.
 void warn_unused(Document& document, const Table& bus, std::string_view key, std::string_view direction,
                  toml::Faults& warnings)
 {

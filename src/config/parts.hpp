@@ -16,8 +16,8 @@
 
 namespace dpslave::config {
 
-/// A drive line and where it stands. A line with faults stays in the list, so that stations which name it are
-/// not blamed for it.
+/// A drive line and its place in the file. A line with faults stays in the list, so that stations which name
+/// it get no fault for it.
 struct ReadLine {
     LineConfig line;
     toml::Place name_at;
@@ -51,7 +51,7 @@ private:
     std::map<std::filesystem::path, std::shared_ptr<const drive::TagTable>> tables_;
     std::uintmax_t size_of_tables_ = 0; ///< in octets, of those in tables_
     toml::Faults faults_;
-    std::set<std::string> told_; ///< each of them in words
+    std::set<std::string> reported_; ///< faults as text, so that each is in faults_ once
 };
 
 BusConfig read_bus(toml::Document& document, toml::Faults& warnings);

@@ -39,7 +39,7 @@ std::optional<drive::UnitAddress> modbus_unit(std::string_view text)
     return drive::UnitAddress{.group = 0, .unit = address};
 }
 
-/// As a person may write one: "12", "0x1F", "-5", "1.5".
+/// A number as it is written in a file: "12", "0x1F", "-5", "1.5".
 bool is_number(std::string_view name)
 {
     if (name.starts_with('+') || name.starts_with('-')) name.remove_prefix(1);
@@ -287,7 +287,7 @@ private:
         station.personality = std::make_shared<const dp::Personality>(std::move(personality));
     }
 
-    /// One for all rates; less than the GSD promises is legal, and seldom meant.
+    /// One for all rates; less than the GSD says is legal, and a warning.
     void set_max_tsdr(dp::Personality& personality, const Table& table)
     {
         bool warned = false;

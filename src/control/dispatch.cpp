@@ -36,7 +36,8 @@ void Server::Impl::dispatch(Connection& connection, Call& call)
     Reply reply;
     try {
         reply = answer(connection, call);
-    } catch (const std::exception&) { // a fault of ours ends this connection, not the bus its slave
+    } catch (
+        const std::exception&) { // a fault of the program ends this connection, not the exchange on the bus
         ++counters.handler_failures;
         return connection.kill();
     }

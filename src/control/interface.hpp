@@ -15,7 +15,7 @@
 
 namespace dpslave::control {
 
-/// Who may call a method.
+/// Which callers may call a method.
 enum class Right : std::uint8_t {
     look,    ///< every caller
     operate, ///< root and the operator group

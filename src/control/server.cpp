@@ -114,7 +114,7 @@ std::optional<uid_t> Server::Impl::fullest(bool with_operators) const
 }
 
 /// Ends the connection of `uid` that has been idle for longest, with Busy for its reason. False: each of them
-/// waits for an answer of ours.
+/// waits for an answer of this server.
 bool Server::Impl::end_idle_of(uid_t uid)
 {
     Connection* longest = nullptr;

@@ -36,7 +36,7 @@ struct Server::Impl {
     std::optional<uid_t> fullest(bool with_operators) const;
     bool end_idle_of(uid_t uid);
     void serve(Connection& connection, std::uint32_t events);
-    /// After anything was done with a connection: tells epoll what to watch, or deletes the connection.
+    /// After anything was done with a connection: sets what epoll watches, or deletes the connection.
     void settle(Connection& connection);
 
     // dispatch.cpp

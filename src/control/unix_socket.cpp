@@ -73,7 +73,7 @@ Result<ListeningSocket, std::string> ListeningSocket::open(const std::filesystem
     if (::bind(fd.get(), generic(address), sizeof address) < 0)
         return Failure{fmt::format("{}: cannot be made: {}", path.native(), error_text(errno))};
 
-    ListeningSocket result{std::move(fd), path}; // from here on the file is ours to remove
+    ListeningSocket result{std::move(fd), path}; // from here on this object removes the file
     struct stat status {};
     if (::lstat(path.c_str(), &status) < 0 || ::chmod(path.c_str(), 0666) < 0 ||
         ::listen(result.fd(), kBacklog) < 0)
@@ -116,7 +116,7 @@ Caller peer_of(int fd)
     caller.gid = credentials.gid;
     caller.pid = credentials.pid;
 
-    // The kernel tells the needed size with ERANGE; NGROUPS_MAX bounds it to 65536 groups.
+    // The kernel gives the needed size with ERANGE; NGROUPS_MAX bounds it to 65536 groups.
     size = 0;
     if (::getsockopt(fd, SOL_SOCKET, SO_PEERGROUPS, nullptr, &size) < 0 && errno == ERANGE) {
         caller.groups.resize(size / sizeof(gid_t));

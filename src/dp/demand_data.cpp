@@ -112,7 +112,7 @@ void DemandData::give(DemandOrder::Kind kind)
         ++ordered_;
     }
 
-    // Nobody fetched the last order yet: a read or cancel is superseded, for only the newest can still be
+    // The last order was not fetched yet: a read or cancel is superseded, for only the newest can still be
     // answered. A write stays: a master that does not wait for its answer still wants it executed, and in
     // order.
     if (!orders_.empty() && orders_.newest().kind != DemandOrder::Kind::write) {

@@ -144,8 +144,8 @@ void StateMachine::take_parameters(const Judgement& judged, const fdl::Indicatio
     prm_fault_ = not_supported_ = false;
     if (service_of(refusal_.why) == Service::set_prm) refusal_ = {};
 
-    // In Data_Exch (row P11): who gives Sync or Freeze up can end it no more, for then Unsync is ignored as
-    // well.
+    // In Data_Exch (row P11): a master that gives up Sync or Freeze cannot end it any more, for then Unsync
+    // is ignored as well.
     if (!parameters_.sync_requested) set_sync(Switch::off);
     if (!parameters_.freeze_requested) set_freeze(Switch::off);
 

@@ -101,7 +101,7 @@ int say_whether_configured(const std::string& file)
 }
 
 /// What the daemon that has ended had in use, else what is configured. Whatever is wrong, the last step of a
-/// service is no failure: of a faulty configuration its start complains.
+/// service is no failure: the start reports a faulty configuration.
 int release_driver(const std::string& file, const std::string& profiles)
 {
     namespace app = dpslave::app;
@@ -131,7 +131,7 @@ int main(int argc, char** argv)
     app.add_option("--profiles", profiles, "Folder of the device profiles")->capture_default_str();
     app.add_flag("--check", check, "Only judge the configuration");
     app.add_flag("--is-configured", is_configured,
-                 "Only tell whether a bus, a line or a station is configured")
+                 "Only show by the exit status whether a bus, a line or a station is configured")
         ->excludes("--check");
     app.add_flag("--release", release,
                  "Only make the line inactive that enables the RS-485 driver, after a daemon's end")

@@ -83,7 +83,7 @@ void Receiver::on_bytes(Bytes bytes, bool more_follows)
 
 void Receiver::on_character_error()
 {
-    if (!std::exchange(damaged_, true)) untold_ = Flaw::character;
+    if (!std::exchange(damaged_, true)) pending_flaw_ = Flaw::character;
     const auto length = frame_length(Bytes{rx_}.first(used_));
     if (!length || *length == 0) {
         forget_all(); // no telegram has begun, or its end cannot be known any more
@@ -105,9 +105,9 @@ bool Receiver::on_time(Instant now)
 
 const Receiver::Heard* Receiver::next()
 {
-    if (untold_) {
-        heard_ = {.telegram = Failure{*untold_}, .at = heard_at_, .newest = false};
-        untold_.reset();
+    if (pending_flaw_) {
+        heard_ = {.telegram = Failure{*pending_flaw_}, .at = heard_at_, .newest = false};
+        pending_flaw_.reset();
         return &heard_;
     }
     while (reading_) {
@@ -230,7 +230,7 @@ void Receiver::give_up()
 /// The line has fallen silent behind the stump that rx_ begins with.
 void Receiver::tell_unfinished()
 {
-    if (!std::exchange(damaged_, false) && counted_ == 0) untold_ = Flaw::unfinished;
+    if (!std::exchange(damaged_, false) && counted_ == 0) pending_flaw_ = Flaw::unfinished;
 }
 
 /// Takes the first `count` octets off rx_.
@@ -259,7 +259,7 @@ void Receiver::restart(Baud baud)
     at_ = failed_ = 0;
     input_ = {};
     reading_ = damaged_ = false;
-    untold_.reset();
+    pending_flaw_.reset();
 }
 
 } // namespace dpslave::fdl

@@ -143,7 +143,7 @@ void Stations::forget_requests()
     for (std::size_t i = 0; i < attached_count_; ++i) stations_[attached_[i]].stored = false;
 }
 
-/// The lower bound is reached: who is due is called, and the bound is made exact again.
+/// The lower bound is reached: users that are due are called, and the bound is made exact again.
 bool Stations::on_time(Instant now)
 {
     if (now < users_due_) return false;

@@ -100,7 +100,7 @@ private:
         else if (!entry.keyword.empty())
             document_.keywords.push_back(std::move(entry));
         else
-            remark(line.number, Weight::warning, // lives in the field: tools pass it over
+            remark(line.number, Weight::warning, // common in the field: tools ignore it
                    in_quotes(entry.value) +
                        " is neither Keyword = value nor part of a module: remove it, or add "
                        "what is missing.");

@@ -71,10 +71,10 @@ private:
         } else {
             rest_.remove_prefix(end + 1);
             if (line.empty() || line.back() != '\r') {
-                if (!lf_told_)
+                if (!lf_seen_)
                     remark(number_, Weight::pedantic,
                            "the line ends with LF alone: the tools' files have CR LF.");
-                lf_told_ = true;
+                lf_seen_ = true;
             }
         }
         if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
@@ -133,7 +133,7 @@ private:
             }
             if (c == '"') in_string_ = !in_string_;
             if ((c < 0x20 && c != '\t') || c == 0x7F)
-                once(control_told_, Weight::error,
+                once(control_seen_, Weight::error,
                      "the line has a control character, which ends the file for some tools: remove it.");
             code += static_cast<char>(c);
             ++i;
@@ -144,13 +144,13 @@ private:
     void judge(const Foreign& foreign)
     {
         if (foreign.double_quote)
-            once(quotes_told_at_, "typographic quotes: no tool reads such a text. Write plain ones (\").");
+            once(quotes_seen_at_, "typographic quotes: no tool reads such a text. Write plain ones (\").");
         else if (foreign.utf8)
-            once(utf8_told_, Weight::warning,
+            once(utf8_seen_, Weight::warning,
                  "a character is coded in UTF-8: tools show two others in its place. Save the file as ISO "
                  "8859-1 (ANSI).");
         else if (!foreign.latin1)
-            once(windows_told_, Weight::warning,
+            once(windows_seen_, Weight::warning,
                  "a character is none of ISO 8859-1 (one of Windows alone): replace it by a plain one.");
     }
 
@@ -160,7 +160,7 @@ private:
         for (const char each : text) {
             const auto c = static_cast<unsigned char>(each);
             if (c == 0 || c == 0x1A)
-                once(control_told_, Weight::error,
+                once(control_seen_, Weight::error,
                      "the line has a control character, which ends the file for some tools: remove it.");
         }
     }
@@ -171,10 +171,10 @@ private:
         told = true;
     }
     /// Once a line: each of them is a text that is lost.
-    void once(unsigned& told_at, std::string_view what)
+    void once(unsigned& seen_at, std::string_view what)
     {
-        if (told_at != number_) remark(number_, Weight::error, std::string{what});
-        told_at = number_;
+        if (seen_at != number_) remark(number_, Weight::error, std::string{what});
+        seen_at = number_;
     }
 
     void end_logical_line()
@@ -198,8 +198,8 @@ private:
     std::string text_; ///< of the logical line so far
     unsigned number_ = 0, started_ = 0;
     bool in_string_ = false, continued_ = false;
-    bool lf_told_ = false, utf8_told_ = false, windows_told_ = false, control_told_ = false;
-    unsigned quotes_told_at_ = 0;
+    bool lf_seen_ = false, utf8_seen_ = false, windows_seen_ = false, control_seen_ = false;
+    unsigned quotes_seen_at_ = 0;
 };
 
 } // namespace

@@ -75,7 +75,7 @@ drive::Question ModbusClient::Exchange::question_of(std::uint8_t unit, Bytes req
 }
 
 /// Until it is known whether there is an echo, nothing is asked whose answer looks like its request.
-bool ModbusClient::Exchange::is_told_from_echo(Bytes request) const
+bool ModbusClient::Exchange::differs_from_echo(Bytes request) const
 {
     return echo_ != Echo::unknown || (request[0] != kWriteRegister && request[0] != kLoopback);
 }
@@ -83,7 +83,7 @@ bool ModbusClient::Exchange::is_told_from_echo(Bytes request) const
 bool ModbusClient::Exchange::may_ask(std::uint8_t unit, Bytes request, bool gave_data)
 {
     const drive::Question question = question_of(unit, request);
-    return is_told_from_echo(request) && owed_.may_ask(question, line_.now()) &&
+    return differs_from_echo(request) && owed_.may_ask(question, line_.now()) &&
            (gave_data || !owed_.owes(unit, question.refusal));
 }
 
@@ -111,7 +111,7 @@ ModbusClient::Exchange::End ModbusClient::Exchange::ask(std::uint8_t unit, Bytes
 }
 
 /// Without a pause a slave does not take what follows for the beginning of a request. What is heard meanwhile
-/// is judged. False: the line babbles on for longer than two of the longest frames.
+/// is judged. False: octets keep coming for longer than two of the longest frames.
 bool ModbusClient::Exchange::fall_silent()
 {
     const Instant end = line_.now() + duration_of(2 * kLongestFrame) + 2 * pause();
@@ -148,7 +148,7 @@ ModbusClient::Exchange::End ModbusClient::Exchange::wait(Bytes request, Instant 
                 owed_.damaged(unit_);
                 trouble_ = "an answer with a wrong check sum or parity, or one that broke off";
                 // Noise before the echo or the echo itself: the drive may have heard better. The next copy is
-                // taken for the echo; to take it for the answer would be a guess.
+                // taken for the echo; it cannot be proven to be the answer.
                 if (echo_due_) break;
                 return End::damaged;
             case FrameLine::Heard::silence: return End::silence;

@@ -41,7 +41,7 @@ private:
     enum class Echo : std::uint8_t { unknown, heard, none };
 
     drive::Question question_of(std::uint8_t unit, Bytes request) const;
-    bool is_told_from_echo(Bytes request) const;
+    bool differs_from_echo(Bytes request) const;
     bool fall_silent();
     End wait(Bytes request, Instant until);
     bool take_frame(Bytes request);

@@ -94,7 +94,7 @@ std::string exception_text(std::uint8_t code)
 }
 
 /// EI-ASCII and Modbus reference, section 4. An instrument says 2 or 3 for a read-only register and for a
-/// value beyond its limits alike; the table tells them apart. 3 on a read: this register is not to be had as
+/// value beyond its limits alike; the table separates them. 3 on a read: this register cannot be read as
 /// one word.
 AccessError error_of_exception(std::uint8_t code, bool is_write, const drive::Tag* row)
 {

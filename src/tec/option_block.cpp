@@ -145,7 +145,7 @@ std::vector<std::string_view> inputs_out_of_range(const Settings& settings)
 }
 
 /// What is wrong with the gateway goes before what is wrong with the settings: those can be mended only by
-/// somebody who can see that they are not all. A setting that no operator station would take goes before a
+/// a user who can see that they are not all. A setting that no operator station would take goes before a
 /// TYPE that is merely another one.
 OptionFault fault(const Settings& settings, const Hardware& hardware)
 {

@@ -72,8 +72,8 @@ std::string_view line_of(std::string_view content, unsigned number)
     return content.substr(0, content.find('\n'));
 }
 
-/// The pages write an Ident_Number that no source states as 0x.... : whoever copies that is told what to put
-/// there.
+/// The pages write an Ident_Number that no source states as 0x.... : the fault for a copy of it says what to
+/// put there.
 std::string what_is_wrong(std::string_view content, Place place, std::string_view description)
 {
     const std::string_view line = line_of(content, place.line);
@@ -99,7 +99,7 @@ Document::Document(const TextSource& source, std::string name)
     content = utf8(*content); // an editor of old machines saves "Zürich" in ISO 8859-1, as with tag tables
     if (const auto place = too_deep(*content)) {
         fault(*place, "tables, lists or dotted keys are nested deeper than " + std::to_string(kMaxNesting) +
-                          " here: nothing of ours is.");
+                          " levels.");
         return;
     }
     try {
@@ -109,7 +109,7 @@ Document::Document(const TextSource& source, std::string name)
     } catch (const ::toml::parse_error& error) {
         const Place place = toml::place_of(error.source());
         fault(place, what_is_wrong(*content, place, error.description()) +
-                         " Mend it first: what stands behind it was not judged.");
+                         " Correct it first: the text after it was not read.");
     }
 }
 

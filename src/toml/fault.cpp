@@ -26,9 +26,9 @@ void cap(Faults& faults)
     if (faults.size() <= kMaxFaults) return;
     const std::string file = faults[kMaxFaults].file;
     faults.resize(kMaxFaults);
-    faults.push_back(
-        {file, 0, 0,
-         "there are more faults than the " + std::to_string(kMaxFaults) + " told here: mend these first."});
+    faults.push_back({file, 0, 0,
+                      "there are more faults than the " + std::to_string(kMaxFaults) +
+                          " shown here: correct these first."});
 }
 
 std::string to_string(const Fault& fault)

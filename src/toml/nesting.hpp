@@ -10,7 +10,7 @@
 
 namespace dpslave::toml {
 
-/// Deepest nesting that is parsed; the deepest of ours, [station.diagnosis] and its lists, has 4.
+/// Deepest nesting that is parsed; the deepest of a configuration, [station.diagnosis] and its lists, has 4.
 inline constexpr unsigned kMaxNesting = 16;
 
 /// Where `text` is nested deeper than kMaxNesting: brackets and braces within each other, or parts of one

@@ -25,7 +25,7 @@ struct Node {
     void remember(std::string_view key);
 };
 
-struct Other {}; ///< dates and times: no key of ours wants one
+struct Other {}; ///< dates and times: no key takes one
 
 struct Value {
     Place place;

@@ -31,7 +31,7 @@ std::string_view nearest(std::string_view wrong, std::span<const std::string> le
 
 std::string_view nearest(std::string_view wrong, std::span<const std::string> legal, std::size_t most)
 {
-    constexpr std::size_t longest = 64; // no key and no name of ours has so many octets
+    constexpr std::size_t longest = 64; // longer than every key and name
     if (wrong.size() > longest) return {};
     std::string_view best;
     std::size_t best_distance = most + 1;

@@ -798,7 +798,7 @@ TEST_F(Doctor, SaysThatAStationHasNoTagTable)
 TEST_F(Doctor, SaysThatTripsAreNotKnown)
 {
     is_technology_box(0, "NONE", 0);
-    replies.tec.stations[0].trip = "not known: no tag tells it";
+    replies.tec.stations[0].trip = "not known: no tag has it";
     EXPECT_THAT(found(true), testing::Contains("station.no_trip"));
 }
 

@@ -64,8 +64,8 @@ TEST(UartRate, ThatOnlyTheDriverBelievesInIsRefusedWithWhatIsOnTheWire)
     EXPECT_EQ(
         judge_rate(kPcPort, 93'750, 93'750),
         "this UART cannot do 93750 bit/s (it divides its clock by a whole number, which makes 115200 of "
-        "it): choose a rate that it can do, or another adapter; the driver believes that the UART "
-        "reaches 115200 bit/s: if its clock is another one, root tells it so with `setserial "
+        "it): choose a rate that it can do, or another adapter; the driver takes the UART to "
+        "reach 115200 bit/s: if its clock is another one, set it as root with `setserial "
         "/dev/ttyS1 baud_base N`");
 }
 

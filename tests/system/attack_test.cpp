@@ -85,7 +85,7 @@ TEST_F(Attack, ByAHostileFileIsRefusedAtAReloadAndTheExchangeGoesOn)
 
     write_file(table, faulty);
     write_file(gateway.config(), with_table);
-    is_refused_for("there are more faults than the 100 told here");
+    is_refused_for("there are more faults than the 100 shown here");
     std::filesystem::remove(table);
     ASSERT_EQ(::mkfifo(table.c_str(), 0600), 0);
     is_refused_for("no regular file");

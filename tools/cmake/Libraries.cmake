@@ -9,7 +9,7 @@ target_compile_options(dpslave_flags INTERFACE
 if(DPSLAVE_SANITIZE)
   target_compile_options(dpslave_flags INTERFACE
     -fsanitize=${DPSLAVE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
-    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>) # g++ guesses wrong in code that it has instrumented
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>) # g++ warns wrongly about code that it has instrumented
   target_link_options(dpslave_flags INTERFACE -fsanitize=${DPSLAVE_SANITIZE})
 endif()
 

@@ -11,7 +11,7 @@
 namespace dpslave::app {
 
 /// True: `file` is a TOML file in which there is neither [bus] nor [[line]] nor [[station]], as it is
-/// shipped. A file that is missing or faulty is for load_config() to complain of: false.
+/// shipped. False also for a file that is missing or faulty: load_config() reports it.
 bool is_unconfigured(const std::filesystem::path& file);
 
 /// The folder that the service manager gives this service while it runs (systemd.exec(5),
@@ -30,7 +30,7 @@ std::optional<std::string> keep(const DriverInUse& driver, const std::filesystem
 std::optional<DriverInUse> kept_driver(const std::filesystem::path& runtime);
 
 /// For the time after the daemon's end, however it came: makes the line that enables the RS-485 driver
-/// inactive, where nobody else does that (dpslave/io/driver_enable.hpp says who). A line that another process
+/// inactive, where nothing else does that (see dpslave/io/driver_enable.hpp). A line that another process
 /// holds stays as it is; this and any other failure is a sentence.
 std::optional<std::string> release(const DriverInUse& driver);
 

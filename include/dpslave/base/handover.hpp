@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Something that one thread builds, another one uses from now on, and the first one throws away again: so
-/// that the user neither allocates nor frees. Waits for nobody.
+/// Passes an object that one thread builds and another one uses; the first one deletes it. So the user
+/// neither allocates nor frees. Neither side waits.
 #pragma once
 
 #include <atomic>

@@ -42,7 +42,7 @@ private:
     std::array<Slot, 3> slots_{};
     alignas(64) std::uint32_t back_ = 0;                 // only the writer's
     alignas(64) std::uint32_t front_ = 1;                // only the reader's
-    alignas(64) std::atomic<std::uint32_t> exchange_{2}; // the slot nobody holds, and whether it is new
+    alignas(64) std::atomic<std::uint32_t> exchange_{2}; // the free slot, and whether it is new
 };
 
 } // namespace dpslave

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Text of files, drives and callers on its way to a person. Whoever wrote it must not be able to move the
+/// Text of files, drives and callers for a terminal or a log. It must not be able to move the
 /// cursor of a terminal, to turn its letters round or to begin a new line of the log.
 #pragma once
 

@@ -48,7 +48,7 @@ struct OutputImage {
 enum class WordState : std::uint8_t {
     untried,      ///< not read yet in this layout
     good,         ///< read and converted
-    stale,        ///< held: the last refresh brought no answer that can be believed
+    stale,        ///< held: the last refresh brought no valid answer
     invalid_tag,  ///< the drive (or the tag table) has no such tag: the input reads 0, the output is dropped
     read_only,    ///< the write was refused: read only
     out_of_range, ///< the write was refused, or the value does not fit in 16 bit

@@ -26,7 +26,7 @@ public:
 
     /// A layout with Demand Data begins: nothing is asked, the reply is 0.
     void begin(Generation generation);
-    /// The layout ended: what stands is cancelled, and a write that nobody has fetched yet is not made any
+    /// The layout ended: what stands is cancelled, and a write that was not fetched yet is not made any
     /// more.
     void end();
 
@@ -41,7 +41,7 @@ public:
 
     std::uint64_t orders() const { return ordered_; }   ///< reads and writes ordered
     std::uint64_t rejects() const { return rejected_; } ///< replies that became 7
-    std::uint64_t lost() const { return lost_; }        ///< orders that nobody fetched in time
+    std::uint64_t lost() const { return lost_; }        ///< orders that were not fetched in time
 
 private:
     /// What the master wants, without the parts of the registers that do not matter for its command.

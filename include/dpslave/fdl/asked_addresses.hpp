@@ -15,7 +15,7 @@ namespace dpslave::fdl {
 /// One of them. Requests count since the last answer of this address.
 struct UnansweredAddress {
     std::uint8_t address = 0;
-    std::uint8_t master = 0;    ///< who asked last
+    std::uint8_t master = 0;    ///< the last one that asked
     std::uint32_t requests = 0; ///< 0: this place of a list is empty
     Instant last{};             ///< when it was asked last
 };

@@ -28,7 +28,7 @@ struct BaudSearchSettings {
     std::chrono::nanoseconds baud_control = std::chrono::milliseconds{320}; ///< T_BC = 2 * 16 * 10 ms
 };
 
-/// How long nobody's telegram may be missed at this rate before it counts as the wrong one.
+/// How long no valid telegram may come at this rate before it counts as the wrong one.
 constexpr std::chrono::nanoseconds dwell_at(Baud baud, const BaudSearchSettings& settings = {})
 {
     return is_slow(baud) ? settings.dwell_slow : settings.dwell_fast;

@@ -33,8 +33,8 @@ public:
 
     explicit Echo(EchoMode mode) : mode_(mode) {}
 
-    /// `telegram` goes out now. Until `quiet_until` (its last stop bit and T_SYN) nobody else may speak, so
-    /// whatever differs from it is a broken echo; by `until` its echo, if there is one, has been read.
+    /// `telegram` goes out now. Until `quiet_until` (its last stop bit and T_SYN) no other station may send,
+    /// so whatever differs from it is a broken echo; by `until` its echo, if there is one, has been read.
     void sent(Bytes telegram, Instant quiet_until, Instant until) noexcept;
     /// Octets that were read at `at`. Octets that differ from what was sent (collision, short circuit) are
     /// given back with all that was withheld: layer 2 hunts through them. Valid until the next call.

@@ -76,7 +76,7 @@ private:
     // What next() goes on with.
     Heard heard_;
     bool reading_ = false;
-    std::optional<Flaw> untold_;
+    std::optional<Flaw> pending_flaw_;
     bool damaged_ = false;    // what was heard last is no telegram, and its flaw is told
     std::size_t counted_ = 0; // octets of rx_ before a pause whose flaw is told
     bool more_follows_ = false;

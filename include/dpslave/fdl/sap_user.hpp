@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The one door between layer 2 and what lives above it. FDL asks downwards and is answered in the same call;
+/// The one interface between layer 2 and its user. FDL asks downwards and is answered in the same call;
 /// nothing calls upwards, nothing is kept waiting. Source: wire reference 2 and 3.
 #pragma once
 
@@ -13,7 +13,7 @@ namespace dpslave::fdl {
 
 /// A valid request to a station address, as layer 2 hands it on.
 struct Indication {
-    std::uint8_t sa = 0;              ///< who asks, 0..126
+    std::uint8_t sa = 0;              ///< of the requester, 0..126
     std::optional<std::uint8_t> dsap; ///< service asked for; none = default SAP (Data_Exchange)
     std::optional<std::uint8_t> ssap; ///< the caller's SAP
     Bytes data;                       ///< user data without SAP octets; valid during the call
@@ -40,7 +40,7 @@ enum class Supervision : std::uint8_t {
     supervised, ///< parameterised, watchdog on
 };
 
-/// Whoever lives behind a station address: a DP slave.
+/// The user of a station address: a DP slave.
 class SapUser {
 public:
     /// An SRD to this address that is to be executed. Fills `reply` (empty at the call) for Answer::low and

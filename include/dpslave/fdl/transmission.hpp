@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// When a reply that was written has left the line, and when the driver has to be let go whatever anybody
-/// says. Pure: moments in, moments out. Source: wire reference 1.1, 1.3, 11.3; row A-027.
+/// When a reply that was written has left the line, and when the driver has to be made inactive whatever the
+/// UART says. Pure: moments in, moments out. Source: wire reference 1.1, 1.3, 11.3; row A-027.
 #pragma once
 
 #include "dpslave/base/units.hpp"

@@ -15,7 +15,7 @@ namespace dpslave::gsd {
 enum class Weight : std::uint8_t {
     error,    ///< tools refuse the file, misread it, or the slave will not start with it
     warning,  ///< tools read the file, but it does not say what the standard demands
-    pedantic, ///< no tool minds; told on request only
+    pedantic, ///< every tool takes it; reported on request only
 };
 
 struct Remark {

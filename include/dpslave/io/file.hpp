@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Files that people wrote: whole, bounded, never waited for.
+/// Reads regular files: whole, bounded, never waiting.
 #pragma once
 
 #include "dpslave/base/result.hpp"
@@ -10,7 +10,7 @@
 
 namespace dpslave::io {
 
-/// In octets. Files of people are small; more than this is a wrong path.
+/// In octets. Configuration files are small; more than this is a wrong path.
 inline constexpr std::size_t kMaxFileSize = 1024U * 1024U;
 
 /// What stands in `file`, octet by octet. Never waits: what is no regular file (a pipe, a terminal, a device)

@@ -23,7 +23,8 @@ struct GpioRequest {
 class GpioLine {
 public:
     /// Takes the line as an output that is inactive at once, for this process alone, until the end of the
-    /// object. The error is a sentence: chip not there, no right to it, line in use (by whom), no such line.
+    /// object. The error is a sentence: chip not there, no right to it, line in use (with its consumer), no
+    /// such line.
     static Result<GpioLine, std::string> request(const GpioRequest& request);
 
     GpioLine(GpioLine&&) noexcept;

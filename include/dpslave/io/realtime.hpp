@@ -36,15 +36,15 @@ std::vector<std::string> lock_memory();
 /// SCHED_FIFO with `priority` 1..99 (0 = ordinary scheduling).
 std::vector<std::string> enter_realtime(int priority, int cpu);
 
-/// While it lives the processors do not fall so deeply asleep that waking up takes longer than answering: 8
-/// to 30 us instead of up to 3 ms between an interrupt and its thread (wire reference 11.1). A wish: where
-/// /dev/cpu_dma_latency is not there or not ours nothing happens.
+/// While this object exists the processors enter no deep idle state: the exit latency is 8
+/// to 30 us instead of up to 3 ms between an interrupt and its thread (wire reference 11.1). Without effect
+/// where /dev/cpu_dma_latency does not exist or may not be opened.
 class ShallowIdle {
 public:
     ShallowIdle();
 
 private:
-    Fd held_; // closing it ends the wish
+    Fd held_; // closing it ends the request
 };
 
 /// Page faults of the calling thread since it began, minor and major: 0 more while it serves is what locked

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A serial port: raw octets at any rate, read without waiting. Knows nothing of what the octets mean.
+/// A serial port: raw octets at any rate, read without waiting. What the octets mean is not interpreted.
 /// Source: wire reference 11.1 and 11.4.
 #pragma once
 
@@ -55,7 +55,7 @@ struct Uart; // src/io/tty/uart.hpp
 
 class Tty {
 public:
-    /// Opens and sets `path`, alone: a second opener is refused. Whatever had come before is thrown away.
+    /// Opens and sets `path`, exclusively: a second opener is refused. What came before is discarded.
     /// The error is a sentence with path, reason and what to do. `sysfs`: where it lies.
     static Result<Tty, std::string> open(const std::string& path, const TtySettings& settings,
                                          const std::filesystem::path& sysfs = "/sys");
@@ -71,7 +71,7 @@ public:
     /// adapter keeps it for up to 16 ms unless its driver can shorten that.
     std::chrono::nanoseconds hold_back() const;
 
-    /// Another rate from now on. What was not sent or read yet is thrown away, and so is what comes within
+    /// Another rate from now on. What was not sent or read yet is discarded, and so is what comes within
     /// two characters, which it waits for: the one under way is half of each rate. The error is a sentence
     /// without the path; then the rate is whatever the driver took. Without an error nothing is allocated.
     std::optional<std::string> set_baud(std::uint32_t baud);
@@ -87,10 +87,10 @@ public:
     std::error_code write(Bytes octets);
 
     /// A reply: everything in one write(2), never waiting and never in two pieces, for a gap in a telegram is
-    /// not allowed. What the driver does not take whole is thrown away: std::errc::no_buffer_space.
+    /// not allowed. What the driver does not take whole is discarded: std::errc::no_buffer_space.
     std::error_code send(Bytes telegram);
 
-    /// Throws away what has come and was not read yet.
+    /// Discards what has come and was not read yet.
     std::error_code discard_input();
 
     /// Waits until read() has something to say, a hang-up included. False: the time is over.

@@ -10,7 +10,7 @@ namespace dpslave::io {
 enum class UartKind : std::uint8_t {
     unknown,
     pty,       ///< no UART at all
-    i8250,     ///< 16550 and its kin: divides its clock by a whole number, receive trigger in sysfs
+    i8250,     ///< 16550 and compatible ones: divides its clock by a whole number, receive trigger in sysfs
     i8250_kin, ///< the same registers, driven by a driver of its own (DesignWare, Exar), which sees to the
                ///< clock
     omap,      ///< 8250_omap (AM335x): FIFO of 64

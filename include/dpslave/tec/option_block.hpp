@@ -45,7 +45,7 @@ struct Hardware {
 };
 
 /// The first of HARDWARE (a port is not open), SELF TEST, PARAMETER (an input out of range, TYPE too) and
-/// TYPE MISMATCH that is the case (B-043, B-048, B-049). Never MISSING: who asks has an option.
+/// TYPE MISMATCH that is the case (B-043, B-048, B-049). Never MISSING: the option is there.
 OptionFault fault(const Settings& settings, const Hardware& hardware);
 /// The inputs that FAULT = PARAMETER is about, in the manual's order: "RIDE THROUGH" ...
 std::vector<std::string_view> inputs_out_of_range(const Settings& settings);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A TOML file read for its answers: whoever asks for a key says what is legal, and what is not becomes a
-/// fault with its place. Keys that nobody asked for are faults too, so there is no second list of legal keys
+/// A TOML file read key by key: the reader of a key says what is legal, and what is not becomes a
+/// fault with its place. Keys that were never read are faults too, so there is no second list of legal keys
 /// to keep up.
 #pragma once
 

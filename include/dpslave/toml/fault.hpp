@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A fault in a file that a person wrote: where it is, and what to do about it.
+/// A fault in a text: where it is, and what to do about it.
 #pragma once
 
 #include <cstddef>
@@ -18,14 +18,14 @@ struct Fault {
 /// All faults found in one run, in the order of the file.
 using Faults = std::vector<Fault>;
 
-/// So many faults of one run are told, and then that there are more: a file with thousands must not keep the
-/// program busy, and no person reads so many.
+/// Most faults that one run reports; a last one says that there are more. A file with thousands must not keep
+/// the program busy.
 inline constexpr std::size_t kMaxFaults = 100;
 
-/// Those behind the first kMaxFaults give way to one that says so.
+/// Replaces those after the first kMaxFaults by one that says so.
 void cap(Faults& faults);
 
-/// "FILE:LINE:COLUMN: what", as compilers do; printable, and not longer than a person reads.
+/// "FILE:LINE:COLUMN: what", as compilers do; printable, and of limited length.
 std::string to_string(const Fault& fault);
 
 } // namespace dpslave::toml

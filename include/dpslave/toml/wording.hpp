@@ -15,7 +15,7 @@ std::string_view nearest(std::string_view wrong, std::span<const std::string> le
 /// The same where at most `most` characters differ.
 std::string_view nearest(std::string_view wrong, std::span<const std::string> legal, std::size_t most);
 
-/// What a terminal would obey instead of showing it: below U+0020, and U+007F to U+009F. `text` is UTF-8.
+/// A control character of a terminal: below U+0020, and U+007F to U+009F. `text` is UTF-8.
 bool has_control_characters(std::string_view text);
 
 std::string in_quotes(std::string_view text);

@@ -41,9 +41,9 @@ public:
     /// Another rate; what had come at the old one is lost.
     void set_baud(Baud baud);
 
-    /// Reads all that has come; our own octets do not reach layer 2. A port that fails is closed.
+    /// Reads all that has come; the echo of replies does not reach layer 2. A port that fails is closed.
     void read(fdl::Layer2& layer2);
-    /// When the newest octets were read that are not our own.
+    /// When the newest octets were read that are no echo.
     Instant heard_at() const { return heard_at_; }
 
     /// The reply leaves now. Gives the moment after the write; nothing: it was not sent, and is counted.

@@ -19,7 +19,7 @@ namespace dpslave::app {
 
 class BusSender {
 public:
-    /// A wait shorter than this is spun: going to sleep and coming back takes longer.
+    /// A wait shorter than this is spun: a blocking wait takes longer.
     static constexpr std::chrono::microseconds kSpin{25};
 
     /// `driver` outlives the sender.

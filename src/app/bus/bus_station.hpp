@@ -43,7 +43,7 @@ private:
     void fetch();
 
     std::shared_ptr<StationLink> link_;
-    std::shared_ptr<const dp::Personality> personality_; // the slave looks into it
+    std::shared_ptr<const dp::Personality> personality_; // the slave refers to it
     dp::Slave slave_;
     BusOrders orders_;                         ///< as taken last
     std::optional<DemandOrder> waiting_order_; ///< refused by a full ring: late, not lost

@@ -30,7 +30,7 @@ public:
     void run(const std::stop_token& stop, io::EventFd& wake);
 
 private:
-    /// The longest sleep: also the heartbeat, and the resolution of every deadline that is further away.
+    /// The longest wait: also the heartbeat, and the resolution of every deadline that is further away.
     static constexpr std::chrono::milliseconds kTick{10};
     static constexpr std::chrono::microseconds kSpin = BusSender::kSpin;
     static constexpr std::chrono::microseconds kLastLook{1};

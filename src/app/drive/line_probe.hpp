@@ -37,7 +37,7 @@ ProbeLength length_of(const std::vector<ProbeTry>& plan, const config::LineConfi
 /// "03" of EI-ASCII, "3" of Modbus: as the configuration has it.
 std::string unit_text(const config::LineConfig& line, drive::UnitAddress unit);
 
-/// What answered, drive -> main. The first few; more of them on one line are no doubt seen.
+/// What answered, drive -> main. The first few; the first few show that the line has several.
 struct ProbeAnswer {
     std::uint32_t baud = 0;
     config::LineFormat format;

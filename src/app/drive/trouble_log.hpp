@@ -25,7 +25,7 @@ public:
     void remove(const DriveUnit& unit, const drive::Transaction& access);
     /// The drives of the line are `units` from now on.
     void keep_only(const std::vector<DriveUnit>& units);
-    /// The unit has the rows of `next` from now on: what was said of a row is not true of another one.
+    /// The unit has the rows of `next` from now on: what was refused of one row says nothing about another.
     void remove_changed_rows(const DriveUnit& unit, const config::StationConfig& next);
 
 private:

@@ -80,13 +80,13 @@ bool passes_self_test()
     return failures.empty();
 }
 
-/// Tells the bus thread to end and waits for it. False: it hangs in a call of the system.
+/// Stops the bus thread and waits for its end. False: it hangs in a call of the system.
 bool end(std::jthread& thread, io::EventFd& wake, const BusLink& link)
 {
-    constexpr std::chrono::seconds kPatience{2}; // more than twice the longest telegram at any rate
+    constexpr std::chrono::seconds kLongest{2}; // more than twice the longest telegram at any rate
     thread.request_stop();
     wake.ring();
-    const Instant limit = io::monotonic_now() + kPatience;
+    const Instant limit = io::monotonic_now() + kLongest;
     while (!link.ended.load(std::memory_order_acquire)) {
         if (io::monotonic_now() > limit) return false;
         std::this_thread::sleep_for(std::chrono::milliseconds{1});
@@ -102,7 +102,7 @@ ExitStatus run_daemon(const config::Config& config, const std::filesystem::path&
     io::Signals signals; // first: every later thread inherits the blocked signals
     for (const toml::Fault& warning : config.warnings) spdlog::warn("{}", to_string(warning));
 
-    // Everything that can fail comes first, in this thread, before anybody on the bus hears of us.
+    // Everything that can fail comes first, in this thread, before anything is sent on the bus.
     auto driver = io::DriverEnable::open(config.bus.driver_enable);
     if (!driver) {
         spdlog::error("{}[bus]: {}", place(config, config.bus.port_line), driver.error());
@@ -149,15 +149,15 @@ ExitStatus run_daemon(const config::Config& config, const std::filesystem::path&
 
     const bool by_signal = main_thread.run();
 
-    // The bus first: its last word to the drive lines is what puts the outputs into their safe state.
+    // The bus first: the end that it publishes makes the drive lines write the safe state.
     if (!end(bus_thread, bus_wake, link)) {
-        spdlog::critical("the bus thread hangs in a call of the system for {}: the program ends without it",
+        spdlog::critical("the bus thread hangs in a system call for {}; the program ends without it",
                          config.bus.port);
         runtime.end(); // meanwhile the guard has the driver enable
         main_thread.release();
-        std::_Exit(static_cast<int>(ExitStatus::device_not_opened)); // what it uses cannot be taken away
+        std::_Exit(static_cast<int>(ExitStatus::device_not_opened)); // what it uses cannot be freed
     }
-    static_cast<void>(driver->set(false, io::monotonic_now())); // also after a bus thread that had to give up
+    static_cast<void>(driver->set(false, io::monotonic_now())); // also after a bus thread that has failed
     runtime.end();
     spdlog::info("ended");
     return by_signal ? ExitStatus::ended_by_signal : ExitStatus::device_not_opened;

@@ -41,7 +41,7 @@ std::string inputs_of(const std::array<tec::Row, 10>& rows)
     return listed(names);
 }
 
-/// False: "the slave has not detected valid communications". Where the rate is fixed nobody searches, and
+/// False: "the slave has not detected valid communications". A fixed rate is not searched, and
 /// noise or a wrong rate brings tokens and SC, but no telegram with a checksum.
 bool hears_the_bus(const BusSnapshot& bus)
 {
@@ -124,7 +124,7 @@ void DeviceState::look(const Station& station, const BusSnapshot& bus)
     fault_ = tec::fault(settings_, hardware_);
     network_ = tec::network_state(fault_, hardware_, station.bus, station.drive);
     int_diagnostic_ = tec::int_diagnostic(settings_.int_diag_select, station.bus, station.drive);
-    condition_.running = bus.valid; // its lamps also tell why it is silent
+    condition_.running = bus.valid; // its lamps also show why it is silent
     condition_.fault = fault_;
     condition_.network = network_;
     condition_.health = mirrored(tec.health);
@@ -231,7 +231,7 @@ std::optional<std::string> DeviceState::trip() const
 {
     if (!config_->tec) return std::nullopt;
     const std::uint16_t tag = config_->tec->trip.bit.tag;
-    if (tag == 0) return "not known: no tag tells it; set trip_tag in [station.tec]";
+    if (tag == 0) return "not known: no tag has it; set trip_tag in [station.tec]";
     const Seen* const one = seen_trip();
     if (one == nullptr) return fmt::format("unknown: tag {} was never read", tag);
     const std::string words = tec::trip_words(trip_octet());

@@ -51,9 +51,9 @@ public:
     const tec::Settings& settings() const { return settings_; }
     std::array<tec::Row, 10> rows() const;
     /// "0: NO TRIP", "5: EXTERNAL TRIP", "unknown: ..."; while it cannot be read the last one, and why it may
-    /// be old; "not known: ..." where no tag tells it. Nothing: the device has no function block.
+    /// be old; "not known: ..." where no tag has it. Nothing: the device has no function block.
     std::optional<std::string> trip() const;
-    /// Nothing: not known, or no tag tells it.
+    /// Nothing: not known, or no tag has it.
     std::optional<bool> tripped() const;
     /// Why the station is kept silent on the bus, and what to do; empty: it is not.
     std::string silent_because() const;

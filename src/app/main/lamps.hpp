@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The lamps of all stations: the LED language says the pattern, the sinks shine.
+/// The lamps of all stations: the LED language gives the pattern, the sinks switch the lamps.
 #pragma once
 
 #include "dpslave/config/config.hpp"
@@ -16,13 +16,13 @@ namespace dpslave::app {
 class Lamps {
 public:
     /// From now on those that the configuration names. A lamp that was there before, under whatever name,
-    /// shines on without a flicker. One that cannot be opened stays dark: the result says why, a sentence
+    /// goes on without an interruption. One that cannot be opened stays dark: the result says why, a sentence
     /// each.
     std::vector<std::string> exchange(const config::Config& config);
 
     /// What is the case at this station from now on.
     void set(std::size_t station, const led::Condition& condition);
-    /// Lets every lamp shine as its pattern says at `now`.
+    /// Switches every lamp as its pattern says at `now`.
     void show(Instant now);
     /// When show() is needed next.
     Instant next_change(Instant now) const;

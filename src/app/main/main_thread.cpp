@@ -187,13 +187,14 @@ void MainThread::log_port_events()
             case PortEvent::back: say(Level::info, port + " is back"); break;
             case PortEvent::driver_lost:
                 say(Level::error, "the driver enable of " + port +
-                                      " cannot be switched: nothing is sent until it works again; look "
-                                      "whether the GPIO chip is still there");
+                                      " cannot be switched: nothing is sent until it works again; check "
+                                      "that the GPIO chip is still there");
                 break;
             case PortEvent::driver_guarded:
                 say(Level::warning, "the driver enable of " + port +
-                                        " was let go by the guard: the UART did not say in time that it had "
-                                        "sent all; `dpctl counters` shows how often (driver_guarded)");
+                                        " was made inactive by the guard time: the UART did not report in "
+                                        "time that it has sent all; `dpctl counters` shows how often "
+                                        "(driver_guarded)");
                 break;
             case PortEvent::driver_back:
                 say(Level::info, "the driver enable of " + port + " works again");
@@ -205,7 +206,7 @@ void MainThread::log_port_events()
     if (const std::uint64_t dropped = guard_.dropped(); std::exchange(dropped_seen_, dropped) != dropped)
         say(Level::error, "the driver enable of " + port +
                               " was active for longer than any telegram takes, and was made inactive: the "
-                              "bus thread did not come to it in time");
+                              "bus thread was late; run `dpctl tune`");
 }
 
 void MainThread::feed_watchdog(Instant now)
@@ -217,7 +218,7 @@ void MainThread::feed_watchdog(Instant now)
     }
     if (now < next_watchdog_) return;
     next_watchdog_ = now + *interval / 4;
-    // Without a word systemd restarts the service: what it has to do when the bus thread stands still.
+    // Without it systemd restarts the service, as it must when the bus thread stands still.
     const std::uint64_t heartbeat = bus_.heartbeat.load(std::memory_order_relaxed);
     if (heartbeat != heartbeat_seen_) notifier_.watchdog();
     heartbeat_seen_ = heartbeat;

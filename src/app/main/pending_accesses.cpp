@@ -18,7 +18,7 @@ using control::Reply;
 namespace {
 
 constexpr std::size_t kMaxPending = 16;         // what the rings of a line can hold
-constexpr std::size_t kMaxPendingOfOthers = 12; // of those who are no operators, all together
+constexpr std::size_t kMaxPendingOfOthers = 12; // of all callers that are no operators
 constexpr std::size_t kMaxPendingOfOne = 4;     // of one user id that is not root
 
 /// The first register of the IEEE area, which has each number once more.
@@ -34,7 +34,7 @@ Result<std::uint16_t, Error> tag_of(const Json& parameters)
     return static_cast<std::uint16_t>(number);
 }
 
-/// `value`, as a person writes it, as the word of this tag.
+/// `value`, as it is displayed, as the word of this tag.
 Result<std::uint16_t, Error> word_to_write(const config::StationConfig& station, std::uint16_t tag,
                                            const std::string& value)
 {

@@ -26,7 +26,7 @@ public:
     };
     explicit Reload(const Parts& parts) : parts_(parts) {}
 
-    /// The method Reload. While one is in progress the next one waits; all who wait then share it.
+    /// The method Reload. While one is in progress the next one waits; all calls that wait then share it.
     control::Reply request(bool dry_run);
     /// SIGHUP.
     void request() { wanted_ = true; }

@@ -206,11 +206,11 @@ void plan_stations(const config::Config& present, const std::vector<InForce>& in
 void refuse_addresses_in_use(const config::Config& present, const std::vector<InForce>& in_force, Plan& plan)
 {
     const auto& stations = plan.config.stations;
-    const auto refuse = [&](std::size_t newcomer, std::size_t other, std::uint8_t address,
+    const auto refuse = [&](std::size_t added, std::size_t other, std::uint8_t address,
                             std::string_view since) {
         plan.refusals.push_back(fmt::format(
             "station {}: address {} is that of station {} {}: choose another address, or restart the service",
-            stations[newcomer].name, address, stations[other].name, since));
+            stations[added].name, address, stations[other].name, since));
     };
     for (std::size_t i = 0; i < stations.size(); ++i) {
         if (plan.stations[i].stays) continue;
@@ -236,7 +236,7 @@ void plan_rest(const config::Config& present, Plan& plan)
             fmt::format("group {} may operate, for callers from now on", plan.config.control.operator_group));
 }
 
-/// The order alone makes no difference to anybody, but whoever counts lines and stations has to learn it.
+/// The order alone changes no function, but the index of a line or station.
 void plan_order(Plan& plan)
 {
     bool moved = false;

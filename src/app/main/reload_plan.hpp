@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What a new configuration means for a program that runs: who goes on, who comes, who leaves, what has to
-/// wait for a restart, and why it cannot be done at all. Pure. Source: A-033.
+/// What a new configuration means for a program that runs: which stations and lines stay, come and leave,
+/// what has to wait for a restart, and why it cannot be done at all. Pure. Source: A-033.
 #pragma once
 
 #include "dpslave/config/config.hpp"

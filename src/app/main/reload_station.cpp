@@ -9,7 +9,7 @@ namespace dpslave::app {
 
 namespace {
 
-/// What the master has in its GSD, or was told in the diagnosis and the answers until now.
+/// What the master has in its GSD, or has read in the diagnosis and the answers until now.
 void look_at_personality(const config::StationConfig& before, const config::StationConfig& now,
                          Differences& leaves)
 {

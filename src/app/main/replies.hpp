@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The control socket, for those who answer a call later. Main thread only.
+/// The control socket, for the classes that answer a call later. Main thread only.
 #pragma once
 
 #include "dpslave/control/server.hpp"

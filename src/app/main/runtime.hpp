@@ -68,7 +68,7 @@ public:
     /// the bus has removed the stations that left. Else why not, a sentence with its place in the file, and
     /// all is as before. Precondition: is_settled().
     std::optional<std::string> exchange(const Plan& plan);
-    /// Why exchange() would refuse `plan`, as far as the file system tells; its sentence. Opens nothing.
+    /// Why exchange() would refuse `plan`, as far as the file system shows; a sentence. Opens nothing.
     std::optional<std::string> trouble_of(const Plan& plan) const;
     /// The bus has removed the stations that left: the lines write the safe state of drives that left, then
     /// they ask the new drives. Does not wait.

@@ -3,7 +3,7 @@
 /// a telegram written down beforehand, and no other, and that the clock of the bus runs. UART and driver
 /// enable are tested where they are opened: what was set is read back and the line that enables the driver is
 /// moved, to inactive. Where that fails the program does not start (status 3); in service it is FAULT =
-/// HARDWARE until it works again. That the transceiver behind them sends takes another station to hear. Pure.
+/// HARDWARE until it works again. Only another station can show that the transceiver sends. Pure.
 /// Source: HA463561U002, "Features" (B-006).
 #pragma once
 

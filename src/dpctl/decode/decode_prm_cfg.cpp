@@ -189,8 +189,8 @@ private:
     bool promised()
     {
         if (at_ < data_.size()) return true;
-        if (!told_) into_.faults.push_back("an identifier announces octets that are not there");
-        told_ = true;
+        if (!reported_) into_.faults.push_back("an identifier announces octets that are not there");
+        reported_ = true;
         return false;
     }
 
@@ -199,7 +199,7 @@ private:
     Decoded& into_;
     std::size_t at_ = 0;
     unsigned in_ = 0, out_ = 0;
-    bool told_ = false;
+    bool reported_ = false;
 };
 
 /// Without a Set_Prm before it only what does not depend on tags can be judged: as many tags as identifiers.

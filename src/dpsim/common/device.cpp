@@ -75,8 +75,8 @@ void DeviceLine::log(const Device& device, std::string_view words)
 
 void DeviceLine::warn(const Device& device, std::string_view words)
 {
-    const std::string who = devices().size() > 1 ? "unit " + device.address() + ": " : std::string{};
-    log_.push_back(who + std::string{words});
+    const std::string unit = devices().size() > 1 ? "unit " + device.address() + ": " : std::string{};
+    log_.push_back(unit + std::string{words});
 }
 
 } // namespace dpslave::sim

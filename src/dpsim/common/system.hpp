@@ -26,7 +26,7 @@ private:
 };
 
 Instant monotonic_now();
-/// Sleeps until `when` by the absolute clock; returns earlier if a signal comes.
+/// Waits until `when` by the absolute clock; returns earlier if a signal comes.
 void sleep_until(Instant when);
 /// For the calling thread: sleeps end as exactly as the hardware can (the default slack is 50 us), and, where
 /// the user may, it goes before other programs: a line that a compiler slows down proves nothing.

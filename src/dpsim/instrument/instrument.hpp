@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A 2408f or 2404f as its line and its front panel see it: words of registers, and who may write them
+/// A 2408f or 2404f as its line and its front panel see it: words of registers, and what may write them
 /// (handbook chapter 7; EI-ASCII and Modbus reference, section 5). Pure; knows no telegram.
 #pragma once
 

@@ -21,8 +21,8 @@ public:
 
     /// Octet i of `octets`, read at `now`, is due at max(line free, now) + (i + 1) characters (+ delay).
     void take(Bytes octets, Instant now);
-    /// Every octet that is due by `now`, oldest first: who came late catches up, so that the average rate
-    /// stays exact.
+    /// Every octet that is due by `now`, oldest first: a late call takes what is overdue, so that the average
+    /// rate stays exact.
     Octets due_by(Instant now);
     Instant next_due() const { return queue_.empty() ? kNever : queue_.front().due; }
     bool empty() const { return queue_.empty(); }

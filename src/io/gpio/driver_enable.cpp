@@ -128,7 +128,7 @@ struct DriverEnable::Held {
     std::optional<std::string> attach_kernel(int fd);
 };
 
-/// The book is kept before the edge: a thread that is stopped in between is covered by the guard.
+/// The time is noted before the edge: a thread that is stopped in between is covered by the guard.
 std::error_code DriverEnable::Held::rise(Instant now) noexcept
 {
     if (!works.load(std::memory_order_relaxed)) return std::make_error_code(std::errc::no_such_device);
@@ -159,7 +159,7 @@ std::error_code DriverEnable::Held::fall(Instant now) noexcept
         return error;
     }
     std::int64_t before = since.load(std::memory_order_acquire);
-    while (before != kGuardAtWork && // which writes the same into the book
+    while (before != kGuardAtWork && // which notes the same
            !since.compare_exchange_weak(before, kInactive, std::memory_order_acq_rel)) {
     }
     return {};
@@ -171,7 +171,7 @@ bool DriverEnable::Held::get_back()
 {
     const std::lock_guard lock(exchange_mutex);
     if (settings.direction == Direction::gpio) {
-        line.reset(); // first, or it would be in use, by ourselves
+        line.reset(); // first, or it would be in use by this process
         auto again = GpioLine::request(request_of(settings));
         if (!again) return false;
         line.emplace(std::move(*again));
@@ -185,8 +185,8 @@ bool DriverEnable::Held::get_back()
 std::optional<std::string> DriverEnable::Held::attach_rts(int fd)
 {
     if (!rts(fd)) return cannot(fd, Direction::rts, "it has no RTS: " + code(errno).message());
-    // The kernel lets RTS go as the last user closes the port, however that one ended. That is inactive, but
-    // not with active_low.
+    // The kernel drops RTS as the last user closes the port, however that process ended. That is inactive,
+    // but not with active_low.
     if (const int error = drop_rts_on_close(fd, !settings.active_low); error != 0)
         return cannot(fd, Direction::rts, "its settings are refused: " + code(error).message());
     if (const int error = set_rts(fd, settings.active_low); error != 0)
@@ -230,7 +230,7 @@ std::optional<std::string> DriverEnable::release(const DriverEnableSettings& set
         const auto taken = open(settings); // inactive by that, and given back at the end of this
         return taken ? std::nullopt : std::optional{taken.error()};
     }
-    // Where RTS is asserted while sending the kernel has let it go, and to open the port would assert it
+    // Where RTS is asserted while sending the kernel has dropped it, and to open the port would assert it
     // anew.
     if (settings.direction != Direction::rts || !settings.active_low) return std::nullopt;
     const Fd fd{::open(port.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)};

@@ -28,7 +28,7 @@ bool can_rs485(int fd);
 int set_rts(int fd, bool asserted) noexcept;
 /// Whether RTS is asserted; nothing: this port has no RTS.
 std::optional<bool> rts(int fd);
-/// Whether the kernel shall let RTS go as the port is closed, however its owner ended.
+/// Whether the kernel drops RTS when the port is closed, however its owner ended.
 int drop_rts_on_close(int fd, bool drop);
 
 std::string name_of_port(int fd);

@@ -100,14 +100,14 @@ using Opened = Result<std::unique_ptr<LedSink>, std::string>;
 
 /// 0, or errno. The kernel makes the pin's folder in the course of the export; udev gives its files to the
 /// group a little later.
-int wait_until_writable(const fs::path& file, std::chrono::milliseconds patience)
+int wait_until_writable(const fs::path& file, std::chrono::milliseconds longest)
 {
     constexpr std::chrono::milliseconds kPause{10};
     for (;;) {
         if (::access(file.c_str(), W_OK) == 0) return 0;
         const int error = errno;
-        if (patience <= kPause) return error;
-        patience -= kPause;
+        if (longest <= kPause) return error;
+        longest -= kPause;
         ::poll(nullptr, 0, static_cast<int>(kPause.count()));
     }
 }
@@ -141,18 +141,18 @@ Opened open_gpio(const std::string& sink, const std::string& name, const fs::pat
     const std::string number = std::to_string(*found);
     const fs::path pin = gpio / ("gpio" + number);
     std::error_code ignored;
-    std::chrono::milliseconds patience{0}; // a pin that was there before has the rights that it gets
+    std::chrono::milliseconds longest{0}; // a pin that was there before has the rights that it gets
     if (!fs::exists(pin, ignored)) {
-        patience = std::chrono::milliseconds{250};
+        longest = std::chrono::milliseconds{250};
         // EBUSY: it was exported between the look and the write; the pin is there then.
         if (const int error = write_attribute(gpio / "export", number); error != 0 && error != EBUSY)
             return Failure{sentence(sink, gpio / "export", error, kAdvice)};
     }
     for (const char* const attribute : {"direction", "value"})
-        if (const int error = wait_until_writable(pin / attribute, patience); error != 0)
+        if (const int error = wait_until_writable(pin / attribute, longest); error != 0)
             return Failure{sentence(sink, pin / attribute, error, kAdvice)};
-    // "low" makes an output of it that was never high, which "out" does not promise; it means the pin, and 0
-    // the lamp, which differs where the pin is active low.
+    // "low" makes an output of it that was never high, which "out" does not guarantee; it means the pin, and
+    // 0 the lamp, which differs where the pin is active low.
     if (const int error = write_attribute(pin / "direction", "low"); error != 0)
         return Failure{sentence(sink, pin / "direction", error, kAdvice)};
     if (const int error = write_attribute(pin / "value", "0"); error != 0)
@@ -164,7 +164,7 @@ Opened open_led_class(const std::string& sink, const std::string& name, const fs
 {
     const fs::path lamp = sysfs / "class" / "leds" / name;
     const fs::path brightness = lamp / "brightness";
-    // A trigger (heartbeat, mmc0 ...) would write into our pattern. A kernel built without triggers has no
+    // A trigger (heartbeat, mmc0 ...) would disturb the pattern. A kernel built without triggers has no
     // such file.
     if (const int error = write_attribute(lamp / "trigger", "none"); error != 0 && error != ENOENT)
         return Failure{sentence(sink, lamp / "trigger", error, "check that this user may use the LED class")};
@@ -229,7 +229,7 @@ std::string line_target(const std::string& chip, unsigned line)
     return "line:" + chip + ':' + std::to_string(line);
 }
 
-/// "gpio:N" and "gpio:LABEL:OFFSET" as the line of a chip, as far as sysfs tells; else by the number.
+/// "gpio:N" and "gpio:LABEL:OFFSET" as the line of a chip, as far as sysfs shows; else by the number.
 std::string pin_target(const std::string& name, const fs::path& gpio)
 {
     const auto number = numbered(name, gpio);

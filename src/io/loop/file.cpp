@@ -53,7 +53,7 @@ Result<std::string, Unreadable> read_regular_file(const std::string& file)
         if (got < 0) return last_error();
         if (got == 0) return content;
         content.append(part.data(), static_cast<std::size_t>(got));
-        if (content.size() > kMaxFileSize) return too_large(); // it grows, or its size is not told (/proc)
+        if (content.size() > kMaxFileSize) return too_large(); // it grows, or its size is not known (/proc)
     }
 }
 

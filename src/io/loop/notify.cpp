@@ -18,7 +18,7 @@ std::string status_line(std::string_view text)
     return line;
 }
 
-/// A service manager that does not listen is nothing a service could mend.
+/// An error is ignored: without a service manager there is nothing to notify.
 void send(const std::string& state)
 {
     static_cast<void>(::sd_notify(0, state.c_str()));

@@ -24,7 +24,7 @@ public:
     /// `out` may be `raw` itself: what is written never overtakes what is read.
     Step undo(Bytes raw, std::span<std::uint8_t> out) noexcept;
 
-    /// Forgets a sequence begun: the input was thrown away.
+    /// Drops a sequence begun: the input was discarded.
     void reset() noexcept { seen_ = Seen::nothing; }
 
 private:

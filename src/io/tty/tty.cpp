@@ -80,8 +80,8 @@ std::optional<std::string> port_trouble(const std::string& path)
 namespace {
 
 /// No other program reads these octets or writes between them. The lock ends with its owner, however that
-/// ends. The exclusive mode of the tty keeps out those who do not ask for locks, but root ignores it, and on
-/// a pty it outlives its owner as long as the other end stays open: there the lock alone has to do.
+/// ends. The exclusive mode of the tty refuses programs that use no locks, but root ignores it, and on
+/// a pty it stays after its owner as long as the other end is open: there only the lock is used.
 int claim(int fd, bool pty)
 {
     if (::flock(fd, LOCK_EX | LOCK_NB) < 0) return errno;

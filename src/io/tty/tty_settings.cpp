@@ -37,7 +37,8 @@ std::string text(tcflag_t flags)
     return std::string{size} + parity + ((flags & CSTOPB) != 0 ? "2" : "1");
 }
 
-/// Drivers that gather octets (FTDI: 16 ms) hand them on at once. A wish: most drivers do not know it.
+/// Drivers that gather octets (FTDI: 16 ms) hand them on at once. A failure is ignored: most drivers do not
+/// know it.
 void ask_for_low_latency(int fd)
 {
     serial_struct serial{};
@@ -53,7 +54,7 @@ std::string last_error_text()
 
 std::string not_readable()
 {
-    return "the serial port does not tell its settings (" + last_error_text() +
+    return "the settings of the serial port cannot be read (" + last_error_text() +
            "): check that there is a UART behind it";
 }
 

@@ -12,11 +12,11 @@ namespace dpslave::io {
 /// From start bit to stop bit, at the rate asked for.
 std::chrono::nanoseconds character_time(const TtySettings& settings);
 
-/// Raw, at the rate and format asked for, everything old thrown away; then reads back what the driver made of
+/// Raw, at the rate and format asked for, everything old discarded; then reads back what the driver made of
 /// it. `uart` is asked for its clock again. Empty = done, else a sentence without the path.
 std::string apply(int fd, const TtySettings& settings, Uart& uart);
 
-/// Another rate, all else as it is; what was not sent or read yet is thrown away. `uart` is asked for its
+/// Another rate, all else as it is; what was not sent or read yet is discarded. `uart` is asked for its
 /// clock again. Empty = done, and nothing was allocated; else a sentence without the path.
 std::string change_rate(int fd, std::uint32_t baud, Uart& uart);
 

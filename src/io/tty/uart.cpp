@@ -173,8 +173,8 @@ std::string rate_remedy(const Uart& uart)
 {
     std::string choice = "choose a rate that it can do, or another adapter";
     if (uart.baud_base == 0 || (!uart.driver.empty() && !is_plain_8250(uart))) return choice;
-    return choice + "; the driver believes that the UART reaches " + std::to_string(uart.baud_base) +
-           " bit/s: if its clock is another one, root tells it so with `setserial " +
+    return choice + "; the driver takes the UART to reach " + std::to_string(uart.baud_base) +
+           " bit/s: if its clock is another one, set it as root with `setserial " +
            (uart.name.empty() ? "PORT" : "/dev/" + uart.name) + " baud_base N`";
 }
 
