@@ -277,7 +277,7 @@ TEST(DpctlInfo, RepeatsWhatTheFunctionBlockWarnsOf)
 
 TEST(DpctlTec, ShowsTheFunctionBlockTripAndNotes)
 {
-    EXPECT_EQ(render_tec(fixture("GetTec")["stations"][0], false), test::lines(R"(
+    EXPECT_EQ(render_tec(report::read<report::Tec>(fixture("GetTec")["stations"][0]), false), test::lines(R"(
 booster: TEC OPTION
           NAME            VALUE          NUMBER  RANGE
   input   TYPE            PROFIBUS DP         2  0 to 9
@@ -296,7 +296,7 @@ TEST(DpctlTec, TakesTheNamesThatFitAnyOptionInTheGenericView)
     Json reply = fixture("GetTec");
     reply["stations"][0]["view"] = "generic";
 
-    const std::string picture = render_tec(reply["stations"][0], false);
+    const std::string picture = render_tec(report::read<report::Tec>(reply["stations"][0]), false);
 
     EXPECT_EQ(picture.find("booster: TEC OPTION, in names that fit any option\n"), 0u);
     EXPECT_NE(picture.find("  input   INPUT 1   3"), std::string::npos) << picture;
@@ -309,7 +309,7 @@ TEST(DpctlTec, SaysTheThreeStepsOfTheSetUpWhereItIsNotSetUp)
     for (const int fault : {1, 2}) { // PARAMETER, TYPE MISMATCH
         Json reply = fixture("GetTec");
         reply["stations"][0]["rows"][4]["value"] = fault;
-        const std::string picture = render_tec(reply["stations"][0], false);
+        const std::string picture = render_tec(report::read<report::Tec>(reply["stations"][0]), false);
 
         const auto type =
             picture.find("    1. TYPE is to be PROFIBUS DP:  dpctl tec set TYPE \"PROFIBUS DP\"\n");
@@ -320,7 +320,9 @@ TEST(DpctlTec, SaysTheThreeStepsOfTheSetUpWhereItIsNotSetUp)
         EXPECT_LT(address, look);
         EXPECT_NE(look, std::string::npos);
     }
-    EXPECT_EQ(render_tec(fixture("GetTec")["stations"][0], false).find("three steps"), std::string::npos);
+    EXPECT_EQ(
+        render_tec(report::read<report::Tec>(fixture("GetTec")["stations"][0]), false).find("three steps"),
+        std::string::npos);
 }
 
 TEST(DpctlIo, ShowsEachWordRawAndScaledWithItsAge)
@@ -525,7 +527,7 @@ TEST(DpctlRenderers, SurviveRepliesOfAnotherVersion)
                 render_io(odd, false);
                 render_diagnosis(odd, false);
                 render_counters(odd, false);
-                render_tec(odd, false);
+                render_tec(report::read<report::Tec>(odd), false);
                 render_tag(odd, "is");
                 render_followed_status(odd, false);
                 render_followed_io(odd, false);

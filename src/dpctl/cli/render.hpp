@@ -5,6 +5,8 @@
 #include "fields.hpp"
 #include "table.hpp"
 
+#include "dpslave/report/replies.hpp"
+
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,7 +20,7 @@ std::string render_io(const Json& reply, Look look);
 std::string render_diagnosis(const Json& reply, Look look);
 std::string render_counters(const Json& reply, Look look);
 /// TEC OPTION of a station, with the three steps of its set-up where it is not set up (B-054).
-std::string render_tec(const Json& tec, Look look);
+std::string render_tec(const report::Tec& tec, Look look);
 /// What a reload changes, or why it is refused; of a dry run also who would leave the bus.
 std::string render_reload(const Json& reply, bool is_dry_run);
 /// A tag read or written.

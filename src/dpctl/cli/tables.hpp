@@ -14,12 +14,12 @@ namespace dpslave::dpctl {
 
 std::string bus_line(const report::Bus& bus);
 /// "Data_Exch", "Data_Exch in Clear", "Power_On".
-std::string state_text(const Json& station);
+std::string state_text(const report::Station& station);
 /// "answers", "silent", "port gone".
-std::string link_text(const Json& drive);
+std::string link_text(const report::Drive& drive);
 /// Of a station that is in RIDE THROUGH: for how long its outputs stand.
-std::string ride_text(const Json& station);
+std::string ride_text(const report::Ride& ride);
 /// What a station emulates, from the reply of GetInfo.
-void add_info(Block& block, const Json& info, std::string_view version);
+void add_info(Block& block, const report::Info& info, std::string_view version);
 
 } // namespace dpslave::dpctl

@@ -8,16 +8,13 @@
 namespace dpslave::dpctl {
 namespace {
 
-/// The object of `array` whose `key` is the same as in `like`; an empty one without.
-const Json& same(const Json& array, const Json& like, std::initializer_list<const char*> keys)
+/// The one of `all` that is like `wanted` in these fields; null without.
+template <class T>
+const T* same(const std::vector<T>& all, const T& wanted, auto... fields)
 {
-    static const Json nothing = Json::object();
-    for (const Json& item : array) {
-        bool equal = item.is_object();
-        for (const char* key : keys) equal = equal && item.value(key, Json{}) == like.value(key, Json{});
-        if (equal) return item;
-    }
-    return nothing;
+    for (const T& one : all)
+        if (((one.*fields == wanted.*fields) && ...)) return &one;
+    return nullptr;
 }
 
 /// "state Wait_Prm (was Data_Exch)", or nothing when it is the same.
@@ -29,39 +26,38 @@ void compare(std::string& line, const char* what, const std::string& before, con
     if (!anew) line += fmt::format(" (was {})", before);
 }
 
-std::string bus_state(const Json& bus)
+std::string bus_state(const report::Bus& bus)
 {
-    return bus.contains("port_open") && !flag(bus, "port_open") ? "port gone" : text(bus, "baud_state");
+    return bus.port_open ? bus.baud_state : "port gone";
 }
 
-std::string bus_change(const Json& before, const Json& now)
+std::string bus_change(const report::Bus& before, const report::Bus& now, bool anew)
 {
-    const bool anew = before.empty();
     std::string line;
-    compare(line, "rate", rate(integer(before, "baud").value_or(0)), rate(integer(now, "baud").value_or(0)),
-            anew);
+    compare(line, "rate", rate(before.baud), rate(now.baud), anew);
     compare(line, "state", bus_state(before), bus_state(now), anew);
     return line;
 }
 
-std::string station_change(const Json& before, const Json& now)
+/// `past`: null when it was not there.
+std::string station_change(const report::Station* past, const report::Station& now)
 {
-    const bool anew = before.empty();
+    const bool anew = past == nullptr;
+    const report::Station& before = anew ? now : *past;
     std::string line;
     compare(line, "state", state_text(before), state_text(now), anew);
-    compare(line, "master", number(before, "master", "none"), number(now, "master", "none"), anew);
-    compare(line, "drive", link_text(part(before, "drive")), link_text(part(now, "drive")), anew);
+    compare(line, "master", number(before.master, "none"), number(now.master, "none"), anew);
+    compare(line, "drive", link_text(before.drive), link_text(now.drive), anew);
     return line;
 }
 
-std::string word_change(const Json& before, const Json& now)
+std::string word_change(const report::Word* before, const report::Word& now)
 {
-    const bool same_value = text(before, "value") == text(now, "value") &&
-                            before.value("raw", Json{}) == now.value("raw", Json{});
-    if (!before.empty() && same_value && text(before, "state") == text(now, "state")) return {};
-    const std::string name = text(now, "name", "");
-    return fmt::format("{} tag {}{} = {} ({})", text(now, "direction"), number(now, "tag"),
-                       name.empty() ? "" : " " + name, text(now, "value"), text(now, "state"));
+    using report::Word;
+    if (before != nullptr && same({*before}, now, &Word::value, &Word::raw, &Word::state) != nullptr)
+        return {};
+    return fmt::format("{} tag {}{} = {} ({})", now.direction, now.tag, now.name ? " " + *now.name : "",
+                       now.value, now.state);
 }
 
 void add(std::vector<std::string>& lines, const std::string& what, const std::string& line)
@@ -71,30 +67,32 @@ void add(std::vector<std::string>& lines, const std::string& what, const std::st
 
 } // namespace
 
-std::vector<std::string> status_changes(const Json& before, const Json& now)
+std::vector<std::string> status_changes(const Json& past, const Json& reply)
 {
+    const auto before = report::read<report::WatchReply>(past), now = report::read<report::WatchReply>(reply);
     std::vector<std::string> lines;
-    add(lines, "bus", bus_change(part(before, "bus"), part(now, "bus")));
-    for (const Json& station : list(now, "stations"))
-        if (station.is_object())
-            add(lines, text(station, "name"),
-                station_change(same(list(before, "stations"), station, {"name"}), station));
-    for (const Json& station : list(before, "stations"))
-        if (station.is_object() && same(list(now, "stations"), station, {"name"}).empty())
-            add(lines, text(station, "name"), "removed");
+    add(lines, "bus", bus_change(before.bus, now.bus, past.empty()));
+    for (const report::Station& station : now.stations)
+        add(lines, station.name,
+            station_change(same(before.stations, station, &report::Station::name), station));
+    for (const report::Station& station : before.stations)
+        if (same(now.stations, station, &report::Station::name) == nullptr)
+            add(lines, station.name, "removed");
     return lines;
 }
 
-std::vector<std::string> io_changes(const Json& before, const Json& now)
+std::vector<std::string> io_changes(const Json& past, const Json& reply)
 {
+    using report::Word;
+    const auto before = report::read<report::WatchReply>(past), now = report::read<report::WatchReply>(reply);
     std::vector<std::string> lines;
-    for (const Json& station : list(now, "words")) {
-        if (!station.is_object()) continue;
-        const Json& old_words = list(same(list(before, "words"), station, {"name"}), "words");
-        for (const Json& w : list(station, "words"))
-            if (w.is_object())
-                add(lines, text(station, "name"),
-                    word_change(same(old_words, w, {"direction", "octet", "tag"}), w));
+    for (const report::StationWords& station : now.words) {
+        const auto* old = same(before.words, station, &report::StationWords::name);
+        for (const Word& word : station.words)
+            add(lines, station.name,
+                word_change(old ? same(old->words, word, &Word::direction, &Word::octet, &Word::tag)
+                                : nullptr,
+                            word));
     }
     return lines;
 }

@@ -31,7 +31,7 @@ int do_tec_set(const Options& options, Terminal& terminal)
     if (options.yes) parameters["yes"] = true;
     return show(options, terminal, "SetTec", parameters, [&](const Json& reply) {
         std::string out;
-        for (const Json& tec : list(reply, "stations"))
+        for (const report::Tec& tec : report::read<report::SetTecReply>(reply).stations)
             out += (out.empty() ? "" : "\n") + render_tec(tec, terminal.look());
         return out;
     });

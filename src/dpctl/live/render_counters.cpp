@@ -27,70 +27,71 @@ std::string bar(std::int64_t count, std::int64_t most)
 }
 
 /// "12", "64 to 79", "14336 and more".
-std::string bounds(const Json& one)
+std::string bounds(const report::DistributionClass& one)
 {
-    const auto from = integer(one, "from"), to = integer(one, "to");
-    if (!from) return "?";
-    if (!to) return fmt::format("{} and more", *from);
-    return *from == *to ? fmt::format("{}", *from) : fmt::format("{} to {}", *from, *to);
+    if (!one.to) return fmt::format("{} and more", one.from);
+    return one.from == *one.to ? std::to_string(one.from) : fmt::format("{} to {}", one.from, *one.to);
 }
 
 /// The figures of all units side by side.
-Table figures(const Json& distributions)
+Table figures(const std::vector<report::Distribution>& distributions)
 {
     std::vector<std::string> header{""};
-    for (const Json& one : distributions) header.push_back(">" + text(one, "unit"));
+    for (const report::Distribution& one : distributions) header.push_back(">" + one.unit);
     Table table(std::move(header));
-    constexpr std::pair<const char*, const char*> kFigures[] = {
-        {"half of them within", "p50"}, {"99 %", "p99"}, {"99.9 %", "p999"}, {"the slowest", "highest"}};
-    for (const auto& [name, key] : kFigures) {
+    using report::Distribution;
+    const std::pair<const char*, std::optional<std::int64_t> Distribution::*> figures[] = {
+        {"half of them within", &Distribution::p50},
+        {"99 %", &Distribution::p99},
+        {"99.9 %", &Distribution::p999},
+        {"the slowest", &Distribution::highest}};
+    for (const auto& [name, figure] : figures) {
         std::vector<Cell> row{name};
-        for (const Json& one : distributions) row.emplace_back(number(one, key));
+        for (const Distribution& one : distributions) row.emplace_back(number(one.*figure));
         table.add(std::move(row));
     }
     return table;
 }
 
-Table classes(const Json& distribution)
+Table classes(const report::Distribution& distribution)
 {
-    const std::int64_t count = integer(distribution, "count").value_or(0);
+    const std::int64_t count = distribution.count;
     std::int64_t most = 0;
-    for (const Json& one : list(distribution, "classes"))
-        most = std::max(most, integer(one, "count").value_or(0));
-    Table table({">" + text(distribution, "unit"), ">REPLIES", ">SHARE", ""});
-    for (const Json& one : list(distribution, "classes")) {
-        const std::int64_t here = integer(one, "count").value_or(0);
-        table.add({bounds(one), number(one, "count"), percent(here, count), bar(here, most)});
+    for (const report::DistributionClass& one : distribution.classes) most = std::max(most, one.count);
+    Table table({">" + distribution.unit, ">REPLIES", ">SHARE", ""});
+    for (const report::DistributionClass& one : distribution.classes) {
+        const std::int64_t here = one.count;
+        table.add({bounds(one), number(one.count), percent(here, count), bar(here, most)});
     }
     return table;
 }
 
-std::string turnaround(const Json& distributions, Look look)
+std::string turnaround(const std::vector<report::Distribution>& distributions, Look look)
 {
-    const std::int64_t replies =
-        distributions.empty() ? 0 : integer(distributions.front(), "count").value_or(0);
+    const std::int64_t replies = distributions.empty() ? 0 : distributions.front().count;
     if (replies <= 0) return painted("turnaround", Tone::strong, look) + ": no reply was sent yet\n";
     std::string out = fmt::format("{} of {} {}, from the end of the request to the end of the write\n{}",
                                   painted("turnaround", Tone::strong, look), replies,
                                   replies == 1 ? "reply" : "replies", figures(distributions).str(look, 2));
-    for (const Json& one : distributions)
+    for (const report::Distribution& one : distributions)
         if (const Table table = classes(one); !table.empty()) out += '\n' + table.str(look, 2);
     return out;
 }
 
 } // namespace
 
-std::string render_counters(const Json& reply, Look look)
+std::string render_counters(const Json& json, Look look)
 {
+    const auto reply = report::read<report::GetCountersReply>(json);
     std::string out;
-    for (const Json& group : list(reply, "groups")) {
+    for (const report::CounterGroup& group : reply.groups) {
         Table table({">COUNT", ">LAST MINUTE", "OF", "MEANING"});
-        for (const Json& c : list(group, "counters"))
-            table.add({number(c, "value"), number(c, "minute"), text(c, "name"), text(c, "meaning")});
-        out += fmt::format("{}{}\n{}", out.empty() ? "" : "\n",
-                           painted(text(group, "name"), Tone::strong, look), table.str(look, 2));
+        for (const report::Counter& c : group.counters)
+            table.add({number(c.value), number(c.minute), c.name, c.meaning});
+        out += fmt::format("{}{}\n{}", out.empty() ? "" : "\n", painted(group.name, Tone::strong, look),
+                           table.str(look, 2));
     }
-    return out + (out.empty() ? "" : "\n") + turnaround(list(reply, "turnaround"), look);
+    return out + (out.empty() ? "" : "\n") + turnaround(reply.turnaround, look);
 }
 
 } // namespace dpslave::dpctl

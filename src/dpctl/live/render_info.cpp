@@ -7,21 +7,21 @@
 namespace dpslave::dpctl {
 namespace {
 
-std::string address(const Json& info)
+std::string address(const report::Info& info)
 {
-    const auto active = integer(info, "address_active"), pending = integer(info, "address_pending");
-    std::string result = number(info, "address_active") + " active";
-    if (pending && pending != active)
+    const auto pending = info.address_pending;
+    std::string result = std::to_string(info.address_active) + " active";
+    if (pending && pending != info.address_active)
         result += fmt::format(
             ", {} pending: the configuration file has it, the next start of dpslaved takes it", *pending);
     return result;
 }
 
-std::string limits(const Json& info)
+std::string limits(const report::Info& info)
 {
     return fmt::format("{} parameters, {} octets in, {} octets out, {} octets of diagnosis",
-                       number(info, "max_parameters"), number(info, "max_input_octets"),
-                       number(info, "max_output_octets"), number(info, "max_diag_octets"));
+                       info.max_parameters, info.max_input_octets, info.max_output_octets,
+                       info.max_diag_octets);
 }
 
 /// The two words of a controller's Comms list (2408f/2404f handbook ch. 4).
@@ -32,46 +32,36 @@ std::string comms_status(const std::string& shown)
 }
 
 /// "9.6 kbit/s: 60 T_bit" a line.
-std::string rates(const Json& info)
+std::string rates(const report::Info& info)
 {
-    const Json& bauds = list(info, "bauds");
-    const Json& tsdr = list(info, "max_tsdr");
     std::string result;
-    for (std::size_t i = 0; i < bauds.size(); ++i) {
-        if (!bauds[i].is_number_integer()) continue;
-        result += (result.empty() ? "" : "\n") + rate(bauds[i].get<std::int64_t>());
-        if (i < tsdr.size() && tsdr[i].is_number_integer())
-            result += fmt::format(", answers within {} T_bit", tsdr[i].get<std::int64_t>());
+    for (std::size_t i = 0; i < info.bauds.size(); ++i) {
+        result += (result.empty() ? "" : "\n") + rate(info.bauds[i]);
+        if (i < info.max_tsdr.size()) result += fmt::format(", answers within {} T_bit", info.max_tsdr[i]);
     }
     return result;
 }
 
 } // namespace
 
-void add_info(Block& block, const Json& info, std::string_view version)
+void add_info(Block& block, const report::Info& info, std::string_view version)
 {
-    block.add("order code", text(info, "order_code"));
+    block.add("order code", info.order_code);
     block.add("OPTION VERSION", std::string{version});
-    if (const std::string software = text(info, "option_software", ""); !software.empty())
-        block.add("option software", software);
-    block.add("host firmware", text(info, "firmware"));
-    block.add("manual", text(info, "manual"));
-    block.add("Ident_Number", fmt::format("0x{:04X}", integer(info, "ident").value_or(0)));
+    if (info.option_software) block.add("option software", *info.option_software);
+    block.add("host firmware", info.firmware);
+    block.add("manual", info.manual);
+    block.add("Ident_Number", fmt::format("0x{:04X}", info.ident));
     block.add("address", address(info));
-    if (const std::string status = text(info, "comms_status", ""); !status.empty())
-        block.add("comms status", comms_status(status));
-    if (const std::string resolution = text(info, "resolution", ""); !resolution.empty())
-        block.add("resolution", resolution);
-    block.add("legal addresses",
-              fmt::format("{} to {}", number(info, "address_min"), number(info, "address_max")));
+    if (info.comms_status) block.add("comms status", comms_status(*info.comms_status));
+    if (info.resolution) block.add("resolution", *info.resolution);
+    block.add("legal addresses", fmt::format("{} to {}", info.address_min, info.address_max));
     block.add("at most", limits(info));
-    block.add("has Demand Data", yes_no(flag(info, "demand_data")));
-    block.add("has Sync, Freeze", yes_no(flag(info, "sync")) + ", " + yes_no(flag(info, "freeze")));
+    block.add("has Demand Data", yes_no(info.demand_data));
+    block.add("has Sync, Freeze", yes_no(info.sync) + ", " + yes_no(info.freeze));
     block.add("rates", rates(info));
-    block.add("tag table", fmt::format("{}, {}", text(info, "tag_table"),
-                                       plural(integer(info, "tags_in_table").value_or(0), "tag")));
-    if (const std::string notes = joined(list(info, "notes"), "\n"); !notes.empty())
-        block.add("notes", notes);
+    block.add("tag table", fmt::format("{}, {}", info.tag_table, plural(info.tags_in_table, "tag")));
+    if (const std::string notes = joined(info.notes, "\n"); !notes.empty()) block.add("notes", notes);
 }
 
 } // namespace dpslave::dpctl

@@ -11,81 +11,68 @@
 namespace dpslave::dpctl {
 namespace {
 
-std::string hex_words(const Json& words)
+std::string hex_words(const std::vector<std::int64_t>& words)
 {
     std::string result;
-    for (const Json& w : words)
-        if (w.is_number_integer())
-            result += fmt::format("{}{:04X}", result.empty() ? "" : " ", w.get<std::int64_t>());
+    for (const std::int64_t w : words) result += fmt::format("{}{:04X}", result.empty() ? "" : " ", w);
     return result;
 }
 
-std::string outputs_text(const Json& s)
+std::string outputs_text(const report::StationIo& s)
 {
     std::string out = "outputs go to the drive";
-    if (!flag(s, "may_write")) return "nothing is written to the drive";
-    if (flag(s, "sync")) out = "Sync holds the outputs";
-    if (flag(s, "clear")) out = "the master is in Clear, 0 goes to every output";
-    return flag(s, "freeze") ? out + "; Freeze holds the inputs" : out;
+    if (!s.may_write) return "nothing is written to the drive";
+    if (s.sync) out = "Sync holds the outputs";
+    if (s.clear) out = "the master is in Clear, 0 goes to every output";
+    return s.freeze ? out + "; Freeze holds the inputs" : out;
 }
 
-std::string demand_lines(const Json& demand, Look look)
+std::string demand_lines(const report::Demand& demand, Look look)
 {
     Block block;
-    block.add("Demand Data", text(demand, "words"));
-    block.add("request", hex_words(list(demand, "request")));
-    block.add("reply", hex_words(list(demand, "reply")));
+    block.add("Demand Data", demand.words);
+    block.add("request", hex_words(demand.request));
+    block.add("reply", hex_words(demand.reply));
     return block.str(2, look);
 }
 
 /// Where the words of parameters begin: behind Demand Data, if there are any.
-std::int64_t first_octet(const Json& words)
+std::int64_t first_octet(const std::vector<report::Word>& words)
 {
     std::int64_t first = std::numeric_limits<std::int64_t>::max();
-    for (const Json& w : words) first = std::min(first, integer(w, "octet").value_or(first));
+    for (const report::Word& w : words) first = std::min(first, w.octet);
     return first;
 }
 
 /// Words of a direction are counted from 1, without Demand Data: as gsd make and dpsim count.
-std::string word_number(const Json& w, std::int64_t first)
+std::string word_number(const report::Word& w, std::int64_t first)
 {
-    const auto octet = integer(w, "octet");
-    return octet ? std::to_string((*octet - first) / 2 + 1) : "-";
+    return std::to_string((w.octet - first) / 2 + 1);
 }
 
-/// "5000 (1388h)".
-std::string raw_text(const Json& w)
-{
-    const auto raw = integer(w, "raw");
-    return raw ? fmt::format("{} ({:04X}h)", *raw, *raw) : "-";
-}
-
-Table word_table(const Json& words)
+Table word_table(const std::vector<report::Word>& words)
 {
     Table table({"DIR", ">OCTET", ">WORD", ">TAG", "NAME", ">VALUE", ">RAW", "STATE", ">AGE"});
     const std::int64_t first = first_octet(words);
-    for (const Json& w : words) {
-        const std::string state = text(w, "state");
-        const std::string answer = text(w, "answer", "");
+    for (const report::Word& w : words) {
+        const std::string& state = w.state;
         const Tone tone = state == "good" ? Tone::good : state == "untried" ? Tone::plain : Tone::bad;
-        table.add({text(w, "direction"), number(w, "octet"), word_number(w, first), number(w, "tag"),
-                   text(w, "name", ""), text(w, "value"), raw_text(w),
-                   Cell{answer.empty() ? state : fmt::format("{} '{}'", state, answer), tone},
-                   age(real(w, "age_ms"))});
+        table.add({w.direction, number(w.octet), word_number(w, first), number(w.tag), w.name.value_or(""),
+                   w.value, fmt::format("{0} ({0:04X}h)", w.raw),
+                   Cell{w.answer ? fmt::format("{} '{}'", state, *w.answer) : state, tone}, age(w.age_ms)});
     }
     return table;
 }
 
-/// The station of the same name; an empty object without.
-const Json& station_of(const Json& reply, const Json& words)
+/// ", address 5: Data_Exch"; nothing without the station.
+std::string state_of(const std::string& name, const std::vector<report::Station>& stations)
 {
-    static const Json nothing = Json::object();
-    for (const Json& s : list(reply, "stations"))
-        if (s.is_object() && text(s, "name") == text(words, "name")) return s;
-    return nothing;
+    for (const report::Station& s : stations)
+        if (s.name == name) return fmt::format(", address {}: {}", s.address, state_text(s));
+    return {};
 }
 
-std::string table_text(const Json& words, Look look)
+std::string table_text(const std::vector<report::Word>& words, Look look)
 {
     const Table table = word_table(words);
     return table.empty() ? "  no parameters: no master has chosen any\n" : table.str(look, 2);
@@ -93,17 +80,16 @@ std::string table_text(const Json& words, Look look)
 
 } // namespace
 
-std::string render_io(const Json& reply, Look look)
+std::string render_io(const Json& json, Look look)
 {
+    const auto reply = report::read<report::GetIoReply>(json);
     std::string out;
-    for (const Json& s : list(reply, "stations")) {
+    for (const report::StationIo& s : reply.stations) {
         out += out.empty() ? "" : "\n";
-        out += headline(
-            text(s, "name"),
-            fmt::format(", address {}: {}; {}", number(s, "address"), text(s, "state"), outputs_text(s)),
-            look);
-        out += table_text(list(s, "words"), look);
-        if (const Json& demand = part(s, "demand"); !demand.empty()) out += demand_lines(demand, look);
+        out +=
+            headline(s.name, fmt::format(", address {}: {}; {}", s.address, s.state, outputs_text(s)), look);
+        out += table_text(s.words, look);
+        if (s.demand) out += demand_lines(*s.demand, look);
     }
     if (!out.empty())
         out += '\n' +
@@ -116,16 +102,14 @@ std::string render_io(const Json& reply, Look look)
     return out;
 }
 
-std::string render_followed_io(const Json& reply, Look look)
+std::string render_followed_io(const Json& json, Look look)
 {
+    const auto reply = report::read<report::WatchReply>(json);
     std::string out;
-    for (const Json& s : list(reply, "words")) {
-        const Json& station = station_of(reply, s);
+    for (const report::StationWords& s : reply.words) {
         out += out.empty() ? "" : "\n";
-        out +=
-            headline(text(s, "name"),
-                     fmt::format(", address {}: {}", number(station, "address"), state_text(station)), look);
-        out += table_text(list(s, "words"), look);
+        out += headline(s.name, state_of(s.name, reply.stations), look);
+        out += table_text(s.words, look);
     }
     return out;
 }

@@ -2,41 +2,42 @@
 #include "dpctl/cli/render.hpp"
 #include "dpctl/cli/words.hpp"
 
+#include "dpslave/report/replies.hpp"
+
 #include <fmt/format.h>
 
 namespace dpslave::dpctl {
 
-std::string render_tag(const Json& reply, std::string_view verb)
+std::string render_tag(const Json& json, std::string_view verb)
 {
-    const std::string name = text(reply, "name", "");
-    std::string out =
-        fmt::format("{}: tag {}{} {} {}, raw {}\n", text(reply, "station"), number(reply, "tag"),
-                    name.empty() ? "" : " " + name, verb, text(reply, "value"), word(integer(reply, "raw")));
-    if (const auto master = integer(reply, "master"))
+    const auto reply = report::read<report::WriteTagReply>(json); // that of ReadTag has no master
+    std::string out = fmt::format("{}: tag {}{} {} {}, raw {}\n", reply.station, reply.tag,
+                                  reply.name ? " " + *reply.name : "", verb, reply.value, word(reply.raw));
+    if (reply.master)
         out += fmt::format("master {} writes this tag cyclically and will overwrite it with its own value\n",
-                           *master);
+                           *reply.master);
     return out;
 }
 
-std::string render_reload(const Json& reply, bool is_dry_run)
+std::string render_reload(const Json& json, bool is_dry_run)
 {
+    const auto reply = report::read<report::ReloadReply>(json);
     std::string out;
-    const auto add = [&](const char* key, std::string_view before) {
-        for (const Json& sentence : list(reply, key))
-            if (sentence.is_string()) out += fmt::format("{}{}\n", before, sentence.get<std::string>());
+    const auto add = [&](const std::vector<std::string>& sentences, std::string_view before) {
+        for (const std::string& sentence : sentences) out += fmt::format("{}{}\n", before, sentence);
     };
-    add("warnings", "warning: ");
-    if (!list(reply, "faults").empty()) {
-        add("faults", "");
+    add(reply.warnings, "warning: ");
+    if (!reply.faults.empty()) {
+        add(reply.faults, "");
         return out + "The new configuration is refused; the one until now runs on.\n";
     }
-    add("changes", "");
-    add("pending", "pending: ");
-    if (list(reply, "changes").empty() && list(reply, "pending").empty()) out += "Nothing has changed.\n";
+    add(reply.changes, "");
+    add(reply.pending, "pending: ");
+    if (reply.changes.empty() && reply.pending.empty()) out += "Nothing has changed.\n";
     if (!is_dry_run) return out;
-    for (const Json& one : list(reply, "leaving"))
-        out += fmt::format("leaves the bus: {} ({})\n", text(one, "station"), text(one, "reason"));
-    if (list(reply, "leaving").empty()) out += "no station leaves the bus\n";
+    for (const report::LeavingStation& one : reply.leaving)
+        out += fmt::format("leaves the bus: {} ({})\n", one.station, one.reason);
+    if (reply.leaving.empty()) out += "no station leaves the bus\n";
     return out + "Nothing was done: this is what a reload would do.\n";
 }
 

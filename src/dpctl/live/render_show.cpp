@@ -8,6 +8,19 @@
 namespace dpslave::dpctl {
 namespace {
 
+struct ShownStation {
+    report::Station station{};
+    report::Info info{};
+    report::StationLeds leds{};
+    std::optional<report::Tec> tec{};
+    DPSLAVE_FIELDS(station, info, leds, tec)
+};
+struct Shown {
+    std::string version{};
+    std::vector<ShownStation> stations{};
+    DPSLAVE_FIELDS(version, stations)
+};
+
 /// Groups 1 to 8 of Global_Control from the octet Group_Ident.
 std::string groups(std::int64_t octet)
 {
@@ -17,86 +30,76 @@ std::string groups(std::int64_t octet)
     return result.empty() ? "none" : result;
 }
 
-std::string diagnosis(const Json& station)
+std::string diagnosis(const report::Station& station)
 {
     std::string result;
-    if (flag(station, "stat_diag")) result = "static diagnosis: not ready for data yet";
-    if (flag(station, "diag_pending"))
+    if (station.stat_diag) result = "static diagnosis: not ready for data yet";
+    if (station.diag_pending)
         result += std::string{result.empty() ? "" : "; "} + "new, the master has yet to read it";
     return result.empty() ? "nothing new" : result;
 }
 
-std::string drive(const Json& d)
+std::string drive(const report::Drive& d)
 {
-    std::string result = fmt::format("unit {} on {} ({}, {}): {}\n", text(d, "unit"), text(d, "line"),
-                                     text(d, "port"), text(d, "protocol"), text(d, "link"));
-    if (const auto cycle = real(d, "cycle_ms")) result += fmt::format("a round takes {}; ", age(cycle));
-    result += fmt::format("{}, {}, {} unanswered, {} refused, lost {}",
-                          plural(integer(d, "reads").value_or(0), "read"),
-                          plural(integer(d, "writes").value_or(0), "write"), number(d, "silences"),
-                          number(d, "refusals"), plural(integer(d, "losses").value_or(0), "time"));
-    if (const std::string trouble = text(d, "last_trouble", ""); !trouble.empty())
-        result += "\nlast trouble: " + trouble;
+    std::string result =
+        fmt::format("unit {} on {} ({}, {}): {}\n", d.unit, d.line, d.port, d.protocol, d.link);
+    if (d.cycle_ms) result += fmt::format("a round takes {}; ", age(d.cycle_ms));
+    result += fmt::format("{}, {}, {} unanswered, {} refused, lost {}", plural(d.reads, "read"),
+                          plural(d.writes, "write"), d.silences, d.refusals, plural(d.losses, "time"));
+    if (d.last_trouble) result += "\nlast trouble: " + *d.last_trouble;
     return result;
 }
 
-void add_state(Block& block, const Json& s)
+void add_state(Block& block, const report::Station& s)
 {
-    const auto master = integer(s, "master");
-    const auto watchdog = integer(s, "watchdog_ms");
-    const std::string state = text(s, "state");
-    block.add("device", fmt::format("{} (profile {})", text(s, "device"), text(s, "profile")));
-    block.add("state", state + (master ? fmt::format(", master {}", *master) : ", no master"),
-              state == "Data_Exch" ? Tone::good : Tone::bad);
-    if (flag(s, "held"))
+    block.add("device", fmt::format("{} (profile {})", s.device, s.profile));
+    block.add("state", s.state + (s.master ? fmt::format(", master {}", *s.master) : ", no master"),
+              s.state == "Data_Exch" ? Tone::good : Tone::bad);
+    if (s.held)
         block.add("held", "the scale of a tag is not known, and no data are exchanged: dpctl diag",
                   Tone::bad);
-    if (flag(s, "clear")) block.add("Clear", "the master is in Clear: 0 goes to every output", Tone::bad);
-    if (!part(s, "ride").empty()) block.add("RIDE THROUGH", ride_text(s), Tone::bad);
-    if (const std::string why = text(s, "silent_because", ""); !why.empty()) block.add("silent", why);
-    block.add("watchdog", watchdog ? age(static_cast<double>(*watchdog)) : "off");
-    block.add("min T_SDR", number(s, "min_tsdr") + " T_bit");
-    block.add("groups", groups(integer(s, "groups").value_or(0)));
-    block.add("Sync, Freeze",
-              fmt::format("{}, {}", flag(s, "sync") ? "on" : "off", flag(s, "freeze") ? "on" : "off"));
+    if (s.clear) block.add("Clear", "the master is in Clear: 0 goes to every output", Tone::bad);
+    if (s.ride) block.add("RIDE THROUGH", ride_text(*s.ride), Tone::bad);
+    if (s.silent_because) block.add("silent", *s.silent_because);
+    block.add("watchdog", s.watchdog_ms ? age(static_cast<double>(*s.watchdog_ms)) : "off");
+    block.add("min T_SDR", std::to_string(s.min_tsdr) + " T_bit");
+    block.add("groups", groups(s.groups));
+    block.add("Sync, Freeze", fmt::format("{}, {}", s.sync ? "on" : "off", s.freeze ? "on" : "off"));
     block.add("diagnosis", diagnosis(s));
-    block.add("parameters", number(s, "parameters") + (flag(s, "demand_data") ? " and Demand Data" : ""));
-    const std::int64_t left = integer(s, "left_count").value_or(0);
-    const std::string because = text(s, "left_because", "");
-    block.add("left Data_Exch",
-              left == 0 ? "never"
-                        : plural(left, "time") + (because.empty() ? "" : ", the last time: " + because));
-    block.add("drive", drive(part(s, "drive")));
+    block.add("parameters", std::to_string(s.parameters) + (s.demand_data ? " and Demand Data" : ""));
+    block.add("left Data_Exch", s.left_count == 0
+                                    ? "never"
+                                    : plural(s.left_count, "time") +
+                                          (s.left_because ? ", the last time: " + *s.left_because : ""));
+    block.add("drive", drive(s.drive));
 }
 
-std::string lamp_table(const Json& leds, Look look)
+std::string lamp_table(const report::StationLeds& leds, Look look)
 {
     Table table({"LED", "NOW", "PATTERN", "SINK"});
-    for (const Json& led : list(leds, "leds"))
-        table.add({text(led, "name"), flag(led, "lit") ? "lit" : "dark", text(led, "pattern"),
-                   text(led, "sink") == "none" ? "no lamp is configured" : text(led, "sink")});
+    for (const report::Led& led : leds.leds)
+        table.add({led.name, led.lit ? "lit" : "dark", led.pattern,
+                   led.sink == "none" ? "no lamp is configured" : led.sink});
     return table.empty() ? "" : table.str(look, 2);
 }
 
 } // namespace
 
-std::string render_show(const Json& document, Look look)
+std::string render_show(const Json& json, Look look)
 {
-    const std::string version = text(document, "version");
+    const auto document = report::read<Shown>(json);
     std::string out;
-    for (const Json& one : list(document, "stations")) {
-        const Json& station = part(one, "station");
-        const Json& leds = part(one, "leds");
+    for (const ShownStation& one : document.stations) {
         Block block;
-        add_state(block, station);
+        add_state(block, one.station);
         block.add_blank_line();
-        add_info(block, part(one, "info"), version);
+        add_info(block, one.info, document.version);
         block.add_blank_line();
-        block.add("lamps", text(leds, "meaning"));
+        block.add("lamps", one.leds.meaning);
         out += out.empty() ? "" : "\n";
-        out += headline(text(station, "name"), ", address " + number(station, "address"), look);
-        out += block.str(2, look) + lamp_table(leds, look);
-        if (const Json& tec = part(one, "tec"); !tec.empty()) out += '\n' + render_tec(tec, look);
+        out += headline(one.station.name, ", address " + std::to_string(one.station.address), look);
+        out += block.str(2, look) + lamp_table(one.leds, look);
+        if (one.tec) out += '\n' + render_tec(*one.tec, look);
     }
     return out;
 }

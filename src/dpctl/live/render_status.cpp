@@ -18,47 +18,44 @@ Tone tone_of_link(const std::string& link)
 }
 
 /// What looks normal in a table and is not, a sentence a line.
-std::string remarks_of(const Json& s, Look look)
+std::string remarks_of(const report::Station& s, Look look)
 {
-    const std::string name = text(s, "name");
     std::string out;
-    const auto add = [&](const std::string& what) { out += paragraph(name + ": ", what, look.width); };
-    if (flag(s, "held"))
-        add("held at the start: the scale of a tag is not known; dpctl diag names tag and answer");
-    if (flag(s, "clear")) add("the master is in Clear: 0 goes to every output of the drive");
-    if (flag(s, "sync")) add("Sync holds the outputs: new values wait for the next Sync or Unsync");
-    if (flag(s, "freeze"))
+    const auto add = [&](const std::string& what) { out += paragraph(s.name + ": ", what, look.width); };
+    if (s.held) add("held at the start: the scale of a tag is not known; dpctl diag names tag and answer");
+    if (s.clear) add("the master is in Clear: 0 goes to every output of the drive");
+    if (s.sync) add("Sync holds the outputs: new values wait for the next Sync or Unsync");
+    if (s.freeze)
         add("Freeze holds the inputs: the master gets old values until the next Freeze or Unfreeze");
-    if (!part(s, "ride").empty()) add("RIDE THROUGH: " + ride_text(s));
-    if (const std::string why = text(s, "silent_because", ""); !why.empty()) add(why);
-    const Json& d = part(s, "drive");
-    if (d.contains("port_open") && !flag(d, "port_open"))
+    if (s.ride) add("RIDE THROUGH: " + ride_text(*s.ride));
+    if (s.silent_because) add(*s.silent_because);
+    if (!s.drive.port_open)
         add(fmt::format("the port of the drive line, {}, is gone or cannot be opened; it is tried again",
-                        text(d, "port")));
+                        s.drive.port));
     return out;
 }
 
 } // namespace
 
-std::string state_text(const Json& s)
+std::string state_text(const report::Station& s)
 {
-    std::string result = text(s, "state");
-    if (flag(s, "held")) result += ", held";
-    if (flag(s, "clear")) result += " in Clear";
-    if (flag(s, "sync")) result += ", Sync";
-    if (flag(s, "freeze")) result += ", Freeze";
-    if (!part(s, "ride").empty()) result += ", RIDE THROUGH";
+    std::string result = s.state;
+    if (s.held) result += ", held";
+    if (s.clear) result += " in Clear";
+    if (s.sync) result += ", Sync";
+    if (s.freeze) result += ", Freeze";
+    if (s.ride) result += ", RIDE THROUGH";
     return result;
 }
 
-std::string link_text(const Json& d)
+std::string link_text(const report::Drive& d)
 {
-    return d.contains("port_open") && !flag(d, "port_open") ? "port gone" : text(d, "link");
+    return d.port_open ? d.link : "port gone";
 }
 
-std::string ride_text(const Json& s)
+std::string ride_text(const report::Ride& ride)
 {
-    const auto ends = real(part(s, "ride"), "ends_in_ms");
+    const auto ends = ride.ends_in_ms;
     if (!ends) return "the master is lost; its outputs stand until it returns";
     return *ends <= 0 ? "over: 0 is written to the outputs as soon as the drive answers"
                       : fmt::format("the master is lost; its outputs stand for {} more", age(ends));
@@ -77,45 +74,44 @@ std::string bus_line(const report::Bus& bus)
 
 namespace {
 
-Table station_table(const Json& stations)
+Table station_table(const std::vector<report::Station>& stations)
 {
     Table table({"STATION", ">ADDRESS", "PROFILE", "STATE", ">MASTER", "DRIVE", "LINE"});
-    for (const Json& s : stations) {
-        const std::string state = text(s, "state"), link = link_text(part(s, "drive"));
-        table.add(
-            {text(s, "name"), number(s, "address"), text(s, "profile"),
-             Cell{state_text(s), flag(s, "clear") || flag(s, "held") ? Tone::bad : tone_of_state(state)},
-             number(s, "master"), Cell{link, tone_of_link(link)}, text(part(s, "drive"), "line")});
+    for (const report::Station& s : stations) {
+        const std::string state = s.state, link = link_text(s.drive);
+        table.add({s.name, std::to_string(s.address), s.profile,
+                   Cell{state_text(s), s.clear || s.held ? Tone::bad : tone_of_state(state)},
+                   number(s.master), Cell{link, tone_of_link(link)}, s.drive.line});
     }
     return table;
 }
 
 /// A table, and below it what looks normal there and is not.
-std::string stations_text(const Json& stations, Look look)
+std::string stations_text(const std::vector<report::Station>& stations, Look look)
 {
     std::string said;
-    for (const Json& station : stations) said += remarks_of(station, look);
+    for (const report::Station& station : stations) said += remarks_of(station, look);
     return station_table(stations).str(look) + (said.empty() ? "" : "\n" + said);
 }
 
 } // namespace
 
-std::string render_status(const Json& reply, Look look)
+std::string render_status(const Json& json, Look look)
 {
-    const Json& bus = part(reply, "bus");
+    const auto reply = report::read<report::GetStatusReply>(json);
+    const report::Bus& bus = reply.bus;
     Block block;
-    block.add("bus", bus_line(report::read<report::Bus>(bus)));
-    block.add("stations",
-              fmt::format("{}, {} in Data_Exch", number(bus, "stations"), number(bus, "exchanging")));
-    block.add("daemon",
-              fmt::format("process {}, running for {}", number(reply, "pid"), age(real(reply, "uptime_ms"))));
-    return block.str(0, look) + '\n' + stations_text(list(reply, "stations"), look);
+    block.add("bus", bus_line(bus));
+    block.add("stations", fmt::format("{}, {} in Data_Exch", bus.stations, bus.exchanging));
+    block.add("daemon", fmt::format("process {}, running for {}", reply.pid,
+                                    age(static_cast<double>(reply.uptime_ms))));
+    return block.str(0, look) + '\n' + stations_text(reply.stations, look);
 }
 
-std::string render_followed_status(const Json& reply, Look look)
+std::string render_followed_status(const Json& json, Look look)
 {
-    return bus_line(report::read<report::Bus>(part(reply, "bus"))) + "\n\n" +
-           stations_text(list(reply, "stations"), look);
+    const auto reply = report::read<report::WatchReply>(json);
+    return bus_line(reply.bus) + "\n\n" + stations_text(reply.stations, look);
 }
 
 } // namespace dpslave::dpctl

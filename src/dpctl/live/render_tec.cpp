@@ -17,35 +17,33 @@ constexpr const char* kSteps =
     "    3. look at FAULT: NONE is wanted\n"
     "  What is set lasts until the next start; the configuration file has the start values.\n";
 
-Table row_table(const Json& tec)
+Table row_table(const report::Tec& tec)
 {
-    const char* name = text(tec, "view") == "generic" ? "generic_name" : "name";
+    const bool is_generic = tec.view == "generic";
     Table table({"", "NAME", "VALUE", ">NUMBER", "RANGE"});
-    for (const Json& row : list(tec, "rows"))
-        table.add({flag(row, "input") ? "input" : "output", text(row, name), text(row, "shown"),
-                   number(row, "value"), text(row, "range", "")});
+    for (const report::TecRow& row : tec.rows)
+        table.add({row.input ? "input" : "output", is_generic ? row.generic_name : row.name, row.shown,
+                   number(row.value), row.range});
     return table;
 }
 
-bool is_set_up(const Json& tec)
+bool is_set_up(const report::Tec& tec)
 {
-    for (const Json& row : list(tec, "rows")) {
-        const auto value = integer(row, "value");
-        if (text(row, "name") == "FAULT" && (value == kParameter || value == kTypeMismatch)) return false;
+    for (const report::TecRow& row : tec.rows) {
+        if (row.name == "FAULT" && (row.value == kParameter || row.value == kTypeMismatch)) return false;
     }
     return true;
 }
 
 } // namespace
 
-std::string render_tec(const Json& tec, Look look)
+std::string render_tec(const report::Tec& tec, Look look)
 {
-    std::string out = fmt::format("{}: TEC OPTION{}\n", painted(text(tec, "name"), Tone::strong, look),
-                                  text(tec, "view") == "generic" ? ", in names that fit any option" : "");
+    std::string out = fmt::format("{}: TEC OPTION{}\n", painted(tec.name, Tone::strong, look),
+                                  tec.view == "generic" ? ", in names that fit any option" : "");
     out += row_table(tec).str(look, 2);
-    if (const std::string trip = text(tec, "trip", ""); !trip.empty()) out += "  trip " + trip + '\n';
-    for (const Json& note : list(tec, "notes"))
-        if (note.is_string()) out += "  " + painted(note.get<std::string>(), Tone::strong, look) + '\n';
+    if (tec.trip) out += "  trip " + *tec.trip + '\n';
+    for (const std::string& note : tec.notes) out += "  " + painted(note, Tone::strong, look) + '\n';
     if (!is_set_up(tec)) out += kSteps;
     return out;
 }

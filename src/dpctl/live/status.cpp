@@ -13,18 +13,18 @@
 namespace dpslave::dpctl {
 namespace {
 
-bool exchanges(const Json& station, bool with_drive)
+bool exchanges(const report::Station& station, bool with_drive)
 {
-    if (text(station, "state") != "Data_Exch" || flag(station, "held")) return false;
-    return !with_drive || (text(part(station, "drive"), "link") == "answers" && !flag(station, "clear"));
+    if (station.state != "Data_Exch" || station.held) return false;
+    return !with_drive || (station.drive.link == "answers" && !station.clear);
 }
 
 bool all_exchange(const Json& status, bool with_drive)
 {
-    const Json& stations = list(status, "stations");
-    return !stations.empty() && std::all_of(stations.begin(), stations.end(), [&](const Json& station) {
-        return exchanges(station, with_drive);
-    });
+    const auto stations = report::read<report::GetStatusReply>(status).stations;
+    return !stations.empty() &&
+           std::all_of(stations.begin(), stations.end(),
+                       [&](const report::Station& station) { return exchanges(station, with_drive); });
 }
 
 } // namespace
@@ -34,9 +34,10 @@ Result<Json, int> ask_status(const Options& options, Terminal& terminal)
     auto reply = ask(options, terminal, "GetStatus", Json::object());
     if (!reply || options.station.empty()) return reply;
     Json known = Json::array(), meant = Json::array();
-    for (const Json& station : list(*reply, "stations")) {
-        known.push_back(text(station, "name"));
-        if (is_meant(report::read<report::Station>(station), options.station)) meant.push_back(station);
+    for (const Json& one : list(*reply, "stations")) {
+        const auto station = report::read<report::Station>(one);
+        known.push_back(station.name);
+        if (is_meant(station, options.station)) meant.push_back(one);
     }
     if (meant.empty())
         return Failure{tell({Json::object({{"station", options.station}, {"known", known}}),
