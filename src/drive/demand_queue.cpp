@@ -49,39 +49,40 @@ void DemandQueue::drop_superseded()
     entries_.erase(rest, entries_.end());
 }
 
-void DemandQueue::not_understood(std::uint32_t number, int retries)
-{
-    if (entries_.empty() || entries_.front().order.number != number) return; // it no longer stands
-    Entry& entry = entries_.front();
-    if (++entry.not_understood <= retries || stands(entry)) return;
-    entries_.pop_front();
-    ++dropped_;
-}
-
-void DemandQueue::written(std::uint32_t number)
-{
-    if (!entries_.empty() && entries_.front().order.number == number) entries_.front().written = true;
-}
-
-void DemandQueue::not_held(std::uint32_t number, int retries)
+void DemandQueue::done(std::uint32_t number, const Transaction& transaction, const Outcome& outcome,
+                       bool proven_by_reading, int retries)
 {
     if (entries_.empty() || entries_.front().order.number != number) return;
+    if (outcome.error == AccessError::no_answer) return;
     Entry& entry = entries_.front();
-    entry.written = false;
-    if (++entry.not_understood > retries) done(number, AccessError::not_kept, entry.order.value);
+    if (outcome.error == AccessError::not_understood) {
+        if (++entry.attempts <= retries || stands(entry)) return;
+        entries_.pop_front();
+        ++dropped_;
+    } else if (is_write(transaction) && outcome.error == AccessError::none && proven_by_reading) {
+        entry.stage = Stage::acknowledged;
+    } else if (is_write(transaction) || entry.stage != Stage::acknowledged) {
+        finish(outcome.error, word_of(transaction, outcome));
+    } else if (const auto proof = proof_of(entry.order.value, outcome)) {
+        finish(*proof, entry.order.value);
+    } else {
+        entry.stage = Stage::ordered;
+        if (++entry.attempts > retries) finish(AccessError::not_kept, entry.order.value);
+    }
 }
 
-void DemandQueue::done(std::uint32_t number, AccessError error, std::uint16_t value)
+/// Of the first order.
+void DemandQueue::finish(AccessError error, std::uint16_t value)
 {
-    const auto at = std::find_if(entries_.begin(), entries_.end(),
-                                 [number](const Entry& e) { return e.order.number == number; });
-    if (at == entries_.end()) return;
+    Entry& entry = entries_.front();
     // What comes late for an order that no longer stands is dropped: behind the answer to the one
     // that stands it would take its place.
     const bool has_value = error == AccessError::none || error == AccessError::not_kept;
-    if (stands(*at)) answer({number, error, has_value ? value : std::uint16_t{0}});
-    at->answered = true;
-    if (at->order.kind == DemandOrder::Kind::write) entries_.erase(at);
+    if (stands(entry)) answer({entry.order.number, error, has_value ? value : std::uint16_t{0}});
+    if (entry.order.kind == DemandOrder::Kind::write)
+        entries_.pop_front();
+    else
+        entry.stage = Stage::answered;
 }
 
 void DemandQueue::answer(const DemandAnswer& what)

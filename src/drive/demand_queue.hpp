@@ -3,7 +3,7 @@
 /// done once, also when the next order came before its turn - unless the drive is lost by then.
 #pragma once
 
-#include "dpslave/drive/backend.hpp"
+#include "transactions.hpp"
 
 #include <cstdint>
 #include <deque>
@@ -13,12 +13,21 @@ namespace dpslave::drive {
 
 class DemandQueue {
 public:
+    enum class Stage : std::uint8_t {
+        ordered,
+        acknowledged, ///< a write that the drive has answered: now it is read back
+        answered,     ///< a standing read that gave its first answer
+    };
     struct Entry {
         DemandOrder order;
         const Tag* row = nullptr;
-        bool answered = false;  ///< a standing read that gave its first answer
-        int not_understood = 0; ///< so often
-        bool written = false;   ///< the drive has said so: now it is read back
+        Stage stage = Stage::ordered;
+        int attempts = 0; ///< that were not understood, or taken and not held
+        bool is_again() const { return stage == Stage::answered || attempts > 0; }
+        bool writes_next() const
+        {
+            return order.kind == DemandOrder::Kind::write && stage != Stage::acknowledged;
+        }
     };
 
     /// The order that stands now; `verdict` other than none answers it without the drive.
@@ -34,25 +43,22 @@ public:
 
     /// What to do next: a new order, else the standing read.
     const Entry* front() const { return entries_.empty() ? nullptr : &entries_.front(); }
-    /// The drive did not understand it: the order waits on as long as it stands; else it is dropped after
-    /// `retries`, for others wait behind it.
-    void not_understood(std::uint32_t number, int retries);
-    /// The drive has acknowledged the write: it is proven by what it holds then.
-    void written(std::uint32_t number);
-    /// It does not hold what was written: written again, `retries` times at most. Then the order is answered
-    /// with not_kept.
-    void not_held(std::uint32_t number, int retries);
+    /// What became of the transaction for the order `number`, of which nothing follows if it is gone. Without
+    /// an answer the order waits on. What the drive did not understand waits on as long as it stands; else
+    /// `retries` times, for others wait behind it. `proven_by_reading`: an acknowledged write is read back;
+    /// where another word is there it is written again, `retries` times. Then the answer is not_kept.
+    void done(std::uint32_t number, const Transaction& transaction, const Outcome& outcome,
+              bool proven_by_reading, int retries);
     /// The drive is lost: what no longer stands is not to be done when it returns, maybe minutes later.
     void drop_superseded();
     /// Writes that were dropped though their layout stands.
     std::uint64_t dropped() const { return dropped_; }
-    /// Neither for no_answer nor for not_understood: then the order waits on.
-    void done(std::uint32_t number, AccessError error, std::uint16_t value);
     /// Answers to the order that stands, and to no other.
     std::optional<DemandAnswer> take_answer();
 
 private:
     void answer(const DemandAnswer& what);
+    void finish(AccessError error, std::uint16_t value);
     bool stands(const Entry& entry) const { return entry.order.number == standing_; }
 
     std::deque<Entry> entries_; ///< writes that wait, then at most one read

@@ -2,124 +2,111 @@
 #include "output_plan.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace dpslave::drive {
 namespace {
 
 constexpr unsigned kMaxRepeats = 6; ///< 64 s: beyond every limit
 
-/// A refusal of this word, or one for the time being: that the drive holds the word ends it. A tag that is
-/// read only stays so.
-bool ends_when_held(AccessError error)
-{
-    return error != AccessError::read_only && error != AccessError::invalid_tag &&
-           error != AccessError::unsupported_type && error != AccessError::contradicted;
-}
-
 } // namespace
 
-void OutputPlan::reset(std::vector<Item> items)
+void OutputPlan::reset(ParameterSet& parameters)
 {
-    items_ = std::move(items);
-    sort_by_tag();
+    use(parameters);
     failed_blocks_ = 0;
     may_write_ = false;
     stopped_ = false;
 }
 
-void OutputPlan::sort_by_tag()
+void OutputPlan::use(ParameterSet& parameters)
 {
+    turns_.clear();
+    for (DriveParameter& one : parameters.all())
+        if (one.writing.is_output) turns_.push_back({.parameter = &one, .repeated = {}});
+    std::sort(turns_.begin(), turns_.end(),
+              [](const Turn& a, const Turn& b) { return a.writing().parameter < b.writing().parameter; });
     by_tag_.clear();
-    for (std::size_t i = 0; i < items_.size(); ++i)
-        if (items_[i].asked) by_tag_.push_back(i);
-    std::sort(by_tag_.begin(), by_tag_.end(),
-              [this](auto a, auto b) { return items_[a].row->number < items_[b].row->number; });
+    for (std::size_t i = 0; i < turns_.size(); ++i)
+        if (turns_[i].writing().asked) by_tag_.push_back(i);
+    std::sort(by_tag_.begin(), by_tag_.end(), [this](auto a, auto b) {
+        return turns_[a].parameter->row->number < turns_[b].parameter->row->number;
+    });
     batch_.clear();
 }
 
-void OutputPlan::exchange(std::vector<Item> items, std::chrono::nanoseconds refresh)
+void OutputPlan::exchange(ParameterSet& parameters, std::chrono::nanoseconds refresh)
 {
     rule_.refresh = refresh;
-    for (std::size_t i = 0; i < items.size(); ++i) { // the layout is the same, so are the places
-        Item& item = items[i];
-        const Item& known = items_[i];
-        if (known.asked == item.asked && is_same_value(*known.row, *item.row)) {
-            const Tag* const row = item.row;
-            item = known;
-            item.row = row;
-        } else {
-            item.wanted = known.wanted;
-        }
+    const std::vector<Turn> before = std::move(turns_);
+    use(parameters);
+    for (std::size_t i = 0; i < turns_.size(); ++i) { // the layout is the same, so are the places
+        DriveParameter* const parameter = turns_[i].parameter;
+        if (!is_written_alike(*before[i].parameter, *parameter)) continue;
+        turns_[i] = before[i];
+        turns_[i].parameter = parameter;
     }
-    items_ = std::move(items);
-    sort_by_tag();
 }
 
 void OutputPlan::set(std::span<const std::uint16_t> words, bool may_write)
 {
     const bool begins = may_write && !may_write_;
     may_write_ = may_write;
-    for (Item& item : items_) {
-        item.wanted = words[item.parameter];
-        // A bus that flaps must not cost the memory of the drive a write each time: the first word of a
-        // layout is taken for what the drive holds until a read shows another one.
-        if (!begins || !rule_.compare || !item.readable || item.answered) continue;
-        item.answered = item.wanted;
-        item.supposed = true;
+    for (const Turn& turn : turns_) {
+        turn.writing().wanted = words[turn.writing().parameter];
+        if (begins) turn.writing().layout_begins();
     }
-}
-
-/// The drive has no such tag, or its scale is not known: dropped, and tried rarely.
-bool OutputPlan::is_dropped(const Item& item)
-{
-    return item.state == WordState::invalid_tag || item.state == WordState::unscaled;
 }
 
 /// A changed word is due at once, kAtOnce. What is dropped is tried rarely; a word that it did not understand
 /// is tried as rarely, unless its refresh comes first.
-Instant OutputPlan::due_at(const Item& item) const
+Instant OutputPlan::due_at(const Turn& turn) const
 {
-    if (!item.asked) return kNever;
-    if (is_dropped(item)) return item.attempted_at + kInvalidRetry;
-    if (item.answered != item.wanted) return kAtOnce;
-    if (rule_.compare) return repeat_at(item);
-    const bool not_understood = item.error == AccessError::not_understood;
-    return item.attempted_at + (not_understood ? std::min(rule_.refresh, kInvalidRetry) : rule_.refresh);
+    const Writing& writing = turn.writing();
+    if (!writing.asked) return kNever;
+    if (writing.is_dropped()) return turn.attempted_at + kInvalidRetry;
+    if (!writing.is_settled()) return kAtOnce;
+    if (rule_.compare) return repeat_at(turn);
+    const bool not_understood = writing.error == AccessError::not_understood;
+    return turn.attempted_at + (not_understood ? std::min(rule_.refresh, kInvalidRetry) : rule_.refresh);
 }
 
 /// Of a compared output whose word was answered. Never while the drive holds it.
-Instant OutputPlan::repeat_at(const Item& item) const
+Instant OutputPlan::repeat_at(const Turn& turn) const
 {
-    if (item.held || (!item.refused && !item.differs)) return kNever;
-    if (!item.refused && item.repeats == 0) return kAtOnce; // overridden by somebody, or lost in a block
-    const auto pause = kFirstRepeat * (1U << std::min(item.repeats, kMaxRepeats));
-    return item.attempted_at + std::min(pause, item.refused ? kInvalidRetry : kRepeatNotKept);
+    const Writing& writing = turn.writing();
+    const bool differs = writing.knowledge == Knowledge::differs;
+    if (writing.knowledge == Knowledge::held || (!writing.is_refused() && !differs)) return kNever;
+    if (!writing.is_refused() && turn.repeats == 0) return kAtOnce; // overridden, or lost in a block
+    const auto pause = kFirstRepeat * (1U << std::min(turn.repeats, kMaxRepeats));
+    return turn.attempted_at + std::min(pause, writing.is_refused() ? kInvalidRetry : kRepeatNotKept);
 }
 
-bool OutputPlan::joins(const Item& item, Instant now) const
+bool OutputPlan::joins(const Turn& turn, Instant now) const
 {
-    return item.readable && !item.alone && !item.waits && !item.row->modbus_register && !is_dropped(item) &&
-           item.round != round_ && due_at(item) <= now;
+    const Writing& writing = turn.writing();
+    return writing.readable && !turn.alone && !turn.waits && !turn.parameter->row->modbus_register &&
+           !writing.is_dropped() && turn.round != round_ && due_at(turn) <= now;
 }
 
-/// Fills the batch with the item and its neighbours by tag as far as they are due.
+/// Fills the batch with the output and its neighbours by tag as far as they are due.
 void OutputPlan::join_neighbours(std::size_t index, Instant now)
 {
     batch_.assign(1, index);
     const std::size_t limit = std::min<std::size_t>(rule_.max_written, kMaxParameters);
     const bool blocks = rule_.compare && failed_blocks_ < kMaxFailedBlocks;
-    if (!blocks || limit < 2 || !joins(items_[index], now)) return;
+    if (!blocks || limit < 2 || !joins(turns_[index], now)) return;
     const auto here =
         static_cast<std::size_t>(std::find(by_tag_.begin(), by_tag_.end(), index) - by_tag_.begin());
+    const auto turn_at = [this](std::size_t place) -> const Turn& { return turns_[by_tag_[place]]; };
     const auto adjoins = [&](std::size_t place) { // `place` and the one after it
-        return items_[by_tag_[place]].row->number + 1 == items_[by_tag_[place + 1]].row->number;
+        return turn_at(place).parameter->row->number + 1 == turn_at(place + 1).parameter->row->number;
     };
     std::size_t first = here, last = here;
-    while (last - first + 1 < limit && first > 0 && adjoins(first - 1) &&
-           joins(items_[by_tag_[first - 1]], now))
+    while (last - first + 1 < limit && first > 0 && adjoins(first - 1) && joins(turn_at(first - 1), now))
         --first;
     while (last - first + 1 < limit && last + 1 < by_tag_.size() && adjoins(last) &&
-           joins(items_[by_tag_[last + 1]], now))
+           joins(turn_at(last + 1), now))
         ++last;
     batch_.assign(by_tag_.begin() + static_cast<std::ptrdiff_t>(first),
                   by_tag_.begin() + static_cast<std::ptrdiff_t>(last + 1));
@@ -129,9 +116,9 @@ std::optional<OutputPlan::Write> OutputPlan::start(Instant now)
 {
     if (!writes_now()) return std::nullopt;
     std::optional<std::size_t> chosen;
-    for (std::size_t i = 0; i < items_.size(); ++i) {
-        if (items_[i].round == round_) continue;
-        const Instant due = due_at(items_[i]);
+    for (std::size_t i = 0; i < turns_.size(); ++i) {
+        if (turns_[i].round == round_) continue;
+        const Instant due = due_at(turns_[i]);
         if (due > now || (chosen && due != kAtOnce)) continue;
         chosen = i;
         if (due == kAtOnce) break;
@@ -139,19 +126,19 @@ std::optional<OutputPlan::Write> OutputPlan::start(Instant now)
     if (!chosen) return std::nullopt;
     join_neighbours(*chosen, now);
     for (std::size_t i = 0; i < batch_.size(); ++i) {
-        Item& item = items_[batch_[i]];
-        words_[i] = item.wanted;
-        item.answered.reset(); // from here until the answer nobody knows what the drive holds
-        item.attempted_at = now;
+        Turn& turn = turns_[batch_[i]];
+        words_[i] = turn.writing().wanted;
+        turn.writing().on(KnowledgeEvent::sent);
+        turn.attempted_at = now;
     }
-    return Write{items_[batch_.front()].row, std::span{words_}.first(batch_.size())};
+    return Write{turns_[batch_.front()].parameter->row, std::span{words_}.first(batch_.size())};
 }
 
 Instant OutputPlan::next_due() const
 {
     Instant at = kNever;
     if (writes_now())
-        for (const Item& item : items_) at = std::min(at, due_at(item));
+        for (const Turn& turn : turns_) at = std::min(at, due_at(turn));
     return at;
 }
 
@@ -162,159 +149,109 @@ void OutputPlan::done(AccessError error, Instant now)
         return block_failed();
     }
     if (writes_block()) failed_blocks_ = 0;
-    for (std::size_t i = 0; i < batch_.size(); ++i) answered(items_[batch_[i]], words_[i], error, now);
-}
-
-void OutputPlan::answered(Item& item, std::uint16_t word, AccessError error, Instant now)
-{
-    item.answered = word;
-    item.answered_at = now;
-    item.round = round_;
-    item.failures = 0;
-    item.state = state_of(error);
-    item.error = error;
-    item.refused = error != AccessError::none;
-    item.repeats = item.repeated == word ? std::min(item.repeats + 1, kMaxRepeats) : 0;
-    item.repeated = word;
-    item.held = item.differs = item.supposed = false;
-    item.unproven = writes_block();
-    item.alone = item.refused;
-    if (item.refused) return;
-    item.written = word;
-    item.updated_at = now;
+    for (std::size_t i = 0; i < batch_.size(); ++i) {
+        Turn& turn = turns_[batch_[i]];
+        turn.writing().write_answered(words_[i], error, writes_block(), now);
+        turn.round = round_;
+        turn.alone = turn.writing().is_refused();
+        turn.repeats = turn.repeated == words_[i] ? std::min(turn.repeats + 1, kMaxRepeats) : 0;
+        turn.repeated = words_[i];
+    }
 }
 
 void OutputPlan::not_answered(bool drive_lost)
 {
     if (drive_lost)
-        for (const std::size_t index : batch_) items_[index].waits = true;
+        for (const std::size_t index : batch_) turns_[index].waits = true;
     hold(AccessError::no_answer);
     if (writes_block()) block_failed();
 }
 
 void OutputPlan::defer()
 {
-    for (const std::size_t index : batch_) items_[index].round = round_;
+    for (const std::size_t index : batch_) turns_[index].round = round_;
     hold(AccessError::deferred);
 }
 
 void OutputPlan::hold(AccessError why)
 {
-    for (const std::size_t index : batch_) hold(items_[index], why);
+    for (const std::size_t index : batch_) turns_[index].writing().hold(why);
 }
 
-/// A refusal stays what it is.
-void OutputPlan::hold(Item& item, AccessError why)
-{
-    ++item.failures;
-    if (item.state != WordState::good && item.state != WordState::stale) return;
-    item.state = WordState::stale;
-    item.error = why;
-}
-
-/// Nothing of it is known to be written: `answered` is empty, so each is due at once.
+/// None of its words is known to be written, so each is due at once.
 void OutputPlan::block_failed()
 {
     ++failed_blocks_;
-    for (const std::size_t index : batch_) items_[index].alone = true;
+    for (const std::size_t index : batch_) turns_[index].alone = true;
+}
+
+/// Of outputs that are compared one at most is asked for each tag.
+OutputPlan::Turn* OutputPlan::find_asked(const Tag* row)
+{
+    const auto at = std::find_if(turns_.begin(), turns_.end(), [row](const Turn& turn) {
+        return turn.parameter->row == row && turn.writing().asked;
+    });
+    return at == turns_.end() ? nullptr : &*at;
 }
 
 void OutputPlan::observed(const Tag* row, std::uint16_t word, Instant began)
 {
-    for (Item& item : items_) {
-        if (item.row != row || !item.asked) continue;
-        item.readable = true;
-        if (word == item.wanted) {
-            if (item.answered != item.wanted || item.supposed) { // as good as an answer, which may never come
-                item.answered = item.written = word;
-                item.answered_at = item.updated_at = began;
-            }
-            item.held = true;
-            item.supposed = false;
-            item.differs = item.unproven = false;
-            item.repeats = 0;
-            item.failures = 0;
-            item.repeated.reset();
-            if (item.refused && !ends_when_held(item.error)) continue;
-            item.refused = item.alone = false;
-            item.state = WordState::good;
-            item.error = AccessError::none;
-        } else if (item.answered != item.wanted) {
-            continue; // it is written anyway
-        } else if (item.supposed || began >= item.answered_at + kSettling) {
-            item.alone = item.alone || item.unproven;
-            item.held = item.unproven = item.supposed = false;
-            item.differs = true;
-            if (item.refused || item.repeats == 0) continue;
-            item.state = WordState::refused; // accepted again and again, and not kept
-            item.error = AccessError::not_understood;
-        }
+    Turn* const turn = find_asked(row);
+    if (turn == nullptr) return;
+    Writing& writing = turn->writing();
+    writing.readable = true;
+    if (word == writing.wanted) {
+        writing.wanted_seen(began);
+        turn->repeats = 0;
+        turn->repeated.reset();
+        turn->alone = turn->alone && writing.is_refused();
+        return;
     }
+    if (!writing.is_settled()) return; // it is written anyway
+    if (writing.knowledge != Knowledge::assumed && began < writing.answered_at + kSettling) return;
+    turn->alone = turn->alone || writing.knowledge == Knowledge::unproven;
+    writing.on(KnowledgeEvent::another_seen);
+    if (writing.is_refused() || turn->repeats == 0) return;
+    writing.state = WordState::refused; // accepted again and again, and not kept
+    writing.error = AccessError::not_understood;
 }
 
 void OutputPlan::unreadable(const Tag* row)
 {
-    for (Item& item : items_) {
-        if (item.row != row || !item.asked) continue;
-        if (item.unproven || item.supposed) item.answered.reset(); // only a single write tells
-        item.readable = item.held = item.differs = item.unproven = item.supposed = false;
-    }
+    Turn* const turn = find_asked(row);
+    if (turn == nullptr) return;
+    turn->writing().on(KnowledgeEvent::not_given); // what is not proven: only a single write tells
+    turn->writing().readable = false;
 }
 
 void OutputPlan::refuse(const Tag* row, AccessError error)
 {
-    for (Item& item : items_) {
-        if (item.row != row) continue;
-        item.asked = false;
-        item.state = state_of(error);
-        item.error = error;
-    }
+    for (const Turn& turn : turns_)
+        if (turn.parameter->row == row) turn.writing().refuse(error);
 }
 
-void OutputPlan::forget()
+void OutputPlan::port_changed()
 {
-    for (Item& item : items_) {
-        if (!item.asked) continue;
-        const Item before = item;
-        item = Item{};
-        item.parameter = before.parameter;
-        item.row = before.row;
-        item.readable = before.readable;
-        item.wanted = before.wanted;
-        item.written = before.written;
-        item.updated_at = before.updated_at;
-        item.state = WordState::stale;
-        item.round = round_;
+    leaves_port_ = false;
+    for (Turn& turn : turns_) {
+        if (!turn.writing().asked) continue;
+        turn = {.parameter = turn.parameter, .round = round_, .repeated = {}};
+        turn.writing().port_changed();
     }
     batch_.clear();
     failed_blocks_ = 0;
 }
 
-void OutputPlan::drive_lost()
-{
-    for (Item& item : items_) {
-        if (!item.asked || is_dropped(item)) continue;
-        item.state = WordState::stale;
-        item.error = AccessError::no_answer;
-    }
-}
-
-/// It may have been without power: whatever it held, every present output is written again. Where outputs are
-/// compared the reads show which of them. What is known about blocks stays: it may have been lost on one.
+/// What is known about blocks stays: the drive may have been lost on one.
 void OutputPlan::drive_returned()
 {
-    for (Item& item : items_) {
-        if (!item.asked) continue;
-        item.supposed = item.readable && item.answered && !item.refused;
-        if (!item.supposed) item.answered.reset();
-        item.held = item.differs = item.unproven = item.refused = false;
-        item.repeats = 0;
-        item.repeated.reset();
-        item.round = item.waits ? round_ + 1 : round_;
-        item.waits = false;
-        if (!is_dropped(item)) continue;
-        item.state = WordState::stale;
-        item.error = AccessError::no_answer;
+    for (Turn& turn : turns_) {
+        if (!turn.writing().asked) continue;
+        turn.writing().drive_returned();
+        turn.repeats = 0;
+        turn.repeated.reset();
+        turn.round = turn.waits ? round_ + 1 : round_;
+        turn.waits = false;
     }
 }
 

@@ -82,9 +82,9 @@ std::optional<Transaction> Poller::next_of(Instant now)
     for (std::size_t i = 0; i < units_.size(); ++i) {
         const std::size_t index = (turn_ + i) % units_.size();
         Unit& unit = *units_[index];
-        const bool risks = unit.is_in_doubt();
+        const bool risks = unit.link().is_in_doubt();
         if (risks && !may_time_out()) continue;
-        const auto transaction = unit.is_lost() ? probe(index, now) : unit.next(now);
+        const auto transaction = unit.link().is_lost() ? probe(index, now) : unit.next(now);
         if (!transaction) continue;
         turn_ = (index + 1) % units_.size();
         return transaction;
@@ -101,7 +101,8 @@ bool Poller::may_time_out() const
 Instant Poller::probe_due(std::size_t unit) const
 {
     const auto longest = std::min_element(units_.begin(), units_.end(), [](const auto& a, const auto& b) {
-        return a->is_lost() != b->is_lost() ? a->is_lost() : a->asked_at() < b->asked_at();
+        return a->link().is_lost() != b->link().is_lost() ? a->link().is_lost()
+                                                          : a->asked_at() < b->asked_at();
     });
     if (longest->get() != units_[unit].get()) return kNever;
     if (!probed_at_) return (*longest)->probe_due();
@@ -120,7 +121,8 @@ std::optional<Transaction> Poller::next_survey(Instant now)
 {
     if (!may_time_out()) return std::nullopt;
     for (std::size_t i = 0; i < units_.size(); ++i)
-        if (units_[i]->is_in_doubt() && (!units_[i]->is_lost() || now >= probe_due(i))) return std::nullopt;
+        if (units_[i]->link().is_in_doubt() && (!units_[i]->link().is_lost() || now >= probe_due(i)))
+            return std::nullopt;
     for (std::size_t i = 0; i < units_.size(); ++i) {
         const auto transaction = units_[(turn_ + i) % units_.size()]->next_survey(now);
         if (!transaction) continue;
@@ -146,7 +148,7 @@ Instant Poller::next_deadline() const
     if (doing_) return at; // done() comes first
     for (std::size_t i = 0; i < units_.size(); ++i) {
         at = std::min(at, units_[i]->next_deadline());
-        if (units_[i]->is_lost()) at = std::min(at, probe_due(i));
+        if (units_[i]->link().is_lost()) at = std::min(at, probe_due(i));
     }
     return at;
 }

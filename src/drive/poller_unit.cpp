@@ -2,6 +2,7 @@
 #include "poller_unit.hpp"
 
 #include "generations.hpp"
+#include "unit_view.hpp"
 
 #include <algorithm>
 
@@ -12,7 +13,10 @@ namespace {
 /// takes 8 and 15 ms (HA389815 ch. 8): that is two transactions. One repeats the standing order, one is for a
 /// new order.
 constexpr int kOrdersPerRound = 2;
-constexpr std::size_t kMaxOperates = 16;
+
+/// So many transactions in a row that could not be asked, and the drive rests: what is owed to it needs time.
+constexpr int kDeferredAtOnce = 4;
+constexpr std::chrono::milliseconds kDeferredRest{5};
 
 } // namespace
 
@@ -20,11 +24,10 @@ Poller::Unit::Unit(const UnitSettings& settings, BlockRule rule, std::size_t ind
     : settings_(settings),
       index_(index),
       tags_(settings),
-      reads_(rule),
-      outputs_({settings.output_refresh, settings.compare_outputs, rule.max_written}),
+      cyclic_(tags_.parameters({}), rule,
+              {settings.output_refresh, settings.compare_outputs, rule.max_written}),
       safe_state_(settings.zero_after)
 {
-    reads_.reset(tags_.reads_of({}));
     show();
 }
 
@@ -40,27 +43,18 @@ void Poller::Unit::set_outputs(const OutputImage& image)
     const bool is_new = image.layout.generation != image_.layout.generation;
     if (is_new) new_layout(image);
     image_ = image;
-    outputs_.set(image_.words, image_.may_write);
-    master_wrote_ = master_wrote_ || image_.may_write;
+    cyclic_.outputs().set(image_.words, image_.may_write);
+    if (image_.may_write && phase_ == Phase::before_data_exchange) phase_ = Phase::waits;
     if (has_ended(image_.layout.generation)) end_layout();
-    if (outputs_.writes_now() && !writing_ && !leaves_port_) begin_writing();
+    if (cyclic_.outputs().writes_now() && phase_ != Phase::writing) begin_writing();
     if (is_new) show();
 }
 
 void Poller::Unit::new_layout(const OutputImage& image)
 {
     left_data_exchange(image_.layout.generation);
-    ++serial_;
-    reads_.reset(tags_.reads_of(image.layout));
-    outputs_.reset(tags_.outputs_of(image.layout));
-    if (lost_) {
-        reads_.drive_lost();
-        outputs_.drive_lost();
-    }
-    master_wrote_ = writing_ = zeroed_ = false;
-    inputs_not_understood_ = outputs_not_understood_ = 0;
-    in_round_ = false;
-    round_began_.reset();
+    phase_ = Phase::before_data_exchange;
+    cyclic_.reset(tags_.parameters(image.layout), link_.is_lost());
     orders_in_round_ = 0;
     snapshot_.cycle = {};
     snapshot_.words = {};
@@ -75,79 +69,24 @@ void Poller::Unit::new_layout(const OutputImage& image)
 /// What the present layout writes is left to it: a zero of the layout before would come after the newer word.
 void Poller::Unit::begin_writing()
 {
-    writing_ = true;
-    reads_.compare(settings_.compare_outputs);
-    for (const OutputPlan::Item& item : outputs_.items())
-        if (item.asked) safe_state_.remove(item.row);
+    phase_ = Phase::writing;
+    cyclic_.compare(settings_.compare_outputs);
+    cyclic_.outputs().for_each_row([this](const Tag* row) { safe_state_.remove(row); });
 }
 
 /// Of the present layout nothing is written any more. Its outputs go to the safe state, and only if the
 /// master was in Data_Exchange with it: a drive that runs locally is left alone by start-ups that fail.
 void Poller::Unit::end_layout()
 {
-    outputs_.stop();
-    reads_.compare(false);
-    writing_ = false;
-    if (!master_wrote_ || zeroed_) return;
-    zero_outputs();
+    cyclic_.outputs().stop();
+    cyclic_.compare(false);
+    if (phase_ != Phase::before_data_exchange && phase_ != Phase::safe) zero_outputs();
 }
 
 void Poller::Unit::zero_outputs()
 {
-    zeroed_ = true;
-    for (const OutputPlan::Item& item : outputs_.items())
-        if (item.asked) safe_state_.add(item.row);
-}
-
-// ---- another port, other settings
-
-void Poller::Unit::leave_port()
-{
-    leaves_port_ = true;
-    outputs_.pause(true);
-    if (writing_) zero_outputs();
-    writing_ = false;
-    safe_state_.ride_no_longer();
-}
-
-/// Nothing is known of what is there: a drive that was lost may answer here, and the other way round.
-void Poller::Unit::port_changed()
-{
-    leaves_port_ = false;
-    safe_state_.ride_again();
-    zeroed_ = has_ended(image_.layout.generation) && zeroed_;
-    lost_ = false;
-    silences_ = 0;
-    ever_asked_ = false;
-    reads_.drive_returned(kAtOnce);
-    outputs_.pause(false);
-    outputs_.forget();
-    outputs_.begin_round();
-    round_began_.reset();
-    order_was_last_ = zero_waits_ = false;
-    if (outputs_.writes_now()) begin_writing();
-    show();
-}
-
-void Poller::Unit::go_on_as(std::size_t index, const UnitSettings& settings)
-{
-    index_ = index;
-    settings_.retries = settings.retries;
-    if (settings == settings_) return;
-    UnitTags tags{settings};
-    tags.keep_contradicted(tags_);
-    reads_.exchange(tags.reads_of(image_.layout));
-    if (lost_) reads_.drive_lost();
-    outputs_.exchange(tags.outputs_of(image_.layout), settings.output_refresh);
-    const auto row_of = [&tags](const Tag* row) { return tags.row(row->number); };
-    safe_state_.exchange(row_of);
-    demand_.exchange(row_of);
-    for (WaitingOperate& waiting : operates_) waiting.row = row_of(waiting.row);
-    tags_ = std::move(tags); // rows that are in no table stay where they are
-    settings_ = settings;
-    snapshot_.watched = {};
-    inputs_changed_ = true;
-    show();
+    phase_ = Phase::safe;
+    cyclic_.outputs().for_each_row([this](const Tag* row) { safe_state_.add(row); });
 }
 
 void Poller::Unit::left_data_exchange(Generation generation)
@@ -163,31 +102,72 @@ void Poller::Unit::set_demand(const DemandOrder& order)
     if (has_ended(order.generation)) return;
     const Tag* row = tags_.row(order.tag);
     demand_.set(order, row, tags_.verdict(*row, order.kind == DemandOrder::Kind::write));
-    if (lost_) demand_.drop_superseded();
+    if (link_.is_lost()) demand_.drop_superseded();
     snapshot_.orders_dropped = demand_.dropped();
 }
 
 bool Poller::Unit::operate(const OperateOrder& order)
 {
-    if (operates_.size() + operate_answers_.size() >= kMaxOperates) return false;
     const Tag* row = tags_.row(order.tag);
     AccessError error = tags_.verdict(*row, order.is_write);
-    if (error == AccessError::none && lost_) error = AccessError::no_answer;
-    if (error == AccessError::none)
-        operates_.push_back({order, row});
-    else
-        operate_answers_.push_back({order.number, error, 0});
-    return true;
+    if (error == AccessError::none && link_.is_lost()) error = AccessError::no_answer;
+    return operates_.add(order, row, error);
 }
 
 bool Poller::Unit::survey(std::uint32_t number, std::uint16_t tag)
 {
     if (!survey_.set(number, *tags_.row(tag))) return false;
-    if (lost_) survey_.done({.error = AccessError::no_answer, .words = {}}, {});
+    if (link_.is_lost()) survey_.done({.error = AccessError::no_answer, .words = {}}, {});
     return true;
 }
 
+// ---- another port, other settings
+
+void Poller::Unit::leave_port()
+{
+    cyclic_.outputs().leave_port();
+    if (phase_ == Phase::writing) zero_outputs();
+    safe_state_.ride_no_longer();
+}
+
+/// Nothing is known of what is there: a drive that was lost may answer here, and the other way round.
+void Poller::Unit::port_changed()
+{
+    safe_state_.ride_again();
+    if (phase_ == Phase::safe && !has_ended(image_.layout.generation)) phase_ = Phase::waits;
+    link_.port_changed();
+    cyclic_.port_changed();
+    order_was_last_ = zero_waits_ = false;
+    if (cyclic_.outputs().writes_now()) begin_writing();
+    show();
+}
+
+void Poller::Unit::go_on_as(std::size_t index, const UnitSettings& settings)
+{
+    index_ = index;
+    settings_.retries = settings.retries;
+    if (settings == settings_) return;
+    UnitTags tags{settings};
+    tags.keep_contradicted(tags_);
+    cyclic_.exchange(tags.parameters(image_.layout), settings.output_refresh, link_.is_lost());
+    const auto row_of = [&tags](const Tag* row) { return tags.row(row->number); };
+    safe_state_.exchange(row_of);
+    demand_.exchange(row_of);
+    operates_.exchange(row_of);
+    tags_ = std::move(tags); // rows that are in no table stay where they are
+    settings_ = settings;
+    snapshot_.watched = {};
+    inputs_changed_ = true;
+    show();
+}
+
 // ---- what next
+
+void Poller::Unit::tell_time(Instant now)
+{
+    safe_state_.tell_time(now);
+    snapshot_.ride_ends = safe_state_.ride_ends();
+}
 
 std::optional<Transaction> Poller::Unit::next(Instant now)
 {
@@ -201,11 +181,12 @@ std::optional<Transaction> Poller::Unit::next(Instant now)
         order_was_last_ = zero_waits_ = false; // nothing cyclic is there to go first
         transaction = asked(now);
     }
-    if (!transaction) transaction = idle_probe(now);
-    if (transaction)
-        wrote_last_ = transaction->kind == Transaction::Kind::write;
-    else
-        owes_round_ = false;
+    // Nothing has been asked for a while; or a silence may be the first of a loss.
+    if (!transaction && (!link_.is_certain() || now >= probe_due())) transaction = probe();
+    owes_round_ = owes_round_ && transaction;
+    if (!transaction) return std::nullopt;
+    wrote_last_ = is_write(*transaction);
+    transaction->unit = index_;
     return transaction;
 }
 
@@ -213,13 +194,16 @@ std::optional<Transaction> Poller::Unit::next(Instant now)
 std::optional<Transaction> Poller::Unit::asked(Instant now)
 {
     if (!zero_waits_) {
-        if (const Tag* row = safe_state_.next(now)) return make_write(Purpose::safe_state, row, 0);
-        if (const Tag* row = safe_state_.next_proof(now)) return make_read(Purpose::safe_state, row);
+        if (const Tag* row = safe_state_.next(now)) return write(Purpose::safe_state, row, 0);
+        if (const Tag* row = safe_state_.next_proof(now)) return read_of(Purpose::safe_state, row);
     }
-    if (wrote_last_)
-        if (auto read = cyclic_read(now)) return read; // fast outputs do not starve inputs
-    if (auto transaction = ordered()) return transaction;
-    return cyclic(now);
+    std::optional<Transaction> transaction;
+    if (wrote_last_) transaction = cyclic_.next_read(now); // fast outputs do not starve inputs
+    if (!transaction)
+        if (auto order = ordered()) return order;
+    if (!transaction) transaction = cyclic_.next(now);
+    if (transaction) order_was_last_ = zero_waits_ = false;
+    return transaction;
 }
 
 /// Demand Data first, then dpctl; but after each of them one cyclic transaction, and what is asked again once
@@ -227,63 +211,34 @@ std::optional<Transaction> Poller::Unit::asked(Instant now)
 std::optional<Transaction> Poller::Unit::ordered()
 {
     if (order_was_last_) return std::nullopt;
-    const DemandQueue::Entry* entry = demand_.front();
-    const bool is_again = entry != nullptr && (entry->answered || entry->not_understood > 0);
-    if (entry != nullptr && orders_in_round_ < (is_again ? 1 : kOrdersPerRound)) {
+    const DemandQueue::Entry* demand = demand_.front();
+    if (demand != nullptr && orders_in_round_ < (demand->is_again() ? 1 : kOrdersPerRound)) {
         order_was_last_ = true;
         ++orders_in_round_;
-        job_.order = entry->order.number;
-        return entry->order.kind == DemandOrder::Kind::write && !entry->written
-                   ? make_write(Purpose::demand, entry->row, entry->order.value)
-                   : make_read(Purpose::demand, entry->row);
+        order_ = demand->order.number;
+        return demand->writes_next() ? write(Purpose::demand, demand->row, demand->order.value)
+                                     : read_of(Purpose::demand, demand->row);
     }
-    if (!operates_.empty()) {
+    if (const OperateQueue::Entry* operate = operates_.front()) {
         order_was_last_ = true;
-        const WaitingOperate& waiting = operates_.front();
-        job_.order = waiting.order.number;
-        return waiting.order.is_write && !waiting.written
-                   ? make_write(Purpose::operate, waiting.row, waiting.order.word)
-                   : make_read(Purpose::operate, waiting.row);
+        return operate->writes_next() ? write(Purpose::operate, operate->row, operate->order.word)
+                                      : read_of(Purpose::operate, operate->row);
     }
     return std::nullopt;
 }
 
 std::optional<Transaction> Poller::Unit::next_survey(Instant now) const
 {
-    return survey_.due() <= now && !lost_ ? std::optional{make_read(Purpose::survey, survey_.row())}
-                                          : std::nullopt;
-}
-
-/// Outputs before inputs. As an output is written once a round at most, one that changes all the time takes
-/// no more than its own share of the cycle.
-std::optional<Transaction> Poller::Unit::cyclic(Instant now)
-{
-    if (!round_began_) round_began_ = now;
-    job_.layout = serial_;
-    job_.began = now;
-    if (const auto write = outputs_.start(now)) {
-        order_was_last_ = zero_waits_ = false;
-        return make_write(Purpose::output, write->row, write->words);
-    }
-    return cyclic_read(now);
-}
-
-std::optional<Transaction> Poller::Unit::cyclic_read(Instant now)
-{
-    const auto block = reads_.next(now);
-    if (!block) return std::nullopt;
-    if (!round_began_) round_began_ = now;
-    job_.layout = serial_;
-    job_.began = now;
-    job_.block = *block;
-    order_was_last_ = zero_waits_ = false;
-    const Purpose purpose = reads_.serves_input(*block)    ? Purpose::input
-                            : reads_.serves_output(*block) ? Purpose::output
-                                                           : Purpose::watch;
-    in_round_ = in_round_ || purpose != Purpose::watch;
-    Transaction transaction = make_read(purpose, reads_.items()[block->first].row);
-    transaction.count = reads_.count_of(*block);
+    if (link_.is_lost() || survey_.due() > now) return std::nullopt;
+    Transaction transaction = read_of(Purpose::survey, survey_.row());
+    transaction.unit = index_;
     return transaction;
+}
+
+Transaction Poller::Unit::write(Purpose purpose, const Tag* row, std::uint16_t word)
+{
+    word_[0] = word;
+    return write_of(purpose, row, word_);
 }
 
 Transaction Poller::Unit::probe() const
@@ -293,60 +248,150 @@ Transaction Poller::Unit::probe() const
     return transaction;
 }
 
-/// When nothing else has been asked for a while. A silence that may be the first of a loss is followed up at
-/// once.
-std::optional<Transaction> Poller::Unit::idle_probe(Instant now) const
-{
-    if (ever_asked_ && silences_ == 0 && now < probe_due()) return std::nullopt;
-    return probe();
-}
-
-Transaction Poller::Unit::make_read(Purpose purpose, const Tag* row) const
-{
-    Transaction transaction;
-    transaction.kind = Transaction::Kind::read;
-    transaction.purpose = purpose;
-    transaction.unit = index_;
-    transaction.tag = row;
-    return transaction;
-}
-
-Transaction Poller::Unit::make_write(Purpose purpose, const Tag* row,
-                                     std::span<const std::uint16_t> words) const
-{
-    Transaction transaction = make_read(purpose, row);
-    transaction.kind = Transaction::Kind::write;
-    transaction.count = static_cast<std::uint16_t>(words.size());
-    transaction.words = words;
-    return transaction;
-}
-
-Transaction Poller::Unit::make_write(Purpose purpose, const Tag* row, std::uint16_t word)
-{
-    word_[0] = word;
-    return make_write(purpose, row, std::span<const std::uint16_t>{word_});
-}
-
 void Poller::Unit::begin_round(Instant now)
 {
-    if (in_round_ && round_began_) snapshot_.cycle = now - *round_began_;
-    round_began_ = now;
-    in_round_ = false;
+    if (const auto took = cyclic_.begin_round(now)) snapshot_.cycle = *took;
     owes_round_ = false;
     orders_in_round_ = 0;
-    reads_.begin_round(now);
-    outputs_.begin_round();
 }
 
 /// Of a lost drive only what is not asked of it: its probe is the line's business.
 Instant Poller::Unit::next_deadline() const
 {
-    if (lost_) return safe_state_.untold() ? kAtOnce : kNever;
-    const bool at_once = !ever_asked_ || silences_ > 0 || demand_.front() != nullptr || !operates_.empty();
-    const Instant next = at_once ? kAtOnce
-                                 : std::min({probe_due(), survey_.due(), outputs_.next_due(),
-                                             safe_state_.next_due(), reads_.next_due()});
+    if (link_.is_lost()) return safe_state_.untold() ? kAtOnce : kNever;
+    const bool at_once = !link_.is_certain() || demand_.front() != nullptr || operates_.front() != nullptr;
+    const Instant next =
+        at_once ? kAtOnce
+                : std::min({probe_due(), survey_.due(), safe_state_.next_due(), cyclic_.next_due()});
     return std::max(next, rests_until_);
+}
+
+// ---- what became of it
+
+void Poller::Unit::done(const Transaction& transaction, const Outcome& outcome, Instant now)
+{
+    if (transaction.purpose == Purpose::survey)
+        return survey_.done(outcome, now); // nothing else follows from it
+    Outcome what = outcome;
+    if (transaction.kind == Transaction::Kind::read && what.error == AccessError::none &&
+        what.words.size() < transaction.count)
+        what.error = AccessError::no_answer; // half an answer is none
+    what.error = judge(transaction, what);
+    if (what.error == AccessError::deferred) {
+        defer(transaction, now);
+        return show();
+    }
+    deferred_ = 0;
+    asked_at_ = now;
+    count(snapshot_, transaction, what.error);
+    switch (transaction.purpose) {
+        case Purpose::input:
+        case Purpose::output:
+        case Purpose::watch:
+            if (cyclic_.done(transaction, what, {settings_.retries, link_.is_last_try(settings_.retries)},
+                             phase_ == Phase::writing, now))
+                inputs_changed_ = true;
+            break;
+        case Purpose::safe_state:
+            zero_waits_ =
+                safe_state_.done(transaction, what, proven_by_reading(transaction), settings_.retries, now);
+            break;
+        case Purpose::demand:
+            demand_.done(order_, transaction, what, proven_by_reading(transaction), settings_.retries);
+            break;
+        case Purpose::operate:
+            operates_.done(transaction, what, proven_by_reading(transaction), settings_.retries);
+            break;
+        case Purpose::probe:
+        case Purpose::survey: break;
+    }
+    if (what.error != AccessError::no_answer)
+        note_answer(now);
+    else
+        note_silence();
+    show();
+}
+
+/// Neither silence nor answer: it is asked again in a later round, and until then what is known is held.
+void Poller::Unit::defer(const Transaction& transaction, Instant now)
+{
+    if (++deferred_ >= kDeferredAtOnce) rests_until_ = now + kDeferredRest;
+    if (transaction.purpose == Purpose::safe_state) zero_waits_ = true;
+    if (is_cyclic(transaction.purpose)) cyclic_.defer(transaction, now);
+}
+
+/// With what the table says of a refusal; and a row that an answer has once contradicted stays refused,
+/// whatever answers come later: 12.5 may fit where 12.34 has shown that the decimals are wrong.
+AccessError Poller::Unit::judge(const Transaction& transaction, const Outcome& outcome)
+{
+    const AccessError error = with_reason(transaction, outcome.error);
+    if (transaction.tag == nullptr || transaction.count != 1) return error;
+    const std::uint16_t tag = transaction.tag->number;
+    if (error == AccessError::contradicted) {
+        tags_.contradict(tag);
+        cyclic_.contradict(transaction.tag, outcome.answer);
+        inputs_changed_ = true;
+    }
+    return error == AccessError::none && tags_.is_contradicted(tag) ? AccessError::contradicted : error;
+}
+
+/// Where outputs are not compared the answer to a write names nothing (EI-ASCII): it is no proof.
+bool Poller::Unit::proven_by_reading(const Transaction& transaction) const
+{
+    return !settings_.compare_outputs && tags_.verdict(*transaction.tag, false) == AccessError::none;
+}
+
+void Poller::Unit::note_answer(Instant now)
+{
+    if (link_.answered()) {
+        cyclic_.drive_returned(now);
+        safe_state_.drive_returned();
+        order_was_last_ = zero_waits_ = wrote_last_ = false;
+    }
+    if (!snapshot_.answers) inputs_changed_ = true;
+    snapshot_.known = true;
+    snapshot_.answers = true;
+}
+
+void Poller::Unit::note_silence()
+{
+    if (link_.is_lost()) return;
+    cyclic_.hold_reads();
+    if (!link_.not_answered(settings_.retries)) return;
+    snapshot_.known = true;
+    snapshot_.answers = false;
+    ++snapshot_.losses;
+    inputs_changed_ = true;
+    cyclic_.drive_lost();
+    demand_.drop_superseded();
+    operates_.drive_lost();
+    survey_.done({.error = AccessError::no_answer, .words = {}}, {});
+}
+
+// ---- what can be seen
+
+std::optional<InputImage> Poller::Unit::take_inputs()
+{
+    if (!inputs_changed_ || !snapshot_.known) return std::nullopt;
+    inputs_changed_ = false;
+    InputImage image = inputs(image_.layout, cyclic_.parameters());
+    image.scale_missing = image.scale_missing && settings_.unscaled_holds;
+    return image;
+}
+
+std::optional<OperateAnswer> Poller::Unit::take_operate_answer()
+{
+    if (auto answer = operates_.take_answer()) return answer;
+    return survey_.take();
+}
+
+void Poller::Unit::show()
+{
+    snapshot_.generation = image_.layout.generation;
+    snapshot_.orders_dropped = demand_.dropped();
+    const int repeats = link_.is_lost() ? 0 : settings_.retries;
+    show_parameters(snapshot_, image_.layout, cyclic_.parameters(), repeats);
+    show_watched(snapshot_, tags_, cyclic_.parameters(), repeats);
 }
 
 } // namespace dpslave::drive

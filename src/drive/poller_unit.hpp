@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// One drive of a Poller: joins reads, outputs and orders into "what next", and keeps the state of the link.
+/// One drive of a Poller: joins reads, outputs and orders into "what next", and carries results to them.
 #pragma once
 
+#include "cyclic_work.hpp"
 #include "demand_queue.hpp"
-#include "output_plan.hpp"
-#include "read_plan.hpp"
+#include "drive_link.hpp"
+#include "operate_queue.hpp"
 #include "safe_state.hpp"
 #include "survey_slot.hpp"
 #include "unit_tags.hpp"
@@ -12,7 +13,6 @@
 #include "dpslave/drive/poller.hpp"
 
 #include <array>
-#include <deque>
 
 namespace dpslave::drive {
 
@@ -32,51 +32,40 @@ public:
     void port_changed();
     void go_on_as(std::size_t index, const UnitSettings& settings);
 
-    void tell_time(Instant now) ///< before next(), of this drive or another
-    {
-        safe_state_.tell_time(now);
-        snapshot_.ride_ends = safe_state_.ride_ends();
-    }
+    void tell_time(Instant now);                  ///< before next(), of this drive or another
     std::optional<Transaction> next(Instant now); ///< precondition: not lost
     Transaction probe() const;
     std::optional<Transaction> next_survey(Instant now) const;
     void done(const Transaction& transaction, const Outcome& outcome, Instant now);
     Instant next_deadline() const;
 
-    bool is_lost() const { return lost_; }
-    /// Is its next transaction likely to time out?
-    bool is_in_doubt() const { return lost_ || silences_ > 0; }
+    const DriveLink& link() const { return link_; }
     /// When it may be probed next, as far as it alone is concerned. Of a lost drive.
     Instant probe_due() const { return asked_at_ + settings_.probe_interval; }
     std::chrono::nanoseconds probe_interval() const { return settings_.probe_interval; }
     Instant asked_at() const { return asked_at_; }
     /// A transaction has timed out: this drive has its round before one that may do so again.
     void owe_round() { owes_round_ = true; }
-    bool owes_round() const { return owes_round_ && !is_in_doubt(); }
+    bool owes_round() const { return owes_round_ && !link_.is_in_doubt(); }
 
     std::optional<InputImage> take_inputs();
     std::optional<DemandAnswer> take_demand_answer() { return demand_.take_answer(); }
     std::optional<OperateAnswer> take_operate_answer();
-    bool safe_state_pending() const { return safe_state_.pending() && !(leaves_port_ && lost_); }
+    bool safe_state_pending() const
+    {
+        return safe_state_.pending() && !(cyclic_.outputs().leaves_port() && link_.is_lost());
+    }
     const UnitSnapshot& snapshot() const { return snapshot_; }
 
 private:
-    struct WaitingOperate {
-        OperateOrder order;
-        const Tag* row = nullptr;
-        int attempts = 0;
-        bool written = false; ///< the drive has said so: now it is read back
+    /// How far the outputs of the present layout have come.
+    enum class Phase : std::uint8_t {
+        before_data_exchange, ///< the layout had no may_write yet
+        waits,                ///< the master wants them written, but not now: the port is changed
+        writing,
+        safe, ///< sent to their safe state
     };
-    /// What the transaction under way is for.
-    struct Job {
-        std::uint32_t layout = 0; ///< serial_ when it was given
-        ReadPlan::Block block{};
-        Instant began{};
-        std::uint32_t order = 0;
-    };
-
     bool has_ended(Generation generation) const;
-
     void new_layout(const OutputImage& image);
     void begin_writing();
     void end_layout();
@@ -84,69 +73,39 @@ private:
 
     std::optional<Transaction> asked(Instant now);
     std::optional<Transaction> ordered();
-    std::optional<Transaction> cyclic(Instant now);
-    std::optional<Transaction> cyclic_read(Instant now);
-    std::optional<Transaction> idle_probe(Instant now) const;
-    Transaction make_read(Purpose purpose, const Tag* row) const;
-    Transaction make_write(Purpose purpose, const Tag* row, std::span<const std::uint16_t> words) const;
-    Transaction make_write(Purpose purpose, const Tag* row, std::uint16_t word);
+    Transaction write(Purpose purpose, const Tag* row, std::uint16_t word);
     void begin_round(Instant now);
 
-    AccessError judged(const Transaction& transaction, const Outcome& outcome);
-    bool is_repeated(AccessError error, int& not_understood) const;
+    AccessError judge(const Transaction& transaction, const Outcome& outcome);
     void defer(const Transaction& transaction, Instant now);
     bool proven_by_reading(const Transaction& transaction) const;
-    void link(bool answered, Instant now);
-    void lose();
-    void done_read(const Outcome& outcome, Instant now);
-    void compare(const Outcome& outcome);
-    void done_output(AccessError error, Instant now);
-    void done_zero(const Transaction& transaction, const Outcome& outcome, Instant now);
-    void done_demand(const Transaction& transaction, const Outcome& outcome);
-    void done_operate(const Transaction& transaction, const Outcome& outcome);
-    void count(const Transaction& transaction, AccessError error);
+    void note_answer(Instant now);
+    void note_silence();
     void show();
-    bool is_only_repeated(WordState state, int failures) const;
-    void show_form(const OutputPlan::Item& output);
-    void show_inputs();
-    void show_watched();
 
     UnitSettings settings_;
     std::size_t index_;
     UnitTags tags_;
 
-    OutputImage image_;         ///< as told last
-    std::uint32_t serial_ = 0;  ///< counts layouts: a result for an older one is dropped
-    Generation ended_ = 0;      ///< the newest that has ended
-    bool master_wrote_ = false; ///< the present layout had may_write
-    bool writing_ = false;      ///< the outputs of the present layout are written
-    bool zeroed_ = false;       ///< the outputs of the present layout were sent to their safe state
-    bool leaves_port_ = false;  ///< between leave_port() and port_changed()
-    ReadPlan reads_;
-    OutputPlan outputs_;
+    OutputImage image_;    ///< as told last
+    Generation ended_ = 0; ///< the newest that has ended
+    Phase phase_ = Phase::before_data_exchange;
+    CyclicWork cyclic_;
     SafeState safe_state_;
     DemandQueue demand_;
-    std::deque<WaitingOperate> operates_;
-    std::deque<OperateAnswer> operate_answers_;
+    OperateQueue operates_;
     SurveySlot survey_;
-    Job job_;
+    std::uint32_t order_ = 0;             ///< of Demand Data, under way
     std::array<std::uint16_t, 1> word_{}; ///< of a single write under way
 
     int orders_in_round_ = 0;     ///< transactions of Demand Data in this round
     bool order_was_last_ = false; ///< of Demand Data or dpctl: now a cyclic one first
     bool zero_waits_ = false;     ///< the last zero was not answered or not held: something else first
-    bool in_round_ = false;       ///< something was read for the master since the round began
-    std::optional<Instant> round_began_;
-
-    int inputs_not_understood_ = 0; ///< in a row; the same for the others
-    int outputs_not_understood_ = 0;
-    int zeros_not_understood_ = 0;
-    int silences_ = 0; ///< in a row
-    bool lost_ = false;
-    bool ever_asked_ = false;
-    Instant asked_at_{};      ///< end of the last transaction
-    bool wrote_last_ = false; ///< the last transaction was a write: now a read first
+    bool wrote_last_ = false;     ///< the last transaction was a write: now a read first
     bool owes_round_ = false;
+
+    DriveLink link_;
+    Instant asked_at_{};    ///< end of the last transaction
     int deferred_ = 0;      ///< transactions in a row
     Instant rests_until_{}; ///< nothing can be asked before, as far as is known
     bool inputs_changed_ = false;

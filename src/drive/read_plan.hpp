@@ -5,7 +5,7 @@
 /// mended then. A tag with a register of its own is never part of a block.
 #pragma once
 
-#include "dpslave/drive/poller.hpp"
+#include "parameter_set.hpp"
 
 #include <chrono>
 #include <cstdint>
@@ -32,34 +32,9 @@ inline constexpr int kBusyRounds = 3;
 /// A deadline that has passed at every moment; unlike Instant::min() it can be subtracted from.
 inline constexpr Instant kAtOnce{};
 
-/// What an error of an access means for the parameter. Not for none and no_answer.
-WordState state_of(AccessError error);
-
 class ReadPlan {
 public:
-    struct Item {
-        const Tag* row = nullptr;
-        bool input = false;    ///< an input of the layout
-        bool watched = false;  ///< read with or without a layout
-        bool compared = false; ///< an output whose word in the drive is looked at, while it is written
-        /// An output that only an answer of the drive gives a form: read until it is known.
-        bool form = false;
-        bool unscaled = false; ///< a number has no scale by the row: asked first, before the others
-        /// False: decided without the drive (STRING, write-only, not in the table); state says how.
-        bool asked = true;
-        std::uint16_t word = 0;
-        WordState state = WordState::untried;
-        AccessError error = AccessError::none; ///< why; with `state` stale: see UnitSnapshot::errors
-        bool tried = false;
-        Instant updated_at{};      ///< last success
-        Instant retry_at{};        ///< of an excluded item: when the drive is asked again
-        bool starts_block = false; ///< cut here on the way to a hole
-        bool after_hole = false;   ///< the item before it and this one are refused together
-        AnswerText answer{};       ///< behind the errors no_scale and contradicted
-        int busy = 0;              ///< rounds in a row in which a block from here on was not understood
-        int failures = 0;          ///< refreshes in a row without a good answer
-    };
-    /// Items `first` to `last` in one transaction.
+    /// Of turns `first` to `last`, in one transaction.
     struct Block {
         std::size_t first = 0;
         std::size_t last = 0;
@@ -67,13 +42,10 @@ public:
 
     explicit ReadPlan(BlockRule rule) : rule_(rule) {}
 
-    /// `items` ascending by tag, each tag once.
-    void reset(std::vector<Item> items);
-    /// Other rows for the same layout, and maybe other watched tags: what is known stays where the drive is
-    /// asked the same; else the word is held until it has been read anew.
-    void exchange(std::vector<Item> items);
-    std::optional<std::size_t> find(std::uint16_t tag) const;
-    const std::vector<Item>& items() const { return items_; }
+    /// What is read of `parameters`, which outlives this plan of it.
+    void reset(ParameterSet& parameters);
+    /// The same layout with other rows, and maybe other watched tags. Those of before are still there.
+    void exchange(ParameterSet& parameters);
 
     /// The compared outputs are read from now on, or no more.
     void compare(bool outputs);
@@ -82,18 +54,13 @@ public:
     void begin_round(Instant now);          ///< does nothing while a calm round is not due
     Instant next_due() const;
     std::uint16_t count_of(Block block) const; ///< tags, the unasked ones between included
-    bool serves_input(Block block) const;      ///< also false: nothing but compared and watched tags
-    bool serves_output(Block block) const;
-    bool every_input_tried() const; ///< and each output whose form is asked for
-    /// One of those has answered with a number of unknown scale.
-    bool scale_missing() const;
+    Purpose purpose_of(Block block) const;
+    const DriveParameter& parameter(std::size_t turn) const { return *turns_[turn].parameter; }
 
-    /// What became of `block`; not for no_answer. `answer`: see Outcome. True: a value or a state of an input
-    /// changed.
-    bool done(Block block, AccessError error, std::span<const std::uint16_t> words, Instant now,
-              std::string_view answer = {});
+    /// What became of `block`; not for no_answer. True: a value or a state of an input changed.
+    bool done(Block block, const Outcome& outcome, Instant now);
     /// It is not asked for any more: 0 from now on.
-    void refuse(std::uint16_t tag, AccessError error, std::string_view answer);
+    void refuse(DriveParameter& parameter, AccessError error, std::string_view answer);
     void skip(Block block); ///< leaves it out in this round
     /// It was asked and is no wiser: its words are held from now on, until a good answer.
     void hold(Block block, AccessError why);
@@ -103,42 +70,54 @@ public:
     /// It was not asked for the sake of an answer that is still owed: its words are held, and asked for again
     /// in the next round.
     void defer(Block block, Instant now);
-    void drive_lost();
-    /// Excluded items are asked again now: it may be another drive. The round goes on where it was.
+    /// Excluded parameters are asked again now: it may be another drive. The round goes on where it was.
     void drive_returned(Instant now);
 
 private:
-    static bool excluded(const Item& item);
-    bool is_cyclic(const Item& item) const;
-    bool in_use(const Item& item) const;
-    void hold(Item& item, AccessError why) const;
-    bool is_urgent(const Item& item) const;
+    /// Where a block may not go on.
+    enum class Cut : std::uint8_t {
+        none,
+        search,     ///< before this turn, on the way to a hole
+        after_hole, ///< the turn before it and this one are refused together
+    };
+    struct Turn {
+        DriveParameter* parameter = nullptr;
+        Instant retry_at{}; ///< of an excluded parameter: when the drive is asked again
+        Cut cut = Cut::none;
+        int busy = 0; ///< rounds in a row in which a block from here on was not understood
+        Reading& reading() const { return parameter->reading; }
+        const Tag& row() const { return *parameter->row; }
+    };
     /// A refused block, cut in two: is the hole between its halves?
-    struct Cut {
+    struct Halves {
         Block block{};
-        std::size_t at = 0; ///< the first item of its second half
-        bool first_half_is_good = false;
+        std::size_t second = 0; ///< the first turn of its second half
+        bool first_is_good = false;
     };
 
-    bool joins(const Item& item) const;
+    bool is_cyclic(const Turn& turn) const { return turn.reading().serves(cyclic_); }
+    bool in_use(const Turn& turn) const;
+    bool waits_for_retry(const Turn& turn) const;
+    bool is_urgent(const Turn& turn) const;
+    void hold(const Turn& turn, AccessError why) const;
+    bool joins(const Turn& turn) const;
     void rebuild();
     void mend();
     std::size_t in_use_from(std::size_t index) const;
     void split(Block block);
     bool busy(Block block);
-    void look_at_cut(Block good);
+    void find_hole(Block good);
     bool good(Block block, std::span<const std::uint16_t> words, Instant now);
-    bool bad(std::size_t index, AccessError error, Instant now, std::string_view answer);
+    bool bad(std::size_t index, const Outcome& outcome, Instant now);
 
     BlockRule rule_;
-    std::vector<Item> items_;
+    std::vector<Turn> turns_; ///< ascending by tag, each tag once
     std::vector<Block> blocks_;
-    std::optional<Cut> cut_;   ///< the last one
-    std::size_t position_ = 0; ///< the first item that this round has not read yet
-    bool compares_ = false;
-    bool calm_ = true; ///< nothing is read but watched tags
-    bool begun_ = false;
-    Instant began_at_{}; ///< the round
+    std::optional<Halves> halves_;      ///< of the block cut last
+    std::size_t position_ = 0;          ///< the first turn that this round has not had yet
+    std::uint8_t cyclic_ = kReadAlways; ///< the uses that are read again and again
+    bool calm_ = true;                  ///< nothing is read but watched tags
+    std::optional<Instant> began_at_;   ///< the round
 };
 
 } // namespace dpslave::drive

@@ -4,23 +4,21 @@
 #include <algorithm>
 
 namespace dpslave::drive {
+namespace {
+
+/// Also a value that does not fit: then it is not 0.
+bool shows_another_word(const Outcome& outcome)
+{
+    if (outcome.error == AccessError::none) return outcome.words.front() != 0;
+    return outcome.error == AccessError::out_of_range || outcome.error == AccessError::value_not_encoded;
+}
+
+} // namespace
 
 void SafeState::add(const Tag* row)
 {
     remove(row);
     zeros_.push_back({.row = row, .lost_at = std::nullopt});
-}
-
-void SafeState::written(const Tag* row)
-{
-    for (Zero& zero : zeros_)
-        if (zero.row == row) zero.written = true;
-}
-
-void SafeState::not_held(const Tag* row)
-{
-    for (Zero& zero : zeros_)
-        if (zero.row == row) zero.written = false;
 }
 
 void SafeState::remove(const Tag* row)
@@ -44,11 +42,12 @@ Instant SafeState::due_at(const Zero& zero) const
     return std::max(*zero.lost_at + *after_, zero.not_before);
 }
 
-const Tag* SafeState::due(Instant now, bool written) const
+const Tag* SafeState::due(Instant now, bool acknowledged) const
 {
     if (!after_) return nullptr;
     const auto at = std::find_if(zeros_.begin(), zeros_.end(), [&](const Zero& zero) {
-        return zero.lost_at && zero.written == written && due_at(zero) <= now;
+        return zero.lost_at && (zero.knowledge == Knowledge::acknowledged) == acknowledged &&
+               due_at(zero) <= now;
     });
     return at == zeros_.end() ? nullptr : at->row;
 }
@@ -63,17 +62,35 @@ const Tag* SafeState::next_proof(Instant now) const
     return due(now, true);
 }
 
-void SafeState::postpone(const Tag* row, Instant now)
+/// A zero that the drive does not hold is treated like one that it has not understood.
+bool SafeState::done(const Transaction& transaction, const Outcome& outcome, bool proven_by_reading,
+                     int retries, Instant now)
 {
-    for (Zero& zero : zeros_)
-        if (zero.row == row) zero.not_before = now + kInvalidRetry;
+    const auto zero = std::find_if(zeros_.begin(), zeros_.end(),
+                                   [&](const Zero& one) { return one.row == transaction.tag; });
+    AccessError error = outcome.error;
+    if (is_write(transaction) && error == AccessError::none && proven_by_reading) {
+        if (zero != zeros_.end()) zero->on(KnowledgeEvent::acknowledged);
+        return false;
+    }
+    if (!is_write(transaction) && shows_another_word(outcome)) {
+        if (zero != zeros_.end()) zero->on(KnowledgeEvent::another_seen);
+        error = AccessError::not_understood;
+    }
+    const bool not_understood = error == AccessError::not_understood;
+    if (error == AccessError::no_answer || not_understood_.is_repeated(error, retries)) return true;
+    if (!not_understood)
+        remove(transaction.tag); // zeroed, or refused for good
+    else if (zero != zeros_.end())
+        zero->not_before = now + kInvalidRetry;
+    return not_understood;
 }
 
 void SafeState::drive_returned()
 {
     for (Zero& zero : zeros_) {
         zero.not_before = kAtOnce;
-        zero.written = false; // it may have been without power
+        zero.on(KnowledgeEvent::back); // it may have been without power
     }
 }
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The outputs of layouts that have ended and that nobody writes any more: each is written 0 when its ride
+/// The outputs of layouts that have ended and that no layout writes any more: each is written 0 when its ride
 /// through the loss of the master is over (RIDE THROUGH of HA463561U002, X-46). Where the answer to a write
 /// names nothing (EI-ASCII), a read-back has to show the 0; all zeros are written before the first is read.
 #pragma once
 
 #include "read_plan.hpp"
-
-#include "dpslave/drive/poller.hpp"
+#include "transactions.hpp"
 
 #include <optional>
 #include <vector>
@@ -26,8 +25,10 @@ public:
     void add(const Tag* row);
     /// It was zeroed, or the drive refused that, or the present layout writes it.
     void remove(const Tag* row);
-    void written(const Tag* row);  ///< acknowledged, and still to be read back
-    void not_held(const Tag* row); ///< the read-back shows another word: it is written again
+    /// What became of a zero or of its read-back. `proven_by_reading`: the answer to the write is no proof.
+    /// True: something else goes before the next zero.
+    bool done(const Transaction& transaction, const Outcome& outcome, bool proven_by_reading, int retries,
+              Instant now);
     void tell_time(Instant now);
     /// Each of them is now the row that `row_of` makes of it.
     template <class RowOf>
@@ -42,11 +43,10 @@ public:
         drive_returned();
     }
 
-    const Tag* next(Instant now) const;         ///< the tag to be zeroed now; nullptr = none
-    const Tag* next_proof(Instant now) const;   ///< the tag to be read back now; nullptr = none
-    void postpone(const Tag* row, Instant now); ///< not understood or not held: another one goes first
-    void drive_returned();                      ///< what was postponed is tried at once
-    bool untold() const;                        ///< the time is to be told, whatever comes next
+    const Tag* next(Instant now) const;       ///< the tag to be zeroed now; nullptr = none
+    const Tag* next_proof(Instant now) const; ///< the tag to be read back now; nullptr = none
+    void drive_returned();                    ///< what was postponed is tried at once
+    bool untold() const;                      ///< the time is to be told, whatever comes next
     Instant next_due() const;
     /// When the last ride through the loss of the master is over; kNever = never. Nothing: none rides, or
     /// all are zeroed at once.
@@ -58,13 +58,15 @@ private:
         const Tag* row = nullptr;
         std::optional<Instant> lost_at; ///< none: not told yet
         Instant not_before = kAtOnce;
-        bool written = false; ///< and not proven yet
+        Knowledge knowledge = Knowledge::unknown; ///< of the 0
+        void on(KnowledgeEvent event) { knowledge = known_after(event, knowledge); }
     };
 
     Instant due_at(const Zero& zero) const;
-    const Tag* due(Instant now, bool written) const;
+    const Tag* due(Instant now, bool acknowledged) const;
 
     ZeroAfter after_;
+    NotUnderstood not_understood_;
     bool rides_ = true;
     std::vector<Zero> zeros_; ///< with "never" they stay: the time may be set to another one later
 };

@@ -1,13 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "unit_tags.hpp"
 
+#include "transactions.hpp"
+
 #include <algorithm>
+#include <utility>
 
 namespace dpslave::drive {
 
 std::span<const Parameter> parameters_of(const Layout& layout)
 {
     return std::span{layout.parameters}.first(std::min<std::size_t>(layout.count, kMaxParameters));
+}
+
+/// Only the row of the table tells (EI-ASCII reference, section 4).
+AccessError with_reason(const Transaction& transaction, AccessError error)
+{
+    if (!is_write(transaction) || transaction.words.size() != 1) return error;
+    const Tag& tag = *transaction.tag;
+    const bool may_be = error == AccessError::read_only ||
+                        (error == AccessError::out_of_range && is_within_limits(tag, transaction.words[0]));
+    if (!may_be) return error;
+    switch (tag.when) {
+        case WritableWhen::not_said: break;
+        case WritableWhen::stopped: return AccessError::not_stopped;
+        case WritableWhen::configuration: return AccessError::not_config_mode;
+    }
+    return error;
 }
 
 UnitTags::UnitTags(const UnitSettings& unit)
@@ -48,75 +67,56 @@ AccessError UnitTags::verdict(const Tag& row, bool is_write) const
     return AccessError::none;
 }
 
-ReadPlan::Item UnitTags::read_item(std::uint16_t number)
+DriveParameter UnitTags::record(std::uint16_t number, std::uint8_t uses)
 {
-    ReadPlan::Item item;
-    item.row = row(number);
-    item.error = verdict(*item.row, false);
-    item.asked = item.error == AccessError::none;
-    item.tried = !item.asked;
-    item.unscaled = scale_from_table_ && !has_scale(*item.row);
-    if (!item.asked) item.state = state_of(item.error);
-    return item;
+    DriveParameter made;
+    made.row = row(number);
+    Reading& reading = made.reading;
+    reading.uses = uses;
+    reading.unscaled = scale_from_table_ && !has_scale(*made.row);
+    if (const AccessError error = verdict(*made.row, false); error != AccessError::none) {
+        reading.refuse(error);
+        reading.tried = true;
+    }
+    return made;
 }
 
-std::vector<ReadPlan::Item> UnitTags::reads_of(const Layout& layout)
+Writing UnitTags::output(const Tag& row, std::size_t place) const
 {
-    std::vector<ReadPlan::Item> items;
-    for (const Parameter& parameter : parameters_of(layout)) {
-        ReadPlan::Item item = read_item(parameter.tag);
-        item.input = parameter.reads;
-        item.compared = compare_outputs_ && parameter.writes && item.asked &&
-                        verdict(*item.row, true) == AccessError::none;
-        item.form =
-            parameter.writes && item.unscaled && item.asked && verdict(*item.row, true) == AccessError::none;
-        if (item.input || item.compared || item.form) items.push_back(item);
-    }
-    for (const std::uint16_t tag : watched_) {
-        ReadPlan::Item item = read_item(tag);
-        item.watched = true;
-        items.push_back(item);
-    }
-    std::sort(items.begin(), items.end(),
-              [](const auto& a, const auto& b) { return a.row->number < b.row->number; });
-    std::vector<ReadPlan::Item> merged;
-    for (const ReadPlan::Item& item : items) {
-        if (merged.empty() || merged.back().row != item.row) {
-            merged.push_back(item);
-            continue;
-        }
-        merged.back().input = merged.back().input || item.input;
-        merged.back().compared = merged.back().compared || item.compared;
-        merged.back().form = merged.back().form || item.form;
-        merged.back().watched = merged.back().watched || item.watched;
-    }
-    return merged;
+    Writing writing;
+    writing.is_output = true;
+    writing.parameter = place;
+    if (const AccessError error = verdict(row, true); error != AccessError::none)
+        writing.refuse(error);
+    else
+        writing.readable = compare_outputs_ && verdict(row, false) == AccessError::none;
+    return writing;
 }
 
 /// Where outputs are compared, only the last of several with the same tag is written: two words for one
 /// parameter would be written over each other for ever.
-std::vector<OutputPlan::Item> UnitTags::outputs_of(const Layout& layout)
+ParameterSet UnitTags::parameters(const Layout& layout)
 {
-    std::vector<OutputPlan::Item> items;
-    std::size_t place = 0;
-    for (const Parameter& parameter : parameters_of(layout)) {
-        OutputPlan::Item item;
-        item.parameter = place++;
-        if (!parameter.writes) continue;
-        item.row = row(parameter.tag);
-        item.error = verdict(*item.row, true);
-        if (compare_outputs_ && item.error == AccessError::none) {
-            item.readable = verdict(*item.row, false) == AccessError::none;
-            for (OutputPlan::Item& other : items)
-                if (other.row == item.row) other.error = AccessError::not_understood;
+    std::vector<DriveParameter> uses;
+    const std::span<const Parameter> chosen = parameters_of(layout);
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+        const Parameter& parameter = chosen[i];
+        DriveParameter made = record(parameter.tag, parameter.reads ? std::uint8_t{kInput} : std::uint8_t{0});
+        if (parameter.writes) {
+            made.writing = output(*made.row, i);
+            if (made.reading.asked && made.writing.asked) {
+                if (compare_outputs_) made.reading.uses |= kCompared;
+                if (made.reading.unscaled) made.reading.uses |= kForm;
+            }
+            for (DriveParameter& other : uses)
+                if (compare_outputs_ && made.writing.asked && other.row == made.row &&
+                    other.writing.is_output)
+                    other.writing.refuse(AccessError::not_understood);
         }
-        items.push_back(item);
+        if (parameter.reads || parameter.writes) uses.push_back(made);
     }
-    for (OutputPlan::Item& item : items) {
-        item.asked = item.error == AccessError::none;
-        if (!item.asked) item.state = state_of(item.error);
-    }
-    return items;
+    for (const std::uint16_t tag : watched_) uses.push_back(record(tag, kWatched));
+    return ParameterSet{std::move(uses)};
 }
 
 } // namespace dpslave::drive

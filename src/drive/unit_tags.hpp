@@ -2,10 +2,7 @@
 /// What is known about the tags of one drive without asking it, and what a layout asks of them.
 #pragma once
 
-#include "output_plan.hpp"
-#include "read_plan.hpp"
-
-#include "dpslave/drive/poller.hpp"
+#include "parameter_set.hpp"
 
 #include <cstdint>
 #include <map>
@@ -19,6 +16,10 @@ namespace dpslave::drive {
 /// Those that the layout has, in its order.
 std::span<const Parameter> parameters_of(const Layout& layout);
 
+/// What the table says of a refusal of `transaction`: a drive that refuses because it runs, or is not in
+/// configuration mode, says the same as for a tag that is read only or a value out of range.
+AccessError with_reason(const Transaction& transaction, AccessError error);
+
 class UnitTags {
 public:
     /// What `unit` says of tags; its table outlives this.
@@ -31,10 +32,8 @@ public:
     /// Demand Data writes the drive decides, because its own limits may have been set otherwise.
     AccessError verdict(const Tag& row, bool is_write) const;
 
-    /// What is read with this layout, the watched tags and compared outputs included; each tag once,
-    /// ascending.
-    std::vector<ReadPlan::Item> reads_of(const Layout& layout);
-    std::vector<OutputPlan::Item> outputs_of(const Layout& layout);
+    /// What is read and written with this layout, the watched tags included.
+    ParameterSet parameters(const Layout& layout);
     /// The drive has answered with more decimals than the row gives: refused until the row changes.
     void contradict(std::uint16_t number) { contradicted_.insert(number); }
     /// What was contradicted `before` stays so where the row is still the same.
@@ -44,7 +43,8 @@ public:
     const std::vector<std::uint16_t>& watched() const { return watched_; } ///< kMaxWatched at most
 
 private:
-    ReadPlan::Item read_item(std::uint16_t number);
+    DriveParameter record(std::uint16_t number, std::uint8_t uses);
+    Writing output(const Tag& row, std::size_t place) const;
 
     const TagTable* table_;
     bool only_from_table_;

@@ -170,7 +170,7 @@ protected:
         ASSERT_EQ(master.ask(chk_cfg(address, master.next_fc())), Octets{0xE5});
         ASSERT_TRUE(eventually([&] { return links[address]->outputs.latest().layout.generation != 0; }));
         inputs_.generation = links[address]->outputs.latest().layout.generation;
-        inputs_.every_input_tried = inputs_.drive_answers = true;
+        inputs_.every_input_tried = true;
         links[address]->inputs.publish(inputs_);
     }
     /// The first input word in the reply; nothing: there was none, or another reply than to Data_Exchange.

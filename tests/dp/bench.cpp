@@ -160,7 +160,7 @@ void DpBench::start_up(std::string_view prm, std::string_view cfg)
 
 void DpBench::inputs_are(const std::vector<std::uint16_t>& words)
 {
-    InputImage image{.generation = generation(), .every_input_tried = true, .drive_answers = true};
+    InputImage image{.generation = generation(), .every_input_tried = true};
     std::copy(words.begin(), words.end(), image.words.begin());
     slave.set_inputs(image);
 }

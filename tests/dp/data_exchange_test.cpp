@@ -176,7 +176,7 @@ TEST_F(Exchange, InputsOfAnotherGenerationAreNotTakenIntoReplies)
     start_up(kPrm, kCfg);
     EXPECT_EQ(generation(), old + 1);
 
-    dpslave::InputImage late{.generation = old, .every_input_tried = true, .drive_answers = true};
+    dpslave::InputImage late{.generation = old, .every_input_tried = true};
     late.words[0] = 0x9999;
     slave.set_inputs(late);
 
@@ -188,8 +188,7 @@ TEST_F(Exchange, InputsOfAnotherGenerationAreNotTakenIntoReplies)
 TEST_F(Exchange, ALateImageDoesNotDriveOutTheCurrentOne)
 {
     exchanges();
-    slave.set_inputs(
-        {.generation = generation() + 1, .every_input_tried = true, .drive_answers = true, .words = {}});
+    slave.set_inputs({.generation = generation() + 1, .every_input_tried = true, .words = {}});
 
     EXPECT_EQ(master.data_exchange("00 00"), "DL 12 34");
 }

@@ -186,14 +186,11 @@ TEST_F(Diagnosis, C20_StatDiagEndsOneSecondAfterChkCfgEvenWithoutInputs)
 TEST_F(Diagnosis, C20_StatDiagEndsOnlyWithTheInputsOfThisLayout)
 {
     start_up(kPrm, kCfg);
-    slave.set_inputs(
-        {.generation = generation() - 1, .every_input_tried = true, .drive_answers = true, .words = {}});
+    slave.set_inputs({.generation = generation() - 1, .every_input_tried = true, .words = {}});
     EXPECT_TRUE(seen().stat_diag);
-    slave.set_inputs(
-        {.generation = generation(), .every_input_tried = false, .drive_answers = true, .words = {}});
+    slave.set_inputs({.generation = generation(), .every_input_tried = false, .words = {}});
     EXPECT_TRUE(seen().stat_diag);
-    slave.set_inputs(
-        {.generation = generation(), .every_input_tried = true, .drive_answers = false, .words = {}});
+    slave.set_inputs({.generation = generation(), .every_input_tried = true, .words = {}});
     EXPECT_FALSE(seen().stat_diag); // tried, with whatever result
 }
 

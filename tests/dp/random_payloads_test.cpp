@@ -90,8 +90,7 @@ protected:
     void give_the_drive_side_something()
     {
         dpslave::InputImage image{.generation = upto(1) == 0 ? generation() : upto(9),
-                                  .every_input_tried = often(),
-                                  .drive_answers = often()};
+                                  .every_input_tried = often()};
         image.words.fill(static_cast<std::uint16_t>(upto(0xFFFF)));
         slave.set_inputs(image);
         if (const auto order = slave.take_demand_order())

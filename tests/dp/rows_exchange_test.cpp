@@ -328,7 +328,7 @@ TEST_F(Rows, A3_AnInputImageThatIsStaleChangesNeitherStateNorDiagnosis)
 {
     exchanges();
 
-    dpslave::InputImage stale{.generation = generation(), .every_input_tried = true, .drive_answers = false};
+    dpslave::InputImage stale{.generation = generation(), .every_input_tried = true};
     stale.words[0] = 0x1234;
     slave.set_inputs(stale);
 

@@ -22,7 +22,6 @@ protected:
     {
         InputImage image{.generation = generation(),
                          .every_input_tried = every_input_tried,
-                         .drive_answers = true,
                          .scale_missing = scale_missing};
         image.words[0] = word;
         slave.set_inputs(image);

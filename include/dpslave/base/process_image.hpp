@@ -64,7 +64,6 @@ enum class WordState : std::uint8_t {
 struct InputImage {
     Generation generation = 0;
     bool every_input_tried = false; ///< each reading parameter was tried once, with whatever result
-    bool drive_answers = false;     ///< false: the drive is lost, the values are held
     /// A parameter of the layout, input or output, has answered with a number of unknown scale: the exchange
     /// must not begin. Never by silence.
     bool scale_missing = false;

@@ -9,6 +9,7 @@ namespace dpslave::drive {
 namespace {
 
 using test::PollerBench;
+using namespace std::chrono_literals;
 
 const TagTable& rows_of_100()
 {

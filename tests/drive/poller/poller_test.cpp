@@ -57,7 +57,7 @@ TEST_F(PollerOfOne, GivesTheInputsUnderTheGenerationTheyWereReadFor)
     const auto first = bench.poller.take_inputs(0);
     ASSERT_TRUE(first);
     EXPECT_EQ(first->generation, 7u);
-    EXPECT_TRUE(first->drive_answers);
+    EXPECT_TRUE(bench.poller.snapshot(0).answers);
     EXPECT_FALSE(first->every_input_tried);
     bench.steps(1);
     const auto second = bench.poller.take_inputs(0);
@@ -298,7 +298,7 @@ TEST_F(PollerOfOne, HoldsAnInputThatIsNotUnderstoodAndTheOthersGoOn)
     EXPECT_EQ(bench.reads_of(5), 3u) << "the retries, and then only now and then";
     EXPECT_GE(bench.reads_of(6), 400u);
     const auto inputs = bench.poller.take_inputs(0);
-    EXPECT_TRUE(inputs->drive_answers);
+    EXPECT_TRUE(bench.poller.snapshot(0).answers);
     EXPECT_EQ(inputs->words[0], 1005);
     EXPECT_EQ(inputs->words[1], 66);
     EXPECT_EQ(seen().states[0], WordState::refused);
@@ -319,7 +319,7 @@ TEST_F(PollerOfOne, TriesEveryInputEvenIfNoneIsUnderstood)
     bench.run(1s);
     const auto inputs = bench.poller.take_inputs(0);
     EXPECT_TRUE(inputs->every_input_tried);
-    EXPECT_TRUE(inputs->drive_answers);
+    EXPECT_TRUE(bench.poller.snapshot(0).answers);
     EXPECT_EQ(bench.reads_of(5), 3u);
     EXPECT_EQ(bench.reads_of(6), 3u);
 }
@@ -474,7 +474,7 @@ TEST_F(PollerOfOne, ProbesAnIdleDriveSoThatTheLinkIsKnown)
     bench.run(5s);
     EXPECT_EQ(bench.purposes(), "ppppp");
     EXPECT_TRUE(seen().known);
-    EXPECT_TRUE(bench.poller.take_inputs(0)->drive_answers);
+    EXPECT_TRUE(bench.poller.snapshot(0).answers);
 }
 
 TEST_F(PollerOfOne, SaysWhenItHasSomethingToDo)

@@ -7,6 +7,8 @@
 namespace dpslave::drive::test {
 namespace {
 
+using namespace std::chrono_literals;
+
 /// Two drives with input 1 and output 10 each, in service, and then other ones.
 class PollerExchange : public testing::Test {
 protected:

@@ -10,6 +10,8 @@
 namespace dpslave::drive::test {
 namespace {
 
+using namespace std::chrono_literals;
+
 using testing::Each;
 using testing::SizeIs;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Why an access failed, parameter by parameter (B-052, B-053, B-088, X-34), and tags that are never written.
-#include "consistent.hpp"
+#include "drive/consistent.hpp"
 #include "poller_bench.hpp"
 
 #include <gtest/gtest.h>

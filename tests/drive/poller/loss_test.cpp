@@ -62,7 +62,7 @@ TEST_F(PollerLoss, InputsHoldAndAreMarkedStaleWhileTheDriveIsLost)
     bench.run(2s);
     const auto inputs = bench.poller.take_inputs(0);
     ASSERT_TRUE(inputs);
-    EXPECT_FALSE(inputs->drive_answers);
+    EXPECT_FALSE(bench.poller.snapshot(0).answers);
     EXPECT_EQ(inputs->words[0], 1001);
     EXPECT_EQ(seen().states[0], WordState::stale);
     EXPECT_EQ(seen().states[2], WordState::stale);
@@ -104,7 +104,7 @@ TEST_F(PollerLoss, AfterTheReturnEveryPresentOutputIsWrittenAgain)
     EXPECT_EQ(drive().words[11], 7);
     EXPECT_EQ(bench.writes_of(10), 1u);
     EXPECT_EQ(seen().states[0], WordState::good);
-    EXPECT_TRUE(bench.poller.take_inputs(0)->drive_answers);
+    EXPECT_TRUE(bench.poller.snapshot(0).answers);
 }
 
 TEST_F(PollerLoss, OneSilenceIsNoLoss)
@@ -124,7 +124,7 @@ TEST_F(PollerLoss, ADriveThatWasNeverThereIsKnownToBeLost)
     bench.run(1s);
     const auto inputs = bench.poller.take_inputs(0);
     ASSERT_TRUE(inputs);
-    EXPECT_FALSE(inputs->drive_answers);
+    EXPECT_FALSE(bench.poller.snapshot(0).answers);
     EXPECT_TRUE(inputs->every_input_tried) << "with the result that nobody answers";
     EXPECT_EQ(seen().states[0], WordState::stale);
 }
@@ -138,7 +138,7 @@ TEST_F(PollerLoss, ANewLayoutForALostDriveIsTriedAlready)
     ASSERT_TRUE(inputs);
     EXPECT_EQ(inputs->generation, 2u);
     EXPECT_TRUE(inputs->every_input_tried);
-    EXPECT_FALSE(inputs->drive_answers);
+    EXPECT_FALSE(bench.poller.snapshot(0).answers);
 }
 
 TEST_F(PollerLoss, ATagThatIsNeverAnsweredDoesNotStopTheOthersForEver)

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The orders of `dpctl read` and `dpctl write` for one drive, each done once, in order.
+#pragma once
+
+#include "transactions.hpp"
+
+#include <deque>
+#include <optional>
+
+namespace dpslave::drive {
+
+class OperateQueue {
+public:
+    struct Entry {
+        OperateOrder order;
+        const Tag* row = nullptr;
+        int attempts = 0;
+        bool acknowledged = false; ///< a write that the drive has answered: now it is read back
+        bool writes_next() const { return order.is_write && !acknowledged; }
+    };
+
+    /// `verdict` other than none answers it without the drive. False: too many wait.
+    bool add(const OperateOrder& order, const Tag* row, AccessError verdict);
+    /// The row of each order is now the one that `row_of` makes of it.
+    template <class RowOf>
+    void exchange(RowOf row_of)
+    {
+        for (Entry& entry : entries_) entry.row = row_of(entry.row);
+    }
+
+    const Entry* front() const { return entries_.empty() ? nullptr : &entries_.front(); }
+    /// What became of the transaction for the first order. Silence and what was not understood are repeated
+    /// `retries` times; so is a write that is proven by reading and not held.
+    void done(const Transaction& transaction, const Outcome& outcome, bool proven_by_reading, int retries);
+    void drive_lost(); ///< each is answered
+    std::optional<OperateAnswer> take_answer();
+
+private:
+    std::deque<Entry> entries_;
+    std::deque<OperateAnswer> answers_;
+};
+
+} // namespace dpslave::drive

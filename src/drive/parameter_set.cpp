@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "parameter_set.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace dpslave::drive {
+namespace {
+
+void take_over_reading(DriveParameter& now, const DriveParameter& before)
+{
+    Reading& reading = now.reading;
+    const Reading& known = before.reading;
+    if (is_read_alike(before, now)) {
+        const std::uint8_t uses = reading.uses;
+        const bool unscaled = reading.unscaled;
+        reading = known;
+        reading.uses = uses;
+        reading.unscaled = unscaled;
+    } else if (reading.asked) {
+        reading.word = known.word;
+        reading.tried = known.tried;
+        if (known.error != AccessError::no_scale) return;
+        reading.state = known.state; // the exchange does not begin with a word that was never read
+        reading.error = known.error;
+        reading.answer = known.answer;
+    }
+}
+
+} // namespace
+
+ParameterSet::ParameterSet(std::vector<DriveParameter> uses)
+{
+    std::stable_sort(uses.begin(), uses.end(),
+                     [](const auto& a, const auto& b) { return a.row->number < b.row->number; });
+    std::size_t first = 0; // the record of the present tag
+    for (const DriveParameter& use : uses) {
+        if (records_.empty() || records_[first].row != use.row) {
+            first = records_.size();
+            records_.push_back(use);
+            continue;
+        }
+        DriveParameter& record = records_[first];
+        record.reading.uses |= use.reading.uses;
+        if (!use.writing.is_output) continue;
+        if (!record.writing.is_output) {
+            record.writing = use.writing;
+            continue;
+        }
+        records_.push_back(use);
+        records_.back().reading = {};
+    }
+}
+
+DriveParameter* ParameterSet::find_read(std::uint16_t tag)
+{
+    return const_cast<DriveParameter*>(std::as_const(*this).find_read(tag));
+}
+
+const DriveParameter* ParameterSet::find_read(std::uint16_t tag) const
+{
+    const auto at = std::lower_bound(
+        records_.begin(), records_.end(), tag,
+        [](const DriveParameter& one, std::uint16_t wanted) { return one.row->number < wanted; });
+    if (at == records_.end() || at->row->number != tag || at->reading.uses == 0) return nullptr;
+    return &*at;
+}
+
+const DriveParameter* ParameterSet::find_output(std::size_t parameter) const
+{
+    const auto at = std::find_if(records_.begin(), records_.end(), [parameter](const DriveParameter& one) {
+        return one.writing.is_output && one.writing.parameter == parameter;
+    });
+    return at == records_.end() ? nullptr : &*at;
+}
+
+bool ParameterSet::every_input_tried() const
+{
+    return std::all_of(records_.begin(), records_.end(), [](const DriveParameter& one) {
+        return !one.reading.serves(kInput | kForm) || one.reading.tried;
+    });
+}
+
+bool ParameterSet::scale_missing() const
+{
+    return std::any_of(records_.begin(), records_.end(), [](const DriveParameter& one) {
+        return one.reading.serves(kInput | kForm) && one.reading.error == AccessError::no_scale;
+    });
+}
+
+void ParameterSet::readings_lost()
+{
+    for (DriveParameter& one : records_)
+        if (one.reading.uses != 0) one.reading.drive_lost();
+}
+
+void ParameterSet::writings_lost()
+{
+    for (DriveParameter& one : records_)
+        if (one.writing.is_output && one.writing.asked && !one.writing.is_dropped()) one.writing.lose();
+}
+
+void ParameterSet::take_over(const ParameterSet& before)
+{
+    for (DriveParameter& now : records_) {
+        if (const DriveParameter* known = now.reading.uses != 0 ? before.find_read(now.row->number) : nullptr)
+            take_over_reading(now, *known);
+        const DriveParameter* known =
+            now.writing.is_output ? before.find_output(now.writing.parameter) : nullptr;
+        if (known == nullptr) continue;
+        if (is_written_alike(*known, now))
+            now.writing = known->writing;
+        else
+            now.writing.wanted = known->writing.wanted;
+    }
+}
+
+bool is_read_alike(const DriveParameter& a, const DriveParameter& b)
+{
+    return a.reading.asked == b.reading.asked && is_same_value(*a.row, *b.row);
+}
+
+bool is_written_alike(const DriveParameter& a, const DriveParameter& b)
+{
+    return a.writing.asked == b.writing.asked && is_same_value(*a.row, *b.row);
+}
+
+} // namespace dpslave::drive

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What is known of the word that a drive holds in a parameter: the table of transitions, row by row, and
+/// what an access makes of the record (drive-answers.md, "What is shown while an answer is missing").
+#include "drive/parameter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace dpslave::drive {
+namespace {
+
+using namespace std::chrono_literals;
+using enum Knowledge;
+
+constexpr std::array kBefore{unknown, acknowledged, assumed, unproven, held, differs};
+
+/// `after`: what is known after the event, in the order of kBefore.
+void expect_row(KnowledgeEvent event, const std::array<Knowledge, 6>& after)
+{
+    for (std::size_t i = 0; i < kBefore.size(); ++i) {
+        Writing writing;
+        writing.knowledge = kBefore[i];
+        writing.on(event);
+        EXPECT_EQ(writing.knowledge, after[i]) << "before: " << static_cast<int>(kBefore[i]);
+    }
+}
+
+TEST(Knowledge, TheFirstWordOfALayoutIsAssumedOnlyWhereNothingIsKnown)
+{
+    expect_row(KnowledgeEvent::layout_begins, {assumed, acknowledged, assumed, unproven, held, differs});
+}
+
+TEST(Knowledge, WhileAWriteIsUnderWayNothingIsKnown)
+{
+    expect_row(KnowledgeEvent::sent, {unknown, unknown, unknown, unknown, unknown, unknown});
+}
+
+TEST(Knowledge, TheAnswerToASingleWriteAcknowledgesItsWordWhateverWasKnown)
+{
+    expect_row(KnowledgeEvent::acknowledged,
+               {acknowledged, acknowledged, acknowledged, acknowledged, acknowledged, acknowledged});
+}
+
+TEST(Knowledge, TheAnswerToABlockProvesNoneOfItsWords)
+{
+    expect_row(KnowledgeEvent::block_acknowledged,
+               {unproven, unproven, unproven, unproven, unproven, unproven});
+}
+
+TEST(Knowledge, AReadThatShowsTheWordProvesIt)
+{
+    expect_row(KnowledgeEvent::seen, {held, held, held, held, held, held});
+}
+
+TEST(Knowledge, AReadThatShowsAnotherWordSaysThatItDiffersUnlessAWriteIsOwedAnyway)
+{
+    expect_row(KnowledgeEvent::another_seen, {unknown, differs, differs, differs, differs, differs});
+}
+
+TEST(Knowledge, WhereTheDriveNoLongerGivesTheWordOnlyAnAnswerToASingleWriteIsLeft)
+{
+    expect_row(KnowledgeEvent::not_given,
+               {unknown, acknowledged, unknown, unknown, acknowledged, acknowledged});
+}
+
+TEST(Knowledge, OfADriveThatIsBackAndIsReadTheWordIsAssumedUntilTheReadShowsIt)
+{
+    expect_row(KnowledgeEvent::back_and_read, {unknown, assumed, assumed, assumed, assumed, assumed});
+}
+
+TEST(Knowledge, OfADriveThatIsBackAndIsNotReadNothingIsKnown)
+{
+    expect_row(KnowledgeEvent::back, {unknown, unknown, unknown, unknown, unknown, unknown});
+}
+
+// ---- a write
+
+Writing output(std::uint16_t wanted, bool readable)
+{
+    Writing writing;
+    writing.is_output = true;
+    writing.readable = readable;
+    writing.wanted = wanted;
+    return writing;
+}
+
+constexpr Instant kNow{10s};
+
+TEST(Writing, IsNotSettledBeforeAnyAnswer)
+{
+    EXPECT_FALSE(output(5, false).is_settled());
+}
+
+TEST(Writing, IsSettledByAnAnswerUntilAnotherWordIsWanted)
+{
+    Writing writing = output(5, false);
+    writing.write_answered(5, AccessError::none, false, kNow);
+    EXPECT_TRUE(writing.is_settled());
+    EXPECT_EQ(writing.word, 5);
+    EXPECT_EQ(writing.updated_at, kNow);
+    writing.wanted = 6;
+    EXPECT_FALSE(writing.is_settled());
+}
+
+TEST(Writing, ThatIsRefusedIsSettledAndKeepsTheWordThatWasTakenLast)
+{
+    Writing writing = output(5, false);
+    writing.write_answered(5, AccessError::none, false, kNow);
+    writing.wanted = 99;
+    writing.write_answered(99, AccessError::out_of_range, false, kNow + 1s);
+    EXPECT_TRUE(writing.is_refused());
+    EXPECT_TRUE(writing.is_settled()) << "it is not written over and over";
+    EXPECT_EQ(writing.state, WordState::out_of_range);
+    EXPECT_EQ(writing.word, 5);
+    EXPECT_EQ(writing.updated_at, kNow);
+}
+
+TEST(Writing, ThatIsReadBackIsAcceptedThoughItWasRefused)
+{
+    Writing writing = output(5, true);
+    writing.write_answered(5, AccessError::out_of_range, false, kNow);
+    writing.wanted_seen(kNow + 1s);
+    EXPECT_FALSE(writing.is_refused());
+    EXPECT_EQ(writing.state, WordState::good);
+    EXPECT_EQ(writing.knowledge, held);
+}
+
+TEST(Writing, OfAReadOnlyTagStaysRefusedThoughTheDriveHoldsTheWord)
+{
+    Writing writing = output(5, true);
+    writing.write_answered(5, AccessError::read_only, false, kNow);
+    writing.wanted_seen(kNow + 1s);
+    EXPECT_TRUE(writing.is_refused());
+    EXPECT_EQ(writing.state, WordState::read_only);
+}
+
+TEST(Writing, ThatLostItsAnswerIsProvenByAReadThatShowsTheWord)
+{
+    Writing writing = output(5, true);
+    writing.on(KnowledgeEvent::sent);
+    writing.wanted_seen(kNow);
+    EXPECT_TRUE(writing.is_settled());
+    EXPECT_EQ(writing.word, 5);
+    EXPECT_EQ(writing.updated_at, kNow);
+}
+
+TEST(Writing, OfTheFirstWordOfALayoutIsAssumedOnlyWhereAReadIsToShowIt)
+{
+    Writing read = output(5, true);
+    read.layout_begins();
+    EXPECT_TRUE(read.is_settled());
+    Writing not_read = output(5, false);
+    not_read.layout_begins();
+    EXPECT_FALSE(not_read.is_settled());
+}
+
+TEST(Writing, ToADriveThatIsBackIsMadeAgainUnlessAReadIsToShowTheWord)
+{
+    Writing not_read = output(5, false);
+    not_read.write_answered(5, AccessError::none, false, kNow);
+    not_read.drive_returned();
+    EXPECT_FALSE(not_read.is_settled());
+    Writing read = output(5, true);
+    read.write_answered(5, AccessError::none, false, kNow);
+    read.drive_returned();
+    EXPECT_EQ(read.knowledge, assumed);
+}
+
+TEST(Writing, ThatWasRefusedIsMadeAgainToADriveThatIsBack)
+{
+    Writing writing = output(5, true);
+    writing.write_answered(5, AccessError::out_of_range, false, kNow);
+    writing.drive_returned();
+    EXPECT_FALSE(writing.is_refused());
+    EXPECT_FALSE(writing.is_settled());
+}
+
+TEST(Writing, AtAnotherPortIsMadeAgainEvenWhereReadsShowTheWord)
+{
+    Writing writing = output(5, true);
+    writing.write_answered(5, AccessError::none, false, kNow);
+    writing.port_changed();
+    EXPECT_FALSE(writing.is_settled());
+}
+
+// ---- an access without a good answer
+
+TEST(AccessState, IsHeldFromTheFirstAccessOnThatBringsNoAnswer)
+{
+    AccessState access;
+    access.answered(AccessError::none);
+    access.hold(AccessError::no_answer);
+    EXPECT_EQ(access.state, WordState::stale);
+    EXPECT_EQ(access.error, AccessError::no_answer);
+    EXPECT_EQ(access.failures, 1);
+    access.answered(AccessError::none);
+    EXPECT_EQ(access.state, WordState::good);
+    EXPECT_EQ(access.failures, 0);
+}
+
+TEST(AccessState, OfARefusedTagStaysRefusedWhileNoAnswerComes)
+{
+    AccessState access;
+    access.answered(AccessError::invalid_tag);
+    access.hold(AccessError::no_answer);
+    EXPECT_EQ(access.state, WordState::invalid_tag);
+    EXPECT_EQ(access.error, AccessError::invalid_tag);
+}
+
+TEST(Reading, OfALostDriveIsHeldUnlessTheTagIsExcluded)
+{
+    Reading good;
+    good.answered(AccessError::none);
+    good.drive_lost();
+    EXPECT_EQ(good.state, WordState::stale);
+    EXPECT_TRUE(good.tried);
+    Reading excluded;
+    excluded.answered(AccessError::invalid_tag);
+    excluded.drive_lost();
+    EXPECT_EQ(excluded.state, WordState::invalid_tag);
+}
+
+TEST(Reading, WithoutAScaleIsHeldByALossOnlyWhenTheTableTellsTheScaleByNow)
+{
+    Reading unscaled;
+    unscaled.unscaled = true;
+    unscaled.answered(AccessError::no_scale);
+    unscaled.drive_lost();
+    EXPECT_EQ(unscaled.state, WordState::unscaled);
+    unscaled.unscaled = false;
+    unscaled.drive_lost();
+    EXPECT_EQ(unscaled.state, WordState::stale);
+}
+
+} // namespace
+} // namespace dpslave::drive
