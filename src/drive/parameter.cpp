@@ -119,9 +119,7 @@ void Writing::port_changed()
 {
     on(KnowledgeEvent::back);
     verdict = Verdict::accepted;
-    state = WordState::stale;
-    error = AccessError::none;
-    failures = 0;
+    answered(AccessError::deferred);
 }
 
 /// It may have been without power: whatever it held, every present output is written again. Where outputs are

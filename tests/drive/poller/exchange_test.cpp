@@ -264,6 +264,18 @@ TEST_F(PollerOtherPort, WritesTheStandingOutputsAtTheNewOneFirst)
     EXPECT_EQ(bench.count([](const Done& d) { return d.purpose == Purpose::safe_state; }), 0U);
 }
 
+TEST_F(PollerOtherPort, HoldsAnOutputWithTheReasonThatItIsNotWrittenThereYet)
+{
+    bench.poller.leave_port();
+    bench.run(500ms);
+    other_port();
+    const UnitSnapshot& seen = bench.poller.snapshot(0);
+    EXPECT_EQ(seen.states[1], WordState::stale);
+    EXPECT_EQ(seen.errors[1], AccessError::deferred);
+    bench.run(1s);
+    EXPECT_EQ(bench.poller.snapshot(0).states[1], WordState::good);
+}
+
 TEST_F(PollerOtherPort, WritesAtOnceToADriveThatWasLostAtTheOldOne)
 {
     bench.drives[0].alive = false;
