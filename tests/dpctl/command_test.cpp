@@ -240,7 +240,7 @@ TEST_F(DpctlProgram, ReloadsForOperatorsOnly)
 {
     const Ran ran = run({"reload"});
     EXPECT_EQ(ran.exit, 0) << ran.err;
-    EXPECT_EQ(ran.out, dpctl::render_reload(fixture("Reload"), false));
+    EXPECT_EQ(ran.out, dpctl::render_reload(report::read<report::ReloadReply>(fixture("Reload")), false));
     EXPECT_EQ(Json::parse(run({"reload", "--json"}).out), fixture("Reload"));
     if (::geteuid() == 0) {
         EXPECT_EQ(run({"reload"}, Dpctl::As::nobody).exit, 1);

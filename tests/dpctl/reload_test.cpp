@@ -12,7 +12,7 @@ using test::fixture;
 
 TEST(DpctlReload, SaysWhatIsDifferentAndWhatWaits)
 {
-    EXPECT_EQ(render_reload(fixture("Reload"), false),
+    EXPECT_EQ(render_reload(report::read<report::ReloadReply>(fixture("Reload")), false),
               "station rewinder removed\n"
               "pending: station unwinder: address 7 counts from the next start on\n");
 }
@@ -21,12 +21,13 @@ TEST(DpctlReload, SaysThatNothingHasChanged)
 {
     const Json nothing = Json::parse(
         R"({"applied":true,"changes":[],"pending":[],"leaving":[],"warnings":["w"],"faults":[]})");
-    EXPECT_EQ(render_reload(nothing, false), "warning: w\nNothing has changed.\n");
+    EXPECT_EQ(render_reload(report::read<report::ReloadReply>(nothing), false),
+              "warning: w\nNothing has changed.\n");
 }
 
 TEST(DpctlReload, OfADryRunSaysWhoWouldLeaveTheBusAndWhy)
 {
-    EXPECT_EQ(render_reload(fixture("Reload"), true),
+    EXPECT_EQ(render_reload(report::read<report::ReloadReply>(fixture("Reload")), true),
               "station rewinder removed\n"
               "pending: station unwinder: address 7 counts from the next start on\n"
               "leaves the bus: rewinder (removed)\n"
@@ -37,16 +38,17 @@ TEST(DpctlReload, OfADryRunSaysThatNoStationWouldLeaveTheBus)
 {
     const Json live = Json::parse(R"({"applied":false,"changes":["station unwinder: other lamps"],
         "leaving":[],"pending":[],"warnings":[],"faults":[]})");
-    EXPECT_EQ(render_reload(live, true), "station unwinder: other lamps\n"
-                                         "no station leaves the bus\n"
-                                         "Nothing was done: this is what a reload would do.\n");
+    EXPECT_EQ(render_reload(report::read<report::ReloadReply>(live), true),
+              "station unwinder: other lamps\n"
+              "no station leaves the bus\n"
+              "Nothing was done: this is what a reload would do.\n");
 }
 
 TEST(DpctlReload, SaysAllFaultsAndThatTheOldConfigurationRunsOn)
 {
     const Json refused = Json::parse(
         R"({"applied":false,"changes":[],"leaving":[],"pending":[],"warnings":[],"faults":["a: b","c: d"]})");
-    EXPECT_EQ(render_reload(refused, false),
+    EXPECT_EQ(render_reload(report::read<report::ReloadReply>(refused), false),
               "a: b\nc: d\nThe new configuration is refused; the one until now runs on.\n");
 }
 

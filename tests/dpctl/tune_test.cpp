@@ -543,15 +543,17 @@ TEST_F(Tune, AKernelThatGivesRealTimeNoTimeMustBeMended)
 
 TEST(TuneReplies, GiveRatePromiseAndTraffic)
 {
-    const BusFacts facts = bus_facts(
-        Json::parse(R"({"port": "/dev/ttyS1", "baud": 187500, "baud_state": "DP_Control"})"),
-        Json::parse(R"({"stations": [{"bauds": [9600, 187500], "max_tsdr": [60, 90]},
-                                     {"bauds": [9600, 187500], "max_tsdr": [70, 80]}]})"),
-        Json::parse(R"({"groups": [{"name": "unwinder", "counters": [{"name": "late", "value": 77}]},
+    const BusFacts facts =
+        bus_facts({.port = "/dev/ttyS1", .baud = 187500, .baud_state = "DP_Control"},
+                  report::read<report::GetInfoReply>(
+                      Json::parse(R"({"stations": [{"bauds": [9600, 187500], "max_tsdr": [60, 90]},
+                                     {"bauds": [9600, 187500], "max_tsdr": [70, 80]}]})")),
+                  report::read<report::GetCountersReply>(Json::parse(
+                      R"({"groups": [{"name": "unwinder", "counters": [{"name": "late", "value": 77}]},
             {"name": "bus", "counters": [{"name": "replies", "value": 5000}, {"name": "late", "value": 1},
              {"name": "overtaken", "value": 2}, {"name": "retries", "value": 3}, {"name": "page_faults", "value": 4}]}],
             "turnaround": [{"unit": "us", "count": 4990, "p999": 210, "highest": 400},
-                           {"unit": "T_bit", "count": 4990, "p999": 40, "highest": 75}]})"));
+                           {"unit": "T_bit", "count": 4990, "p999": 40, "highest": 75}]})")));
 
     EXPECT_EQ(facts.baud, Baud::k187_5);
     EXPECT_EQ(facts.promised[index_of(Baud::k9_6)], 60u);
@@ -569,12 +571,13 @@ TEST(TuneReplies, GiveRatePromiseAndTraffic)
 
 TEST(TuneReplies, GiveNoRateWhileItIsSearchedAndNothingOfAForeignAnswer)
 {
-    EXPECT_EQ(bus_facts(Json::parse(R"({"baud": 9600, "baud_state": "Baud_Search"})"), {}, {}).baud,
-              std::nullopt);
+    EXPECT_EQ(bus_facts({.baud = 9600, .baud_state = "Baud_Search"}, {}, {}).baud, std::nullopt);
     const BusFacts facts =
-        bus_facts(Json::parse(R"({"baud": 12, "baud_state": 3})"),
-                  Json::parse(R"({"stations": [1, {"bauds": ["x"], "max_tsdr": [1]}]})"),
-                  Json::parse(R"({"groups": 5, "turnaround": [{"unit": "us", "highest": -1}]})"));
+        bus_facts(report::read<report::Bus>(Json::parse(R"({"baud": 12, "baud_state": 3})")),
+                  report::read<report::GetInfoReply>(
+                      Json::parse(R"({"stations": [1, {"bauds": ["x"], "max_tsdr": [1]}]})")),
+                  report::read<report::GetCountersReply>(
+                      Json::parse(R"({"groups": 5, "turnaround": [{"unit": "us", "highest": -1}]})")));
     EXPECT_EQ(facts.baud, std::nullopt);
     EXPECT_EQ(facts.traffic.highest_us, std::nullopt);
 }

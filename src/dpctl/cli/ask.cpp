@@ -5,6 +5,7 @@
 #include "words.hpp"
 
 #include "dpslave/base/printable.hpp"
+#include "dpslave/report/replies.hpp"
 
 #include <fmt/format.h>
 
@@ -33,11 +34,10 @@ int tell(const control::ReplyMessage& error, const Options& options, Terminal& t
     const control::ReplyMessage shown{printable_texts(error.parameters), printable(error.error),
                                       error.continues};
     terminal.err << "dpctl: " << explain(shown) << '\n';
-    const Json& known = list(shown.parameters, "known");
+    const auto known = report::read<report::StationRequired>(shown.parameters).known;
     if (shown.error == "org.dpslaved.Control.StationRequired" && !known.empty())
         terminal.err << "Add its name to the command, for example: "
-                     << (options.station_is_option ? "--station " : "") << joined(Json::array({known[0]}), "")
-                     << '\n';
+                     << (options.station_is_option ? "--station " : "") << known[0] << '\n';
     return error.error == "org.dpslaved.Control.NoSuchStation" ? kUsage : kNo;
 }
 

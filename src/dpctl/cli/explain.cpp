@@ -3,6 +3,8 @@
 
 #include "fields.hpp"
 
+#include "dpslave/report/replies.hpp"
+
 #include <fmt/format.h>
 
 #include <array>
@@ -10,79 +12,101 @@
 namespace dpslave::dpctl {
 namespace {
 
-std::string no_such_station(const Json& p)
+// Of org.varlink.service.
+struct InvalidParameter {
+    std::string parameter{};
+    DPSLAVE_FIELDS(parameter)
+};
+struct MethodNotFound {
+    std::string method{};
+    DPSLAVE_FIELDS(method)
+};
+struct InterfaceNotFound {
+    std::string interface {};
+    DPSLAVE_FIELDS(interface)
+};
+
+constexpr std::int64_t kNoTag = -1;
+
+std::string tag_text(std::int64_t tag)
 {
-    return fmt::format("there is no station '{}'; there are: {}", text(p, "station"),
-                       joined(list(p, "known"), ", "));
+    return tag == kNoTag ? "-" : std::to_string(tag);
 }
-std::string station_required(const Json& p)
+
+template <class T, std::string (*Sentence)(const T&)>
+std::string said(const Json& json)
 {
-    return fmt::format("there are several stations, say which one: {}", joined(list(p, "known"), ", "));
+    T parameters{};
+    if constexpr (requires { parameters.tag; }) parameters.tag = kNoTag;
+    report::take(json, parameters);
+    return Sentence(parameters);
 }
-std::string not_permitted(const Json& p)
+
+std::string no_such_station(const report::NoSuchStation& p)
 {
-    const std::string group = text(p, "group", "");
-    if (group.empty()) return "only root may do this; try: sudo dpctl ...";
+    return fmt::format("there is no station '{}'; there are: {}", p.station, joined(p.known, ", "));
+}
+std::string station_required(const report::StationRequired& p)
+{
+    return fmt::format("there are several stations, say which one: {}", joined(p.known, ", "));
+}
+std::string not_permitted(const report::NotPermitted& p)
+{
+    if (p.group.empty()) return "only root may do this; try: sudo dpctl ...";
     return fmt::format(
         "only root and members of the group '{0}' may do this; try: sudo dpctl ..., or let root add you: "
         "adduser YOUR_NAME {0}",
-        group);
+        p.group);
 }
-std::string drive_refused(const Json& p)
+std::string drive_refused(const report::DriveRefused& p)
 {
-    const auto code = integer(p, "code");
-    const std::string as_demand_data = code ? fmt::format(" (Demand Data: error code {})", *code) : "";
-    return fmt::format("tag {}: {}{}", number(p, "tag"), text(p, "reason"), as_demand_data);
+    const std::string as_demand_data = p.code ? fmt::format(" (Demand Data: error code {})", *p.code) : "";
+    return fmt::format("tag {}: {}{}", tag_text(p.tag), p.reason, as_demand_data);
 }
-std::string bad_value(const Json& p)
+std::string bad_value(const report::BadValue& p)
 {
-    return fmt::format("tag {}: the value '{}' does not fit: {}", number(p, "tag"), text(p, "value"),
-                       text(p, "reason"));
+    return fmt::format("tag {}: the value '{}' does not fit: {}", tag_text(p.tag), p.value, p.reason);
 }
-std::string no_tec_option(const Json& p)
+std::string no_tec_option(const report::NoTecOption& p)
 {
     return fmt::format(
-        "the device of station '{}' has no TEC OPTION function block; technology boxes have one",
-        text(p, "station"));
+        "the device of station '{}' has no TEC OPTION function block; technology boxes have one", p.station);
 }
-std::string bad_tec_value(const Json& p)
+std::string bad_tec_value(const report::BadTecValue& p)
 {
-    return fmt::format("{} cannot be set to '{}': {}", text(p, "parameter"), text(p, "value"),
-                       text(p, "reason"));
+    return fmt::format("{} cannot be set to '{}': {}", p.parameter, p.value, p.reason);
 }
-std::string would_silence(const Json& p)
+std::string would_silence(const report::WouldSilence& p)
 {
     return fmt::format(
         "{} = {} would take station '{}' off the bus while a master exchanges data with it ({}); "
         "if that is wanted: --yes",
-        text(p, "parameter"), text(p, "value"), text(p, "station"), text(p, "reason"));
+        p.parameter, p.value, p.station, p.reason);
 }
-std::string line_in_use(const Json& p)
+std::string line_in_use(const report::LineInUse& p)
 {
     return fmt::format(
         "line {} works for {}, which a master exchanges data with: its drives would wait for up to a "
         "minute; if that is wanted: --yes",
-        text(p, "line"), joined(list(p, "stations"), ", "));
+        p.line, joined(p.stations, ", "));
 }
 std::string busy(const Json&)
 {
     return "the daemon has too many callers or orders at once; try again";
 }
-std::string invalid_parameter(const Json& p)
+std::string invalid_parameter(const InvalidParameter& p)
 {
     return fmt::format(
         "the daemon does not take the parameter '{}': dpctl and dpslaved are of different versions",
-        text(p, "parameter"));
+        p.parameter);
 }
-std::string method_not_found(const Json& p)
+std::string method_not_found(const MethodNotFound& p)
 {
-    return fmt::format("the daemon does not know {}: dpctl and dpslaved are of different versions",
-                       text(p, "method"));
+    return fmt::format("the daemon does not know {}: dpctl and dpslaved are of different versions", p.method);
 }
-std::string interface_not_found(const Json& p)
+std::string interface_not_found(const InterfaceNotFound& p)
 {
-    return fmt::format("what answers on this socket does not know {}: it is no dpslaved",
-                       text(p, "interface"));
+    return fmt::format("what answers on this socket does not know {}: it is no dpslaved", p.interface);
 }
 
 struct Row {
@@ -90,19 +114,19 @@ struct Row {
     std::string (*sentence)(const Json& parameters);
 };
 constexpr std::array kSentences = std::to_array<Row>({
-    {"org.dpslaved.Control.NoSuchStation", no_such_station},
-    {"org.dpslaved.Control.StationRequired", station_required},
-    {"org.dpslaved.Control.NotPermitted", not_permitted},
-    {"org.dpslaved.Control.DriveRefused", drive_refused},
-    {"org.dpslaved.Control.BadValue", bad_value},
-    {"org.dpslaved.Control.NoTecOption", no_tec_option},
-    {"org.dpslaved.Control.BadTecValue", bad_tec_value},
-    {"org.dpslaved.Control.WouldSilence", would_silence},
-    {"org.dpslaved.Control.LineInUse", line_in_use},
+    {"org.dpslaved.Control.NoSuchStation", said<report::NoSuchStation, no_such_station>},
+    {"org.dpslaved.Control.StationRequired", said<report::StationRequired, station_required>},
+    {"org.dpslaved.Control.NotPermitted", said<report::NotPermitted, not_permitted>},
+    {"org.dpslaved.Control.DriveRefused", said<report::DriveRefused, drive_refused>},
+    {"org.dpslaved.Control.BadValue", said<report::BadValue, bad_value>},
+    {"org.dpslaved.Control.NoTecOption", said<report::NoTecOption, no_tec_option>},
+    {"org.dpslaved.Control.BadTecValue", said<report::BadTecValue, bad_tec_value>},
+    {"org.dpslaved.Control.WouldSilence", said<report::WouldSilence, would_silence>},
+    {"org.dpslaved.Control.LineInUse", said<report::LineInUse, line_in_use>},
     {"org.dpslaved.Control.Busy", busy},
-    {"org.varlink.service.InvalidParameter", invalid_parameter},
-    {"org.varlink.service.MethodNotFound", method_not_found},
-    {"org.varlink.service.InterfaceNotFound", interface_not_found},
+    {"org.varlink.service.InvalidParameter", said<InvalidParameter, invalid_parameter>},
+    {"org.varlink.service.MethodNotFound", said<MethodNotFound, method_not_found>},
+    {"org.varlink.service.InterfaceNotFound", said<InterfaceNotFound, interface_not_found>},
 });
 
 } // namespace

@@ -22,7 +22,7 @@ std::string render_counters(const Json& reply, Look look);
 /// TEC OPTION of a station, with the three steps of its set-up where it is not set up (B-054).
 std::string render_tec(const report::Tec& tec, Look look);
 /// What a reload changes, or why it is refused; of a dry run also who would leave the bus.
-std::string render_reload(const Json& reply, bool is_dry_run);
+std::string render_reload(const report::ReloadReply& reply, bool is_dry_run);
 /// A tag read or written.
 std::string render_tag(const Json& reply, std::string_view verb);
 /// The whole picture of `status --follow` and `io --follow`, of a reply of Watch.

@@ -57,9 +57,9 @@ int do_version(const Options& options, Terminal& terminal)
         terminal.out << "no daemon: " << client.error().text << '\n';
         return kFine;
     }
-    return show(options, terminal, "GetVersion", Json::object(), [](const Json& reply) {
-        return fmt::format("{} {} ({})\n", text(reply, "program"), text(reply, "version"),
-                           text(reply, "interface"));
+    return show(options, terminal, "GetVersion", Json::object(), [](const Json& json) {
+        const auto reply = report::read<report::GetVersionReply>(json);
+        return fmt::format("{} {} ({})\n", reply.program, reply.version, reply.interface);
     });
 }
 

@@ -41,24 +41,25 @@ int do_tec_set(const Options& options, Terminal& terminal)
 int do_reload(const Options& options, Terminal& terminal)
 {
     std::string said;
-    Json warned; ///< nothing with --json, which prints one reply
+    std::vector<std::string> warned; ///< nothing with --json, which prints one reply
     if (options.dry_run || !options.json) {
         const auto plan = ask(options, terminal, "Reload", Json::object({{"dry_run", true}}));
         if (!plan) return plan.error();
-        const bool faulty = !plan->value("faults", Json::array()).empty();
-        said = options.json ? json_text(*plan) + '\n' : render_reload(*plan, options.dry_run);
+        const auto planned = report::read<report::ReloadReply>(*plan);
+        const bool faulty = !planned.faults.empty();
+        said = options.json ? json_text(*plan) + '\n' : render_reload(planned, options.dry_run);
         (faulty && !options.json ? terminal.err : terminal.out) << said << std::flush;
         if (options.dry_run) return faulty ? kNo : kFine;
-        warned = plan->value("warnings", Json::array());
+        warned = planned.warnings;
     }
-    auto reply = ask(options, terminal, "Reload", Json::object());
+    const auto reply = ask(options, terminal, "Reload", Json::object());
     if (!reply) return reply.error();
-    const bool applied = reply->value("applied", false);
-    if (!options.json && render_reload(*reply, false) == said) return applied ? kFine : kNo;
-    if (!applied && reply->value("warnings", Json::array()) == warned) reply->erase("warnings"); // just said
-    (applied || options.json ? terminal.out : terminal.err)
-        << (options.json ? json_text(*reply) + '\n' : render_reload(*reply, false)) << std::flush;
-    return applied ? kFine : kNo;
+    auto done = report::read<report::ReloadReply>(*reply);
+    if (!options.json && render_reload(done, false) == said) return done.applied ? kFine : kNo;
+    if (!done.applied && done.warnings == warned) done.warnings.clear(); // just said
+    (done.applied || options.json ? terminal.out : terminal.err)
+        << (options.json ? json_text(*reply) + '\n' : render_reload(done, false)) << std::flush;
+    return done.applied ? kFine : kNo;
 }
 
 } // namespace dpslave::dpctl

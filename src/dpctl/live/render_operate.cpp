@@ -19,9 +19,8 @@ std::string render_tag(const Json& json, std::string_view verb)
     return out;
 }
 
-std::string render_reload(const Json& json, bool is_dry_run)
+std::string render_reload(const report::ReloadReply& reply, bool is_dry_run)
 {
-    const auto reply = report::read<report::ReloadReply>(json);
     std::string out;
     const auto add = [&](const std::vector<std::string>& sentences, std::string_view before) {
         for (const std::string& sentence : sentences) out += fmt::format("{}{}\n", before, sentence);

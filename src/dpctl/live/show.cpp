@@ -44,7 +44,8 @@ int do_show(const Options& options, Terminal& terminal)
                             {"leds", of_station(*leds, name)},
                             {"tec", of_station(*tec, name)}});
     }
-    const Json document = {{"version", text(*version, "version")}, {"stations", std::move(stations)}};
+    const Json document = {{"version", report::read<report::GetVersionReply>(*version).version},
+                           {"stations", std::move(stations)}};
     terminal.out << (options.json ? json_text(document) + '\n' : render_show(document, terminal.look()))
                  << std::flush;
     return kFine;

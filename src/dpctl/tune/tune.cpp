@@ -14,36 +14,35 @@
 namespace dpslave::dpctl {
 namespace {
 
-std::optional<std::uint64_t> unsigned_at(const Json& object, const char* key)
+std::optional<std::uint64_t> unsigned_of(std::optional<std::int64_t> value)
 {
-    const auto value = integer(object, key);
     return value && *value >= 0 ? std::optional{static_cast<std::uint64_t>(*value)} : std::nullopt;
 }
 
-std::optional<std::uint64_t> counter(const Json& group, std::string_view name)
+std::optional<std::uint64_t> counter(const report::CounterGroup& group, std::string_view name)
 {
-    for (const Json& one : list(group, "counters"))
-        if (text(one, "name") == name) return unsigned_at(one, "value");
+    for (const report::Counter& one : group.counters)
+        if (one.name == name) return unsigned_of(one.value);
     return std::nullopt;
 }
 
-Traffic traffic_of(const Json& counters)
+Traffic traffic_of(const report::GetCountersReply& counters)
 {
-    static const Json nothing = Json::object();
-    const Json* bus = &nothing;
-    for (const Json& group : list(counters, "groups"))
-        if (text(group, "name") == "bus") bus = &group;
+    static const report::CounterGroup kNothing;
+    const report::CounterGroup* bus = &kNothing;
+    for (const report::CounterGroup& group : counters.groups)
+        if (group.name == "bus") bus = &group;
     Traffic traffic;
     const std::uint64_t replies = counter(*bus, "replies").value_or(0);
     traffic.replies = replies - std::min(replies, counter(*bus, "unsent").value_or(0));
     traffic.too_late = counter(*bus, "late").value_or(0) + counter(*bus, "too_late").value_or(0);
     traffic.overtaken = counter(*bus, "overtaken").value_or(0);
     traffic.repeated = counter(*bus, "retries").value_or(0);
-    for (const Json& one : list(counters, "turnaround")) {
-        if (text(one, "unit") != "us") continue;
-        traffic.measured = unsigned_at(one, "count").value_or(0);
-        traffic.p999_us = unsigned_at(one, "p999");
-        traffic.highest_us = unsigned_at(one, "highest");
+    for (const report::Distribution& one : counters.turnaround) {
+        if (one.unit != "us") continue;
+        traffic.measured = unsigned_of(one.count).value_or(0);
+        traffic.p999_us = unsigned_of(one.p999);
+        traffic.highest_us = unsigned_of(one.highest);
     }
     traffic.page_faults = counter(*bus, "page_faults").value_or(0);
     return traffic;
@@ -66,32 +65,31 @@ void read_threads(BusFacts& bus)
 }
 
 /// Asks nobody twice: a daemon that is not there, or does not answer, is none.
-std::optional<Json> quietly(const Options& options, std::string_view method)
+template <class Reply>
+Reply quietly(const Options& options, std::string_view method)
 {
     auto client = control::Client::connect(options.socket, options.timeout());
-    if (!client) return std::nullopt;
+    if (!client) return {};
     auto reply = client->call(method, Json::object());
-    if (!reply || !reply->error.empty()) return std::nullopt;
-    return options.json ? std::move(reply->parameters) : printable_texts(std::move(reply->parameters));
+    if (!reply || !reply->error.empty()) return {};
+    return report::read<Reply>(options.json ? std::move(reply->parameters)
+                                            : printable_texts(std::move(reply->parameters)));
 }
 
 } // namespace
 
-BusFacts bus_facts(const Json& bus, const Json& info, const Json& counters)
+BusFacts bus_facts(const report::Bus& bus, const report::GetInfoReply& info,
+                   const report::GetCountersReply& counters)
 {
     BusFacts facts;
-    const auto baud = integer(bus, "baud");
-    if (baud && *baud > 0 && text(bus, "baud_state") != "Baud_Search")
-        facts.baud = baud_of(static_cast<std::uint32_t>(*baud));
-    for (const Json& station : list(info, "stations")) {
-        const Json& bauds = list(station, "bauds");
-        const Json& times = list(station, "max_tsdr");
-        for (std::size_t i = 0; i < std::min(bauds.size(), times.size()); ++i) {
-            if (!bauds[i].is_number_unsigned() || !times[i].is_number_unsigned()) continue;
-            const auto known = baud_of(bauds[i].get<std::uint32_t>());
+    if (bus.baud > 0 && bus.baud_state != "Baud_Search")
+        facts.baud = baud_of(static_cast<std::uint32_t>(bus.baud));
+    for (const report::Info& station : info.stations) {
+        for (std::size_t i = 0; i < std::min(station.bauds.size(), station.max_tsdr.size()); ++i) {
+            const auto known = baud_of(static_cast<std::uint32_t>(station.bauds[i]));
             if (!known) continue;
             auto& promised = facts.promised[index_of(*known)];
-            const auto time = times[i].get<std::uint32_t>();
+            const auto time = static_cast<std::uint32_t>(station.max_tsdr[i]);
             promised = promised ? std::min(*promised, time) : time;
         }
     }
@@ -103,24 +101,28 @@ int do_tune(const Options& options, Terminal& terminal)
 {
     TuneFacts facts;
     std::string path = options.port;
-    const auto status = path.empty()
-                            ? ask(options, terminal, "GetStatus", Json::object())
-                            : Result<Json, int>{quietly(options, "GetStatus").value_or(Json::object())};
-    if (!status) {
-        if (status.error() == kNoDaemon)
-            terminal.err
-                << "dpctl tune judges the port of the running dpslaved. Without one say which port: dpctl "
-                   "tune /dev/ttyS1\n";
-        return status.error();
+    report::GetStatusReply status;
+    if (path.empty()) {
+        const auto reply = ask(options, terminal, "GetStatus", Json::object());
+        if (!reply) {
+            if (reply.error() == kNoDaemon)
+                terminal.err
+                    << "dpctl tune judges the port of the running dpslaved. Without one say which port: "
+                       "dpctl tune /dev/ttyS1\n";
+            return reply.error();
+        }
+        report::take(*reply, status);
+    } else {
+        status = quietly<report::GetStatusReply>(options, "GetStatus");
     }
-    const std::string served = text(part(*status, "bus"), "port", "");
+    const std::string& served = status.bus.port;
     if (path.empty()) path = served;
     facts.machine = io::read_machine("/");
     facts.port = io::read_port("/", path);
     if (!served.empty() && same_port(path, served)) {
-        facts.bus = bus_facts(part(*status, "bus"), quietly(options, "GetInfo").value_or(Json::object()),
-                              quietly(options, "GetCounters").value_or(Json::object()));
-        facts.bus->pid = static_cast<int>(integer(*status, "pid").value_or(0));
+        facts.bus = bus_facts(status.bus, quietly<report::GetInfoReply>(options, "GetInfo"),
+                              quietly<report::GetCountersReply>(options, "GetCounters"));
+        facts.bus->pid = static_cast<int>(status.pid);
         read_threads(*facts.bus);
     }
 

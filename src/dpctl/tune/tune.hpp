@@ -8,6 +8,7 @@
 #include "machine.hpp"
 
 #include "dpslave/base/units.hpp"
+#include "dpslave/report/replies.hpp"
 
 #include <array>
 #include <cstdint>
@@ -99,7 +100,8 @@ std::vector<TuneFinding> tune_findings(const TuneFacts& facts, const std::vector
 bool is_tuned(const TuneFacts& facts);
 
 /// The replies of GetInfo and GetCounters, and `bus` of GetStatus.
-BusFacts bus_facts(const Json& bus, const Json& info, const Json& counters);
+BusFacts bus_facts(const report::Bus& bus, const report::GetInfoReply& info,
+                   const report::GetCountersReply& counters);
 
 Json tune_json(const TuneFacts& facts, const std::vector<RateJudgment>& rates,
                const std::vector<TuneFinding>& findings);
