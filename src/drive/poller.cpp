@@ -43,14 +43,14 @@ void Poller::set_zero_after(std::size_t unit, ZeroAfter after)
     units_[unit]->set_zero_after(after);
 }
 
-void Poller::ride_no_longer()
+void Poller::cancel_ride_through()
 {
-    for (const auto& unit : units_) unit->ride_no_longer();
+    for (const auto& unit : units_) unit->cancel_ride_through();
 }
 
-void Poller::ride_no_longer(std::size_t unit)
+void Poller::cancel_ride_through(std::size_t unit)
 {
-    units_[unit]->ride_no_longer();
+    units_[unit]->cancel_ride_through();
 }
 
 bool Poller::operate(const OperateOrder& order)

@@ -127,7 +127,7 @@ void Poller::Unit::leave_port()
 {
     cyclic_.outputs().leave_port();
     if (phase_ == Phase::writing) zero_outputs();
-    safe_state_.ride_no_longer();
+    safe_state_.cancel_ride_through();
 }
 
 /// Nothing is known of what is there: a drive that was lost may answer here, and the other way round.

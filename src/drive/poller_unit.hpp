@@ -27,7 +27,7 @@ public:
     bool survey(std::uint32_t number, std::uint16_t tag);
 
     void set_zero_after(ZeroAfter after) { safe_state_.set_zero_after(after); }
-    void ride_no_longer() { safe_state_.ride_no_longer(); }
+    void cancel_ride_through() { safe_state_.cancel_ride_through(); }
     void leave_port();
     void port_changed();
     void go_on_as(std::size_t index, const UnitSettings& settings);

@@ -19,7 +19,7 @@ public:
     /// Also for rides that are under way: they count from the loss, whenever that was.
     void set_zero_after(ZeroAfter after) { after_ = after; }
     /// What would be zeroed later is zeroed now; what never would is still left alone.
-    void ride_no_longer() { rides_ = false; }
+    void cancel_ride_through() { rides_ = false; }
 
     /// The layout that wrote it has ended. The moment of the loss is the next time that is told.
     void add(const Tag* row);

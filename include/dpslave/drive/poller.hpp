@@ -152,9 +152,9 @@ public:
     /// From now on, also for a ride that is under way: it counts from the loss. What is zeroed already stays.
     void set_zero_after(std::size_t unit, ZeroAfter after);
     /// The program ends: what would be zeroed later is zeroed now.
-    void ride_no_longer();
+    void cancel_ride_through();
     /// The same of one drive, which is about to leave.
-    void ride_no_longer(std::size_t unit);
+    void cancel_ride_through(std::size_t unit);
     /// False: too many wait already, or there is no such drive. A lost drive is answered for at once:
     /// no_answer. The limits of the tag table are not looked at: parse_value() has done it.
     bool operate(const OperateOrder& order);

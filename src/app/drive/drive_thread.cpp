@@ -191,7 +191,7 @@ void DriveThread::write_safe_state()
     // Usually the bus has said so; one that hangs or has failed has not.
     for (std::size_t i = 0; i < units_.size(); ++i)
         poller_.left_data_exchange(i, {.generation = units_[i].layout()});
-    poller_.ride_no_longer(); // nothing could zero the outputs later
+    poller_.cancel_ride_through(); // nothing could zero the outputs later
     while (poller_.safe_state_pending() && io::monotonic_now() < end) {
         if (const auto transaction = poller_.next(io::monotonic_now()))
             carry_out(*transaction);
@@ -213,7 +213,7 @@ void DriveThread::take_work()
     leave_until_ = io::monotonic_now() + kSafeStateLimit;
     for (std::size_t i = 0; i < units_.size(); ++i) {
         units_[i].leaves = find_unit(next_->units, units_[i].number) == next_->units.end();
-        if (units_[i].leaves) poller_.ride_no_longer(i); // nothing could zero the outputs later
+        if (units_[i].leaves) poller_.cancel_ride_through(i); // nothing could zero the outputs later
     }
     if (next_->leaves_drives) poller_.leave_port();
 }

@@ -109,7 +109,7 @@ TEST_F(PollerExchange, ComesWhenTheOneThatLeavesIsZeroedWhichTheOtherDoesNotNoti
     bench.poller.set_zero_after(1, 60s);
     bench.master_leaves(0);
     bench.master_leaves(1);
-    bench.poller.ride_no_longer(0);
+    bench.poller.cancel_ride_through(0);
     EXPECT_TRUE(bench.poller.safe_state_pending(0));
     bench.run(1s);
     EXPECT_FALSE(bench.poller.safe_state_pending(0));

@@ -217,7 +217,7 @@ TEST_F(PollerRide, TheEndOfTheProgramZeroesNow)
     bench.master_leaves(0);
     bench.run(1s);
     bench.log.clear();
-    bench.poller.ride_no_longer();
+    bench.poller.cancel_ride_through();
     EXPECT_TRUE(bench.poller.safe_state_pending());
     bench.steps(4); // two zeros, and what shows them
     EXPECT_EQ(bench.purposes(), "ssss");
@@ -227,7 +227,7 @@ TEST_F(PollerRide, TheEndOfTheProgramZeroesNow)
 
 TEST_F(PollerRide, AMasterThatIsLostAfterTheEndOfTheProgramBeganDoesNotRide)
 {
-    bench.poller.ride_no_longer();
+    bench.poller.cancel_ride_through();
     bench.master_leaves(0);
     bench.poller.set_zero_after(0, 60s); // the main thread said it meanwhile
     bench.steps(2);
@@ -298,7 +298,7 @@ TEST_F(PollerRideNever, WritingStopsAndTheOutputsStand)
 TEST_F(PollerRideNever, StaysNeverAtTheEndOfTheProgram)
 {
     bench.master_leaves(0);
-    bench.poller.ride_no_longer();
+    bench.poller.cancel_ride_through();
     EXPECT_FALSE(bench.poller.safe_state_pending());
     bench.run(10s);
     EXPECT_EQ(drive().words[10], 10);
@@ -344,7 +344,7 @@ TEST(PollerRides, AreThoseOfEachDrive)
     bench.run(1s);
     EXPECT_EQ(bench.drives[0].words[10], 0);
     EXPECT_EQ(bench.drives[1].words[10], 5);
-    bench.poller.ride_no_longer();
+    bench.poller.cancel_ride_through();
     bench.run(1s);
     EXPECT_EQ(bench.drives[1].words[10], 0);
 }
