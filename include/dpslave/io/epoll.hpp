@@ -22,7 +22,6 @@ public:
     /// `key` comes back in epoll_event::data.u64. `events`: EPOLLIN ..., level-triggered unless EPOLLET is
     /// among them.
     void add(int fd, std::uint32_t events, std::uint64_t key);
-    void modify(int fd, std::uint32_t events, std::uint64_t key);
     /// Before the descriptor is closed.
     void remove(int fd);
 

@@ -21,11 +21,6 @@ void Epoll::add(int fd, std::uint32_t events, std::uint64_t key)
     control(EPOLL_CTL_ADD, fd, events, key);
 }
 
-void Epoll::modify(int fd, std::uint32_t events, std::uint64_t key)
-{
-    control(EPOLL_CTL_MOD, fd, events, key);
-}
-
 void Epoll::remove(int fd)
 {
     control(EPOLL_CTL_DEL, fd, 0, 0);
