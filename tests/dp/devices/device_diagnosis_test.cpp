@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The extended diagnosis of the devices that have one, with the telegrams that their manuals print (B-080 to
 /// B-082, C-015 to C-017, X-15, X-17).
-#include "bench.hpp"
+#include "dp/bench.hpp"
 
 namespace test {
 namespace {

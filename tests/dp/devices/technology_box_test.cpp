@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// HA463561, "Configuring the PLC/SCADA Supervisor" (B-061 to B-073, X-14, X-33, X-44): how a master chooses
 /// the parameters of a technology box.
-#include "bench.hpp"
+#include "dp/bench.hpp"
 
 namespace test {
 namespace {

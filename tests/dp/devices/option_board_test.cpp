@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// HA389815 ch. 6, and the acceptance rows: how a master chooses the parameters of the option
 /// board.
-#include "bench.hpp"
+#include "dp/bench.hpp"
 
 namespace test {
 namespace {

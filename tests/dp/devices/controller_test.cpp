@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// 2408f/2404f handbook ch. 4 and 5 (C-018, C-022, X-28, X-33, X-47): how a master chooses the parameters of
 /// a controller.
-#include "bench.hpp"
+#include "dp/bench.hpp"
 
 namespace test {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A master that knows nothing but the GSD that `dpctl gsd make` wrote: the gateway takes exactly this.
-#include "gateway.hpp"
+#include "system/gateway.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

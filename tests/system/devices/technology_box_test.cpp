@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The technology box (6053/6055): extended diagnosis, the TEC OPTION function block, RIDE THROUGH, lamps.
-#include "gateway.hpp"
+#include "system/gateway.hpp"
 
 #include <gmock/gmock.h>
 

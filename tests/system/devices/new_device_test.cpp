@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A device type that nobody here has heard of: a profile, a tag table and a GSD in a folder of the site. No
 // line of C++ is written for it, and no program is built.
-#include "gateway.hpp"
+#include "system/gateway.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// A station that searches its rate, on a bus whose masters have one (wire reference 7; C-24).
-#include "bench.hpp"
+#include "fdl/bench.hpp"
 
 #include <numeric>
 
