@@ -63,8 +63,8 @@ void BaudSearch::on_telegram(bool to_us, Instant at)
     switch (state_) {
         case BaudState::baud_search: control(at); break;
         case BaudState::baud_control:
-            // Before a master has parameterised anybody, we are polled only now and then: everybody's traffic
-            // counts. So it does to a search.
+            // Before a master has parameterised a slave, we are polled only now and then: the traffic of all
+            // stations counts. So it does to a search.
             if (to_us || !any_owned_ || in_doubt_) control(at);
             break;
         case BaudState::dp_control:

@@ -92,7 +92,7 @@ public:
     bool owes_write(DriveNumber drive) const;
     bool is_owed(Form form) const; ///< by whichever drive, as answer or refusal
     bool empty() const { return owed_.empty(); }
-    /// Nobody can owe anything: the port was opened just now.
+    /// No answer is owed: the port was opened just now.
     void clear();
 
     void damaged(DriveNumber drive) { ++counts_[drive].damaged; }

@@ -85,7 +85,7 @@ Tag unlisted_tag(std::uint16_t number);
 Tag unlisted_tag(std::uint16_t number, std::uint8_t decimals);
 
 /// False: an answer of the drive that is a number has no scale by this row - in no table, without decimals,
-/// or not confirmed. Of a protocol that transports 16 bits (Modbus) nobody needs to ask.
+/// or not confirmed. Of a protocol that transports 16 bits (Modbus) it is not asked.
 bool has_scale(const Tag& tag) noexcept;
 
 /// Displayed form of the 16 bits: "-327.68", ">1A2B", "1 (Running)" where a label is known, ">0101 (ready,

@@ -26,8 +26,8 @@ public:
     static constexpr std::size_t kTold = 4;
     using List = std::array<UnansweredAddress, kTold>;
 
-    /// A valid telegram, of anybody. FDL_Status does not count: masters ask every free address for it; nor
-    /// does what needs no answer. An SC is the answer of whoever was asked right before.
+    /// A valid telegram, from any station. FDL_Status does not count: masters ask every free address for it;
+    /// nor does what needs no answer. An SC answers the request right before it.
     void on_telegram(const Telegram& telegram, Instant at);
     /// Those that did not answer, the most asked first.
     List unanswered() const;

@@ -44,8 +44,8 @@ public:
 
     /// `good` characters came without and `bad` ones with a parity or framing error.
     void on_characters(std::size_t good, std::size_t bad, Instant at);
-    /// An error-free SD1, SD2 or SD3 of anybody; `to_us`: its DA is one of our addresses. Never SD4 or SC:
-    /// those have no checksum.
+    /// An error-free SD1, SD2 or SD3 from any station; `to_us`: its DA is one of our addresses. Never SD4 or
+    /// SC: those have no checksum.
     void on_telegram(bool to_us, Instant at);
     /// What the masters made of our slaves: whether any is parameterised, and any with its watchdog on.
     void on_supervision(bool any_owned, bool any_supervised, Instant at);

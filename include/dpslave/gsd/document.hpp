@@ -65,8 +65,8 @@ struct Document {
     /// User_Prm_Data as a tool sends it: of User_Prm_Data_Len octets, or the new style's constants put in
     /// their places.
     std::vector<std::uint8_t> user_prm_data() const;
-    /// The modules that are plugged without anybody's doing: those of a compact station, the preset ones of a
-    /// modular one.
+    /// The modules that are plugged without an order of the user: those of a compact station, the preset ones
+    /// of a modular one.
     std::vector<const Module*> plugged() const;
 };
 

@@ -13,7 +13,7 @@ struct Terminal {
     std::ostream& out;
     std::ostream& err;
     bool tty = false;       ///< out is a terminal: --follow redraws
-    bool colour = false;    ///< out understands colours and nobody forbade them
+    bool colour = false;    ///< out understands colours and no option or variable forbids them
     std::size_t width = 80; ///< characters of a line
 
     Look look() const { return {colour, width}; }

@@ -217,7 +217,7 @@ constexpr std::array kRules = std::to_array<Rule>({
      "If another device has that address: switch it on or connect it. Then add this station to the master's "
      "project.",
      kGateway, seen_other_address},
-    {"bus.driver", Rank::recent, "the driver enable cannot be switched, or is not let go in time",
+    {"bus.driver", Rank::recent, "the driver enable cannot be switched, or is released too late",
      "The transceiver is not switched as configured", kDriverSteps, kGateway, seen_driver},
     {"bus.port", Rank::recent, "the port does not take replies", "The port of the bus fails",
      "Look what the system answered: journalctl -u dpslaved. Check [bus] port.", kGateway, seen_port},

@@ -40,7 +40,7 @@ struct MachineFacts {
     std::vector<std::string> governors; ///< each once; empty = the frequency does not change
     std::string deepest_idle;           ///< name of the enabled idle state that takes longest to leave
     std::optional<int> idle_exit_us;    ///< and how long that takes; nothing = no idle states
-    /// The limit that somebody holds on the exit latency (PM QoS, /dev/cpu_dma_latency); nothing = nobody
+    /// The limit on the exit latency that a process holds (PM QoS, /dev/cpu_dma_latency); nothing = none
     /// does, or not readable (root only).
     std::optional<int> latency_limit_us;
     bool virtual_machine = false;

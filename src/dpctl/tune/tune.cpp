@@ -64,7 +64,7 @@ void read_threads(BusFacts& bus)
         if (thread.name == "bus") bus.thread = thread;
 }
 
-/// Asks nobody twice: a daemon that is not there, or does not answer, is none.
+/// Asks the daemon once: one that is not there, or does not answer, is none.
 template <class Reply>
 Reply quietly(const Options& options, std::string_view method)
 {
