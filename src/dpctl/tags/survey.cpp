@@ -34,8 +34,7 @@ Scope read_scope(const report::GetSurveyScopeReply& reply)
 {
     Scope scope{reply.station, reply.protocol, reply.tag_table, {}};
     for (const report::TagSpan& span : reply.tags)
-        scope.tags.push_back(
-            {static_cast<std::uint16_t>(span.first), static_cast<std::uint16_t>(span.last)});
+        scope.tags.push_back({static_cast<std::uint16_t>(span.first), static_cast<std::uint16_t>(span.last)});
     return scope;
 }
 
