@@ -106,6 +106,7 @@ TEST_F(Box, SaysThatTripsAreNotKnownWhereNoTagTellsThem)
 {
     bench.station.tec->trip = {};
     EXPECT_THAT(*looked().trip(), StartsWith("not known"));
+    EXPECT_EQ(device->trip_tag(), std::nullopt);
     EXPECT_EQ(device->tripped(), std::nullopt);
     EXPECT_THAT(block(), ElementsAre(0x04, 0x00, 0x00, 0x00));
 }

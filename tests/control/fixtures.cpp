@@ -27,7 +27,7 @@ const char* const kStations = R"([
 
 const char* const kWords = R"([
   {"tag":7,"name":"SPEED FEEDBACK","direction":"in","octet":8,"raw":5000,"value":"50.00","state":"good","answer":null,"age_ms":12.0},
-  {"tag":56,"name":null,"direction":"out","octet":8,"raw":64286,"value":"-12.50","state":"read only","answer":null,"age_ms":null}])";
+  {"tag":56,"name":null,"direction":"out","octet":8,"raw":64286,"value":"-12.50","state":"read_only","answer":null,"age_ms":null}])";
 
 const char* const kInfo = R"({"stations":[
   {"name":"unwinder","profile":"590","device":"590 with PROFIBUS-DP option board","order_code":"590 option digit 2",
@@ -61,7 +61,7 @@ const char* const kTec = R"({"stations":[{"name":"booster","view":"profibus","ro
   {"name":"RIDE THROUGH","generic_name":"INPUT 4","input":true,"value":10,"shown":"10 s","range":"-1 to 60 s"},
   {"name":"FAULT","generic_name":"FAULT","input":false,"value":0,"shown":"NONE","range":""},
   {"name":"NETWORK STATE","generic_name":"OUTPUT 1","input":false,"value":0,"shown":"DATA EXCHANGE","range":""}],
-  "trip":"1: LINK OVERVOLTS","tripped":true,"notes":["WARNING: Setting the RIDE THROUGH parameter to anything other than zero could compromise safety."]}]})";
+  "trip":"1: LINK OVERVOLTS","trip_tag":4,"tripped":true,"notes":["WARNING: Setting the RIDE THROUGH parameter to anything other than zero could compromise safety."]}]})";
 
 const char* const kCounters = R"({"groups":[{"name":"bus","counters":[
   {"name":"telegrams","value":123456,"meaning":"valid telegrams heard","minute":3000,"last_age_ms":500.0,"since_age_ms":3600000.0},

@@ -583,9 +583,9 @@ TEST_P(DoctorTag, IsNamedByTheStateOfItsWordOrByTheCodeOfTheRefusal)
 
 INSTANTIATE_TEST_SUITE_P(
     States, DoctorTag,
-    testing::Values(RefusedTag{"ReadOnlyAsAnOutput", "read only", "read_only", "station.read_only"},
-                    RefusedTag{"OutOfRange", "out of range", "out_of_range", "station.range"},
-                    RefusedTag{"Unknown", "invalid tag", "invalid_tag", "station.tags"},
+    testing::Values(RefusedTag{"ReadOnlyAsAnOutput", "read_only", "read_only", "station.read_only"},
+                    RefusedTag{"OutOfRange", "out_of_range", "out_of_range", "station.range"},
+                    RefusedTag{"Unknown", "invalid_tag", "invalid_tag", "station.tags"},
                     RefusedTag{"OnlyStopped", "", "not_stopped", "station.not_now"},
                     RefusedTag{"OnlyInConfiguration", "", "not_config_mode", "station.not_now"},
                     RefusedTag{"Refused", "refused", "unsupported_type", "station.refused"}),
@@ -593,7 +593,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_F(Doctor, ADriveThatKnowsNoneOfTheTagsIsAnotherOne)
 {
-    word_is(0, "invalid tag");
+    word_is(0, "invalid_tag");
     EXPECT_THAT(found(), ElementsAre("station.tags")) << "one tag alone may be a wrong number";
 
     drive_refuses(75, "invalid_tag", "tag 75: exception 2 (illegal data address)");
@@ -760,8 +760,8 @@ TEST_F(Doctor, NamesThreeCausesForAStationAtMost)
 {
     drive_was_never_heard();
     station().clear = true;
-    word_is(1, "read only");
-    word_is(0, "invalid tag");
+    word_is(1, "read_only");
+    word_is(0, "invalid_tag");
     count_of_station("left_data_exchange", 9);
 
     EXPECT_THAT(found(), ElementsAre("drive.never", "station.clear", "station.read_only"));
@@ -798,7 +798,9 @@ TEST_F(Doctor, SaysThatAStationHasNoTagTable)
 TEST_F(Doctor, SaysThatTripsAreNotKnown)
 {
     is_technology_box(0, "NONE", 0);
-    replies.tec.stations[0].trip = "not known: no tag has it";
+    EXPECT_THAT(found(true), Not(testing::Contains("station.no_trip")));
+
+    replies.tec.stations[0].trip_tag = std::nullopt;
     EXPECT_THAT(found(true), testing::Contains("station.no_trip"));
 }
 

@@ -104,7 +104,7 @@ TEST(Drive, ThatRefusesAnOutputIsShownWithItsReasonUntilItTakesTheValue)
     ASSERT_TRUE(master.does("start 30s"));
     EXPECT_TRUE(master.does("out 1 = 2001")); // the drive's limit is 200.0
     EXPECT_TRUE(gateway.drive().says("refused, EE"));
-    EXPECT_TRUE(eventually([&] { return gateway.word(62).at("state") == "out of range"; }));
+    EXPECT_TRUE(eventually([&] { return gateway.word(62).at("state") == "out_of_range"; }));
     EXPECT_THAT(gateway.dpctl({"diag"}).out, HasSubstr("tag 62: "));
     EXPECT_EQ(gateway.station().at("drive").at("link"), "answers");
     EXPECT_TRUE(master.does("out 1 = 2000"));

@@ -75,7 +75,7 @@ TEST_F(Pymodbus, HasATagMissingInTheMiddleAndTheOthersGoOn)
     EXPECT_TRUE(master.does("wait 30s for in 5 = 216"));
     EXPECT_TRUE(master.does("wait 30s for in 1 = 183"));
     EXPECT_TRUE(master.does("expect in 3 = 0")) << "exception 2";
-    EXPECT_TRUE(gateway->word_becomes(3, "state", "invalid tag"));
+    EXPECT_TRUE(gateway->word_becomes(3, "state", "invalid_tag"));
     EXPECT_EQ(gateway->word(4).at("state"), "good");
     instrument->tell("set 5 300");
     EXPECT_TRUE(master.does("wait 30s for in 5 = 300"));

@@ -98,9 +98,10 @@ struct Tec {
     std::string name{}, view{};
     std::vector<TecRow> rows{};
     std::optional<std::string> trip{};
+    std::optional<std::int64_t> trip_tag{};
     std::optional<bool> tripped{};
     std::vector<std::string> notes{};
-    DPSLAVE_FIELDS(name, view, rows, trip, tripped, notes)
+    DPSLAVE_FIELDS(name, view, rows, trip, trip_tag, tripped, notes)
 };
 struct Word {
     std::int64_t tag = 0;

@@ -239,6 +239,12 @@ std::optional<std::string> DeviceState::trip() const
     return one->is_current ? words : fmt::format("{} (tag {} can no longer be read)", words, tag);
 }
 
+std::optional<std::int64_t> DeviceState::trip_tag() const
+{
+    if (!config_->tec || config_->tec->trip.bit.tag == 0) return std::nullopt;
+    return config_->tec->trip.bit.tag;
+}
+
 std::optional<bool> DeviceState::tripped() const
 {
     return seen_trip() != nullptr ? std::optional{trip_octet() != 0} : std::nullopt;

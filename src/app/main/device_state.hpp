@@ -53,6 +53,8 @@ public:
     /// "0: NO TRIP", "5: EXTERNAL TRIP", "unknown: ..."; while it cannot be read the last one, and why it may
     /// be old; "not known: ..." where no tag has it. Nothing: the device has no function block.
     std::optional<std::string> trip() const;
+    /// The tag that the trip is read from; nothing: none is configured.
+    std::optional<std::int64_t> trip_tag() const;
     /// Nothing: not known, or no tag has it.
     std::optional<bool> tripped() const;
     /// Why the station is kept silent on the bus, and what to do; empty: it is not.

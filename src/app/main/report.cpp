@@ -38,9 +38,9 @@ std::string_view text(WordState state)
         case WordState::untried: return "untried";
         case WordState::good: return "good";
         case WordState::stale: return "stale";
-        case WordState::invalid_tag: return "invalid tag";
-        case WordState::read_only: return "read only";
-        case WordState::out_of_range: return "out of range";
+        case WordState::invalid_tag: return "invalid_tag";
+        case WordState::read_only: return "read_only";
+        case WordState::out_of_range: return "out_of_range";
         case WordState::refused: return "refused";
         case WordState::unscaled: return "unscaled";
     }

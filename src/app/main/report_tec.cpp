@@ -18,6 +18,7 @@ report::Tec tec_report(const std::string& station, const DeviceState& device)
         told.rows.push_back({std::string{row.name}, std::string{row.generic_name}, row.is_input,
                              integer(row.value), row.shown, std::string{row.range}});
     told.trip = device.trip();
+    told.trip_tag = device.trip_tag();
     told.tripped = device.tripped();
     told.notes = device.notes();
     return told;

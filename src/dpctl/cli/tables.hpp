@@ -17,6 +17,8 @@ std::string bus_line(const report::Bus& bus);
 std::string state_text(const report::Station& station);
 /// "answers", "silent", "port gone".
 std::string link_text(const report::Drive& drive);
+/// "read only" of "read_only".
+std::string state_text(const report::Word& word);
 /// Of a station that is in RIDE THROUGH: for how long its outputs stand.
 std::string ride_text(const report::Ride& ride);
 /// What a station emulates, from the reply of GetInfo.

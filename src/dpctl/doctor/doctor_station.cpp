@@ -109,11 +109,11 @@ std::string either(const std::string& words, const std::string& reasons)
 
 std::string seen_read_only(const Facts& f)
 {
-    return exchanges(f) ? either(words_that_are(f, "out", "read only"), said(f, "read_only")) : "";
+    return exchanges(f) ? either(words_that_are(f, "out", "read_only"), said(f, "read_only")) : "";
 }
 std::string seen_range(const Facts& f)
 {
-    return exchanges(f) ? either(words_that_are(f, "out", "out of range"), said(f, "out_of_range")) : "";
+    return exchanges(f) ? either(words_that_are(f, "out", "out_of_range"), said(f, "out_of_range")) : "";
 }
 /// Two tags or more are denied, and not one that can be read is known.
 bool is_other_device(const Facts& f)
@@ -122,7 +122,7 @@ bool is_other_device(const Facts& f)
     for (const report::Word& word : f.io.words) {
         if (word.direction != "in") continue;
         ++inputs;
-        denied += word.state == "invalid tag";
+        denied += word.state == "invalid_tag";
     }
     if (inputs == 0 || denied < inputs) return false;
     for (const report::RefusedTag& one : f.diagnosis.refused) denied += one.code == "invalid_tag";
@@ -131,12 +131,12 @@ bool is_other_device(const Facts& f)
 std::string seen_other_device(const Facts& f)
 {
     if (!exchanges(f) || !is_other_device(f)) return {};
-    return either(words_that_are(f, "", "invalid tag"), said(f, "invalid_tag"));
+    return either(words_that_are(f, "", "invalid_tag"), said(f, "invalid_tag"));
 }
 std::string seen_invalid(const Facts& f)
 {
     return exchanges(f) && !is_other_device(f)
-               ? either(words_that_are(f, "", "invalid tag"), said(f, "invalid_tag"))
+               ? either(words_that_are(f, "", "invalid_tag"), said(f, "invalid_tag"))
                : "";
 }
 std::string seen_not_now(const Facts& f)
@@ -218,7 +218,7 @@ std::string seen_no_table(const Facts& f)
 }
 std::string seen_no_trip(const Facts& f)
 {
-    return f.tec.trip.value_or("").starts_with("not known") ? "trip: " + *f.tec.trip : std::string{};
+    return !f.tec.name.empty() && !f.tec.trip_tag ? "trip: " + f.tec.trip.value_or("?") : std::string{};
 }
 std::string seen_pending(const Facts& f)
 {

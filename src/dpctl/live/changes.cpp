@@ -57,7 +57,7 @@ std::string word_change(const report::Word* before, const report::Word& now)
     if (before != nullptr && same({*before}, now, &Word::value, &Word::raw, &Word::state) != nullptr)
         return {};
     return fmt::format("{} tag {}{} = {} ({})", now.direction, now.tag, now.name ? " " + *now.name : "",
-                       now.value, now.state);
+                       now.value, state_text(now));
 }
 
 void add(std::vector<std::string>& lines, const std::string& what, const std::string& line)

@@ -55,7 +55,7 @@ Table word_table(const std::vector<report::Word>& words)
     Table table({"DIR", ">OCTET", ">WORD", ">TAG", "NAME", ">VALUE", ">RAW", "STATE", ">AGE"});
     const std::int64_t first = first_octet(words);
     for (const report::Word& w : words) {
-        const std::string& state = w.state;
+        const std::string state = state_text(w);
         const Tone tone = state == "good" ? Tone::good : state == "untried" ? Tone::plain : Tone::bad;
         table.add({w.direction, number(w.octet), word_number(w, first), number(w.tag), w.name.value_or(""),
                    w.value, fmt::format("{0} ({0:04X}h)", w.raw),
@@ -79,6 +79,13 @@ std::string table_text(const std::vector<report::Word>& words, Look look)
 }
 
 } // namespace
+
+std::string state_text(const report::Word& word)
+{
+    std::string state = word.state;
+    std::replace(state.begin(), state.end(), '_', ' ');
+    return state;
+}
 
 std::string render_io(const Json& json, Look look)
 {

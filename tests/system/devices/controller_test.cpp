@@ -307,7 +307,7 @@ TEST(FrontPanel, IsNotAskedForTheInstrumentMode)
     Master master{gateway, for_controller({"--tags", "1,199w"})};
     ASSERT_TRUE(master.does("start 30s"));
     EXPECT_TRUE(master.does("out 1 = 2"));
-    EXPECT_TRUE(gateway.word_becomes(199, "state", "read only"));
+    EXPECT_TRUE(gateway.word_becomes(199, "state", "read_only"));
     EXPECT_TRUE(master.does("demand write 199 2"));
     EXPECT_TRUE(master.does("expect demand reject 1"));
     EXPECT_EQ(gateway.dpctl({"write", "199", "2"}).status, 1);
