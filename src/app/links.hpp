@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// All that crosses between the threads: one struct per pair of neighbours, made of Mailbox and Ring only.
-/// Each member names its one writer and its one reader (docs/internals/architecture.md, "Three kinds of
-/// threads").
+/// All that crosses between the threads: one struct per pair of neighbours, made of Mailbox, Ring, Handover
+/// and atomics. Each member names its one writer and its one reader (docs/internals/architecture.md, "Three
+/// kinds of threads").
 #pragma once
 
 #include "app/drive/line_probe.hpp"
