@@ -65,6 +65,12 @@ TEST(ShippedFiles, AreAllThoseOfProfilesWithAKnownIdentAndNoneBeside)
     EXPECT_EQ(found, wanted);
 }
 
+TEST(ProfilesOfTheseTests, AreAllThatAreShipped)
+{
+    EXPECT_THAT(io::names_in(kSource / "config/profiles", ".toml"),
+                testing::UnorderedElementsAreArray(test::kProfiles));
+}
+
 TEST(ShippedTypeFiles, AreWhatTheCommandMakes)
 {
     for (const gsd::TypeFile& file : gsd::type_files(gsd::TypeName::printed))
