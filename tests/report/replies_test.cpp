@@ -62,11 +62,9 @@ WrittenFields fields_of()
 {
     WrittenFields fields;
     std::string_view names = T::kFields;
-    std::apply(
-        [&](const auto&... each) {
-            (fields.emplace_back(take_name(names), Written<std::decay_t<decltype(each)>>::text()), ...);
-        },
-        T{}.fields());
+    T{}.with_fields([&](const auto&... each) {
+        (fields.emplace_back(take_name(names), Written<std::decay_t<decltype(each)>>::text()), ...);
+    });
     return fields;
 }
 

@@ -10,19 +10,18 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <vector>
 
 /// Stands in a struct: its fields in the order of the interface. They are at the same time the keys.
 #define DPSLAVE_FIELDS(...)                                                                                  \
     static constexpr std::string_view kFields = #__VA_ARGS__;                                                \
-    auto fields()                                                                                            \
+    auto with_fields(auto&& use)                                                                             \
     {                                                                                                        \
-        return std::tie(__VA_ARGS__);                                                                        \
+        return use(__VA_ARGS__);                                                                             \
     }                                                                                                        \
-    auto fields() const                                                                                      \
+    auto with_fields(auto&& use) const                                                                       \
     {                                                                                                        \
-        return std::tie(__VA_ARGS__);                                                                        \
+        return use(__VA_ARGS__);                                                                             \
     }
 
 namespace dpslave::report {
@@ -38,7 +37,9 @@ concept HasFields = requires
 template <HasFields T>
 bool operator==(const T& one, const T& other)
 {
-    return one.fields() == other.fields();
+    return one.with_fields([&](const auto&... mine) {
+        return other.with_fields([&](const auto&... its) { return ((mine == its) && ...); });
+    });
 }
 
 /// The first of "name, sink, lit", which `names` then is without.
@@ -75,7 +76,7 @@ void take(const Json& json, T& value)
         const auto found = json.find(take_name(names));
         take(found != json.end() ? *found : kNothing, field);
     };
-    std::apply([&](auto&... each) { (take_field(each), ...); }, value.fields());
+    value.with_fields([&](auto&... each) { (take_field(each), ...); });
 }
 
 template <class T>
@@ -105,7 +106,7 @@ Json json_of(const T& value)
 {
     Json json = Json::object();
     std::string_view names = T::kFields;
-    std::apply([&](const auto&... each) { ((json[take_name(names)] = json_of(each)), ...); }, value.fields());
+    value.with_fields([&](const auto&... each) { ((json[take_name(names)] = json_of(each)), ...); });
     return json;
 }
 
