@@ -4,7 +4,7 @@
 ///
 /// Rows of 6.4 that are not here: F1 and F2 (FDL status, retries) are layer 2's; S1 and S2 need
 /// Set_Slave_Add, which no personality has, so S3 is the row; W2 (a silent master, watchdog off) is the
-/// absence of any trigger; A3 (the application lost a module) is told by diagnosis, that is by A1; M1 needs
+/// absence of any trigger; A3 (the application lost a module) is reported by diagnosis: by A1; M1 needs
 /// DP-V1.
 #pragma once
 

@@ -38,7 +38,7 @@ bool is_number(std::string_view text)
     return points <= 1 && digits > 0 && static_cast<std::size_t>(points + digits) == text.size();
 }
 
-/// Whoever tells it names the tag.
+/// The caller names the tag.
 std::string answers(std::string_view text)
 {
     return "it answers '" + std::string{text} + "'";

@@ -220,7 +220,7 @@ void OutputPlan::unreadable(const Tag* row)
 {
     Turn* const turn = find_asked(row);
     if (turn == nullptr) return;
-    turn->writing().on(KnowledgeEvent::not_given); // what is not proven: only a single write tells
+    turn->writing().on(KnowledgeEvent::not_given); // not proven: only a single write proves it
     turn->writing().readable = false;
 }
 

@@ -68,7 +68,7 @@ bool Reading::is_excluded() const
            state == WordState::read_only || state == WordState::unscaled;
 }
 
-/// An exclusion stands, but not that of a number whose scale the table tells by now.
+/// An exclusion stands, but not that of a number whose scale the table has by now.
 void Reading::drive_lost()
 {
     tried = true; // with this result: there is no answer

@@ -67,7 +67,7 @@ bool Poller::survey(std::size_t unit, std::uint32_t number, std::uint16_t tag)
 /// rounds of the living drives at most one transaction that can time out, whatever its reason.
 std::optional<Transaction> Poller::next(Instant now)
 {
-    for (const auto& unit : units_) unit->tell_time(now);
+    for (const auto& unit : units_) unit->set_now(now);
     if (doing_) return std::nullopt;
     doing_ = next_survey(now);
     if (!doing_) doing_ = next_of(now);

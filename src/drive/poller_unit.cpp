@@ -163,9 +163,9 @@ void Poller::Unit::go_on_as(std::size_t index, const UnitSettings& settings)
 
 // ---- what next
 
-void Poller::Unit::tell_time(Instant now)
+void Poller::Unit::set_now(Instant now)
 {
-    safe_state_.tell_time(now);
+    safe_state_.set_now(now);
     snapshot_.ride_ends = safe_state_.ride_ends();
 }
 
@@ -258,7 +258,7 @@ void Poller::Unit::begin_round(Instant now)
 /// Of a lost drive only what is not asked of it: its probe is the line's business.
 Instant Poller::Unit::next_deadline() const
 {
-    if (link_.is_lost()) return safe_state_.untold() ? kAtOnce : kNever;
+    if (link_.is_lost()) return safe_state_.needs_now() ? kAtOnce : kNever;
     const bool at_once = !link_.is_certain() || demand_.front() != nullptr || operates_.front() != nullptr;
     const Instant next =
         at_once ? kAtOnce

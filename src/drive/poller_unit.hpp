@@ -32,7 +32,7 @@ public:
     void port_changed();
     void go_on_as(std::size_t index, const UnitSettings& settings);
 
-    void tell_time(Instant now);                  ///< before next(), of this drive or another
+    void set_now(Instant now);                    ///< before next(), of this drive or another
     std::optional<Transaction> next(Instant now); ///< precondition: not lost
     Transaction probe() const;
     std::optional<Transaction> next_survey(Instant now) const;
@@ -87,7 +87,7 @@ private:
     std::size_t index_;
     UnitTags tags_;
 
-    OutputImage image_;    ///< as told last
+    OutputImage image_;    ///< of the last set_outputs()
     Generation ended_ = 0; ///< the newest that has ended
     Phase phase_ = Phase::before_data_exchange;
     CyclicWork cyclic_;

@@ -28,8 +28,8 @@ void SafeState::remove(const Tag* row)
         zeros_.end());
 }
 
-/// Only the newest can be without their time: it is told before every decision.
-void SafeState::tell_time(Instant now)
+/// Only the newest can be without their time: it is set before every decision.
+void SafeState::set_now(Instant now)
 {
     for (auto zero = zeros_.rbegin(); zero != zeros_.rend() && !zero->lost_at; ++zero) zero->lost_at = now;
 }
@@ -94,14 +94,14 @@ void SafeState::drive_returned()
     }
 }
 
-bool SafeState::untold() const
+bool SafeState::needs_now() const
 {
     return !zeros_.empty() && !zeros_.back().lost_at;
 }
 
 Instant SafeState::next_due() const
 {
-    Instant at = untold() ? kAtOnce : kNever;
+    Instant at = needs_now() ? kAtOnce : kNever;
     for (const Zero& zero : zeros_) at = std::min(at, due_at(zero));
     return at;
 }

@@ -21,7 +21,7 @@ public:
     /// What would be zeroed later is zeroed now; what never would is still left alone.
     void cancel_ride_through() { rides_ = false; }
 
-    /// The layout that wrote it has ended. The moment of the loss is the next time that is told.
+    /// The layout that wrote it has ended. The next set_now() gives the moment of the loss.
     void add(const Tag* row);
     /// It was zeroed, or the drive refused that, or the present layout writes it.
     void remove(const Tag* row);
@@ -29,7 +29,7 @@ public:
     /// True: something else goes before the next zero.
     bool done(const Transaction& transaction, const Outcome& outcome, bool proven_by_reading, int retries,
               Instant now);
-    void tell_time(Instant now);
+    void set_now(Instant now); ///< before every decision
     /// Each of them is now the row that `row_of` makes of it.
     template <class RowOf>
     void exchange(RowOf row_of)
@@ -46,7 +46,7 @@ public:
     const Tag* next(Instant now) const;       ///< the tag to be zeroed now; nullptr = none
     const Tag* next_proof(Instant now) const; ///< the tag to be read back now; nullptr = none
     void drive_returned();                    ///< what was postponed is tried at once
-    bool untold() const;                      ///< the time is to be told, whatever comes next
+    bool needs_now() const;                   ///< set_now() is due, whatever comes next
     Instant next_due() const;
     /// When the last ride through the loss of the master is over; kNever = never. Nothing: none rides, or
     /// all are zeroed at once.
@@ -56,7 +56,7 @@ public:
 private:
     struct Zero {
         const Tag* row = nullptr;
-        std::optional<Instant> lost_at; ///< none: not told yet
+        std::optional<Instant> lost_at; ///< none: until the next set_now()
         Instant not_before = kAtOnce;
         Knowledge knowledge = Knowledge::unknown; ///< of the 0
         void on(KnowledgeEvent event) { knowledge = known_after(event, knowledge); }

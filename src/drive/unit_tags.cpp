@@ -13,7 +13,7 @@ std::span<const Parameter> parameters_of(const Layout& layout)
     return std::span{layout.parameters}.first(std::min<std::size_t>(layout.count, kMaxParameters));
 }
 
-/// Only the row of the table tells (EI-ASCII reference, section 4).
+/// Only the row of the table has the reason (EI-ASCII reference, section 4).
 AccessError with_reason(const Transaction& transaction, AccessError error)
 {
     if (!is_write(transaction) || transaction.words.size() != 1) return error;

@@ -17,7 +17,7 @@ constexpr Tbit kFifo{64 * kCharacter.count};
 /// least.
 constexpr Tbit kPause = kTsyn + Tbit{4 * kCharacter.count};
 
-/// When an unfinished telegram is given up although nothing came behind it that tells its end.
+/// When an unfinished telegram is given up although nothing came behind it that shows its end.
 Instant given_up_at(Instant read_at, Baud baud)
 {
     return read_at + silence_limit(baud) + duration_of(kFifo, baud);
@@ -184,7 +184,7 @@ void Receiver::refill()
 Result<Telegram, Flaw> Receiver::telegram_at(std::size_t at, std::size_t length, bool is_cut) const
 {
     if (spoilt_ > at) return Failure{Flaw::character};
-    // A token has no checksum to tell that the last octet of a request and the first of the next are none.
+    // A token has no checksum: the last octet of a request and the first of the next could look like one.
     if (is_cut && rx_[at] == kSD4) return Failure{Flaw::unfinished};
     return decode(Bytes{rx_}.subspan(at, length));
 }
@@ -205,7 +205,7 @@ bool Receiver::hunt_behind_stump()
     hunt_at_ = kNever;
     for (std::size_t at = boundary_within(0, used_); at < used_; at = boundary_within(at, used_)) {
         if (spoilt_ > at || !are_telegrams(Bytes{rx_}.first(used_).subspan(at))) continue;
-        tell_unfinished();
+        report_unfinished();
         forget(at);
         more_follows_ = false;
         reading_ = true;
@@ -223,12 +223,12 @@ void Receiver::await_rest()
 
 void Receiver::give_up()
 {
-    tell_unfinished();
+    report_unfinished();
     forget_all();
 }
 
 /// The line has fallen silent behind the stump that rx_ begins with.
-void Receiver::tell_unfinished()
+void Receiver::report_unfinished()
 {
     if (!std::exchange(damaged_, false) && counted_ == 0) pending_flaw_ = Flaw::unfinished;
 }

@@ -13,7 +13,7 @@ namespace {
 /// Of one module by itself: count, form, and what it has against the limits of the device.
 void check_identifiers(Judge& judge, const Module& module)
 {
-    if (module.identifiers.empty()) return; // the parser has told why
+    if (module.identifiers.empty()) return; // the parser has reported why
     if (module.identifiers.size() > kMaxModuleOctets)
         judge.say(module.line, kLivesInTheField,
                   "the module " + in_quotes(module.name) + " has " +

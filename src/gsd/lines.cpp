@@ -165,10 +165,10 @@ private:
         }
     }
 
-    void once(bool& told, Weight weight, std::string_view what)
+    void once(bool& seen, Weight weight, std::string_view what)
     {
-        if (!told) remark(number_, weight, std::string{what});
-        told = true;
+        if (!seen) remark(number_, weight, std::string{what});
+        seen = true;
     }
     /// Once a line: each of them is a text that is lost.
     void once(unsigned& seen_at, std::string_view what)

@@ -15,7 +15,7 @@ namespace {
 constexpr std::string_view kNewTable =
     "tag,name,type,decimals,min,max,access,mnemonic,values,section,notes,confirmed,seen_min,seen_max";
 
-/// A table as text that can be told row by row: what is not touched stays as it was written.
+/// A table as text, row by row: what is not changed stays as it was written.
 class TableText {
 public:
     TableText(std::string_view table, const std::string& file, toml::Faults& faults)

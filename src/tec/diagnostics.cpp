@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the function block tells of bus and drive: NETWORK STATE and INT DIAGNOSTIC.
+/// What the function block reports of bus and drive: NETWORK STATE and INT DIAGNOSTIC.
 #include "dpslave/tec/option_block.hpp"
 
 #include <algorithm>

@@ -44,7 +44,7 @@ constexpr std::string_view trip_name(std::uint8_t code)
 
 std::array<std::uint8_t, 4> ext_diag(TripForm form, std::uint16_t trip_word, std::uint16_t ext_diagnostic)
 {
-    // The low octet alone counts. A code in it that five bits do not hold is told as a trip of unknown reason
+    // The low octet alone counts. A code in it that five bits do not hold is a trip of unknown reason
     // on every box: cut off to five bits it could say "no trip".
     std::uint8_t trip = std::min(low(trip_word), kTripped);
     if (form == TripForm::tripped) trip = trip_word == 0 ? std::uint8_t{0} : kTripped;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// How a counter that only grows has grown lately: how much within the last minute, when last, and since when
-/// it grows without a quiet minute. Told the total now and then; pure.
+/// it grows without a quiet minute. It is given the total now and then; pure.
 #pragma once
 
 #include "dpslave/base/units.hpp"

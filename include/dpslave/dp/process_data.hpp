@@ -31,7 +31,7 @@ public:
 
     /// A layout of its own generation begins at `at`: outputs 0, Stat_Diag if there is something to wait for.
     void begin(const Configuration& configuration, Instant at);
-    /// The layout ended: the outputs go to their safe state, and the drive side is told.
+    /// The layout ended: the outputs go to their safe state, reported to the drive side.
     void end();
     /// Of the present layout; generation 0: there is none.
     const Configuration& configuration() const { return config_; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A DP slave: SAPs 55 to 62 and Data_Exchange over one process image. Pure: it is told the time, the inputs
-/// and the answers, and gives replies, outputs, orders and events as values. Source: wire reference 4 to 7.
+/// A DP slave: SAPs 55 to 62 and Data_Exchange over one process image. Pure: the time, the inputs and
+/// the answers come in; replies, outputs, orders and events go out as values. Source: wire reference 4 to 7.
 #pragma once
 
 #include "dpslave/base/process_image.hpp"

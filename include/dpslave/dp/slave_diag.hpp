@@ -44,7 +44,7 @@ public:
 
     /// What became of the blocks.
     struct Outcome {
-        bool changed = false; ///< what a master would read is another now: the owner must be told
+        bool changed = false; ///< what a master would read is another now: to be reported to the owner
         bool well_formed =
             false; ///< false: a header promised what was not there; from there on nothing was taken
     };

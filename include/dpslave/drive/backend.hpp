@@ -45,7 +45,7 @@ public:
     virtual AccessError read(UnitAddress unit, const Tag& tag, std::span<std::uint16_t> words) = 0;
 
     /// Writes `words` to the tags from `tag` on; one word unless block_rule() allows more. A block is
-    /// accepted as a whole or refused as a whole as far as its answer tells; the drive may have dropped words
+    /// accepted as a whole or refused as a whole as far as its answer says; the drive may have dropped words
     /// in silence.
     virtual AccessError write(UnitAddress unit, const Tag& tag, std::span<const std::uint16_t> words) = 0;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What both protocols have to know of a drive line to tell which answer belongs to which question.
+/// What both protocols have to know of a drive line to assign each answer to its request.
 #pragma once
 
 #include <chrono>
@@ -11,7 +11,7 @@ namespace dpslave::drive {
 enum class EchoMode : std::uint8_t {
     off,
     on,        ///< the first copy of each request is its echo
-    automatic, ///< the first reads tell; until then nothing is asked whose answer looks like its request
+    automatic, ///< the first reads decide; until then nothing is asked whose answer looks like its request
 };
 
 struct LineRules {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Which answer belongs to which question: the one judgement of both protocols. A question whose answer has
 /// not come is owed by its drive, and an answer is taken only where it can belong to no other one.
-/// Pure: it is told questions and answers with their times. docs/internals/drive-answers.md argues the rules.
+/// Pure: questions and answers come in with their times. docs/internals/drive-answers.md argues the rules.
 #pragma once
 
 #include "dpslave/base/bytes.hpp"
@@ -15,7 +15,7 @@
 namespace dpslave::drive {
 
 /// All that an answer with a check sum shows of its question: of EI-ASCII the mnemonic, of Modbus unit,
-/// function and octets. Equal forms cannot be told apart.
+/// function and octets. Equal forms cannot be distinguished.
 using Form = std::uint32_t;
 inline constexpr Form kNoForm = 0; ///< an answer without a check sum, or none of this kind
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Decides which transaction of a drive line comes next, for all the drives on it. Pure: it is told layouts,
-/// outputs, orders, results and the time, and gives transactions, inputs and answers as values.
+/// Decides which transaction of a drive line comes next, for all the drives on it. Pure: layouts, outputs,
+/// orders, results and the time come in; transactions, inputs and answers go out as values.
 #pragma once
 
 #include "dpslave/base/process_image.hpp"

@@ -16,7 +16,7 @@ namespace dpslave::drive {
 
 enum class TagType : std::uint8_t {
     number,  ///< INT or REAL of the table: signed 16 bit with `decimals`; unsigned where min >= 0 and max >
-             ///< 32767. Tag::is_real tells the two apart
+             ///< 32767. Tag::is_real distinguishes the two
     word,    ///< 16 bits, hexadecimal
     boolean, ///< 0 or 1
     enumeration, ///< 0..255
@@ -74,7 +74,7 @@ struct Tag {
     friend bool operator==(const Tag&, const Tag&) = default;
 };
 
-/// As the table's column spells the type of this row: also tells REAL from INT.
+/// As the table's column spells the type of this row: REAL is another one than INT.
 std::string_view type_name(const Tag& tag) noexcept;
 /// "stopped", "configuration"; empty where nothing is said.
 std::string_view text(WritableWhen when) noexcept;

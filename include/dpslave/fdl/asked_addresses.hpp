@@ -22,9 +22,9 @@ struct UnansweredAddress {
 
 class AskedAddresses {
 public:
-    /// How many are told at most: those with the most requests.
-    static constexpr std::size_t kTold = 4;
-    using List = std::array<UnansweredAddress, kTold>;
+    /// How many are reported at most: those with the most requests.
+    static constexpr std::size_t kMostReported = 4;
+    using List = std::array<UnansweredAddress, kMostReported>;
 
     /// A valid telegram, from any station. FDL_Status does not count: masters ask every free address for it;
     /// nor does what needs no answer. An SC answers the request right before it.

@@ -16,7 +16,7 @@ namespace dpslave::fdl {
 enum class EchoMode : std::uint8_t {
     off,       ///< nothing is compared
     on,        ///< each telegram has its echo: one that does not come is counted
-    automatic, ///< an echo is taken away where there is one; the first telegrams tell whether there is
+    automatic, ///< an echo is taken away where there is one; the first telegrams show whether there is
 };
 
 /// Compares what comes with what was sent last. That costs no telegram where there is no echo: no request can
@@ -39,8 +39,8 @@ public:
     /// Octets that were read at `at`. Octets that differ from what was sent (collision, short circuit) are
     /// given back with all that was withheld: layer 2 hunts through them. Valid until the next call.
     Foreign remove(Bytes octets, Instant at) noexcept;
-    /// A bad character came at `at`, in the middle of an echo or not: what was withheld, to be told to layer
-    /// 2 in front of it.
+    /// A bad character came at `at`, in the middle of an echo or not. Returns what was withheld: layer 2 gets
+    /// it before the bad character.
     Bytes on_character_error(Instant at) noexcept;
 
     /// Whether there is an echo: so by configuration, or found out.

@@ -53,7 +53,7 @@ public:
 private:
     void await_rest();
     void give_up();
-    void tell_unfinished();
+    void report_unfinished();
     bool hunt_behind_stump();
     Result<Telegram, Flaw> telegram_at(std::size_t at, std::size_t length, bool is_cut) const;
     std::size_t boundary_within(std::size_t begin, std::size_t end) const;
@@ -77,8 +77,8 @@ private:
     Heard heard_;
     bool reading_ = false;
     std::optional<Flaw> pending_flaw_;
-    bool damaged_ = false;    // what was heard last is no telegram, and its flaw is told
-    std::size_t counted_ = 0; // octets of rx_ before a pause whose flaw is told
+    bool damaged_ = false;    // what was heard last is no telegram, and its flaw is reported
+    std::size_t counted_ = 0; // octets of rx_ before a pause whose flaw is reported
     bool more_follows_ = false;
     Bytes input_;            // not in rx_ yet
     std::size_t at_ = 0;     // rx_ is read up to here

@@ -60,7 +60,7 @@ enum class Flaw : std::uint8_t {
     missing_sap,    ///< the extension bit announces a SAP, but no octet is left for it
     extension,      ///< a SAP octet with region/segment or a further extension: not used by DP
     source_address, ///< SA 127
-    character,      ///< parity, framing or break, told by the UART
+    character,      ///< parity, framing or break, reported by the UART
     unfinished,     ///< the line fell silent in the middle of a telegram
 };
 inline constexpr std::size_t kFlaws = 10;
@@ -83,7 +83,7 @@ struct Telegram {
     bool fcv() const { return (fc & 0x10) != 0; }
 };
 
-/// How many octets the telegram that begins with `head` has. 0: too few are known to tell.
+/// How many octets the telegram that begins with `head` has. 0: too few are known.
 Result<std::size_t, Flaw> frame_length(Bytes head);
 
 /// What the telegram says. Precondition: frame.size() == *frame_length(frame), not 0.

@@ -21,7 +21,8 @@ struct Finding {
 using Findings = std::vector<Finding>;
 
 enum class Reading : std::uint8_t {
-    tolerant, ///< as the masters' tools: what they get over is a warning, what they do not mind is not told
+    tolerant, ///< as the masters' tools: what they accept wrongly is a warning, what they allow is not
+              ///< reported
     strict,   ///< every deviation from the standard is an error
 };
 

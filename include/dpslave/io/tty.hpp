@@ -113,7 +113,7 @@ private:
     std::unique_ptr<Uart> uart_;
     std::vector<std::string> warnings_;
     std::chrono::nanoseconds character_{};
-    mutable bool tells_empty_ = true;
+    mutable bool reports_empty_ = true;
     std::unique_ptr<Marked> marked_; // only with mark_errors
 };
 

@@ -18,7 +18,7 @@
 
 namespace dpslave::profile {
 
-/// What the extended diagnosis of a device type tells.
+/// What the extended diagnosis of a device type reports.
 enum class DiagForm : std::uint8_t {
     none,
     trip_code,   ///< four octets: trip code of the drive, EXT DIAGNOSTIC (HA463561U002)
@@ -37,8 +37,9 @@ struct MirroredLamp {
 /// Nothing: the text is no such lamp.
 std::optional<MirroredLamp> parse_lamp(std::string_view text);
 
-/// Where a drive tells its trip: a tag whose low octet is the code, or a bit that is set while it has tripped
-/// ("272.3", "!537.11"), which is told as 31.
+/// Where a drive reports its trip: a tag whose low octet is the code, or a bit that is set while it has
+/// tripped
+/// ("272.3", "!537.11"), which is reported as 31.
 struct TripSource {
     MirroredLamp bit; ///< tag 0 = not known
     bool is_code = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the daemon tells and dpctl reads: one struct for each type, each reply and each error of
+/// What the daemon reports and dpctl reads: one struct for each type, each reply and each error of
 /// org.dpslaved.Control.varlink, which says what a field means. A test compares both, field by field.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The TEC OPTION function block of a technology box: what is set, what it shows, and what INT DIAGNOSTIC
-/// tells. Pure: settings and snapshots in, numbers and words out.
+/// reports. Pure: settings and snapshots in, numbers and words out.
 /// Source: HA463561U002, "Initial Set-up for Profibus", "Internal Diagnostics"; rows B-040 to B-055,
 /// B-080 to B-094.
 #pragma once
@@ -71,7 +71,8 @@ enum class TripForm : std::uint8_t {
     tripped, ///< the reason is not known: 0 = no trip, 31 = tripped
 };
 /// 04, trip, EXT DIAGNOSTIC high and low. `trip_word`: of the drive. TripForm::code: its low octet alone is
-/// the code, whatever the high one is; 32 to 255 are told as 31. TripForm::tripped: any bit of it is a trip.
+/// the code, whatever the high one is; 32 to 255 are reported as 31. TripForm::tripped: any bit of it is a
+/// trip.
 std::array<std::uint8_t, 4> ext_diag(TripForm form, std::uint16_t trip_word, std::uint16_t ext_diagnostic);
 /// The trip octet in words: "0: NO TRIP", "1: LINK OVERVOLTS", "14: not named in the manual", "31: TRIPPED".
 /// Its code is in bits 0 to 4; what else is set is left aside.

@@ -133,11 +133,11 @@ Reply ControlMethods::tec(const Json& parameters) const
     if (choice.error) return *choice.error;
     if (parameters.contains("station") && !choice.station->device->has_tec())
         return Error{"NoTecOption", {{"station", choice.station->config->name}}};
-    report::GetTecReply told;
+    report::GetTecReply result;
     for (const Station& station : view.stations)
         if ((choice.station == nullptr || choice.station == &station) && station.device->has_tec())
-            told.stations.push_back(tec_report(station.config->name, *station.device));
-    return Done{json_of(told)};
+            result.stations.push_back(tec_report(station.config->name, *station.device));
+    return Done{json_of(result)};
 }
 
 Reply ControlMethods::set_tec(const Station& station, const Json& parameters, const Caller& caller)

@@ -160,16 +160,17 @@ Reply PendingAccesses::survey(const Station& station, const Json& parameters, co
 Reply PendingAccesses::survey_scope(const Station& station) const
 {
     const bool modbus = is_modbus(station);
-    report::GetSurveyScopeReply told{station.config->name, station.line->protocol, station.config->tag_file};
+    report::GetSurveyScopeReply result{station.config->name, station.line->protocol,
+                                       station.config->tag_file};
     for (std::uint32_t number = 0; number <= 0xFFFF; ++number) {
         const auto tag = static_cast<std::uint16_t>(number);
         if (modbus ? number >= kIeeeArea : !mnemonic_of_tag(*station.config, tag)) continue;
-        if (!told.tags.empty() && told.tags.back().last + 1 == tag)
-            told.tags.back().last = tag;
+        if (!result.tags.empty() && result.tags.back().last + 1 == tag)
+            result.tags.back().last = tag;
         else
-            told.tags.push_back({tag, tag});
+            result.tags.push_back({tag, tag});
     }
-    return Done{json_of(told)};
+    return Done{json_of(result)};
 }
 
 /// One line for each write: caller, value and outcome.
@@ -218,31 +219,31 @@ Reply PendingAccesses::reply(const Access& access, const drive::OperateAnswer& a
 Reply PendingAccesses::survey_reply(const Access& access, const drive::OperateAnswer& answer) const
 {
     const config::StationConfig& station = *access.config;
-    report::SurveyReply told{station.name, access.tag};
+    report::SurveyReply result{station.name, access.tag};
     if (const auto mnemonic = mnemonic_of_tag(station, access.tag); mnemonic && access.has_text)
-        told.mnemonic.emplace(mnemonic->begin(), mnemonic->end());
+        result.mnemonic.emplace(mnemonic->begin(), mnemonic->end());
     const Station* const present = monitor_.find(access.station);
     const std::string text_of_drive{answer.said.data()};
     switch (answer.error) {
         case AccessError::none:
-            told.outcome = "value";
+            result.outcome = "value";
             if (access.has_text)
-                told.text = text_of_drive;
+                result.text = text_of_drive;
             else
-                told.raw = answer.word;
+                result.raw = answer.word;
             break;
         case AccessError::no_answer:
         case AccessError::deferred:
         case AccessError::not_understood:
-            told.outcome = present != nullptr && present->drive.answers ? "silence" : "lost";
+            result.outcome = present != nullptr && present->drive.answers ? "silence" : "lost";
             break;
         default:
-            told.outcome = "denied";
-            told.reason = answer.error == AccessError::invalid_tag || text_of_drive.empty()
-                              ? std::string{text(answer.error)}
-                              : text_of_drive;
+            result.outcome = "denied";
+            result.reason = answer.error == AccessError::invalid_tag || text_of_drive.empty()
+                                ? std::string{text(answer.error)}
+                                : text_of_drive;
     }
-    return Done{json_of(told)};
+    return Done{json_of(result)};
 }
 
 void PendingAccesses::answer()

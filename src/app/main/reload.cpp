@@ -27,12 +27,12 @@ std::vector<std::string> sentences(const toml::Faults& faults)
 
 Json Reload::reply_of(const Outcome& outcome)
 {
-    report::ReloadReply told{outcome.applied, outcome.changes};
-    for (const Plan::Leaving& one : outcome.leaving) told.leaving.push_back({one.station, one.reason});
-    told.pending = outcome.pending;
-    told.warnings = outcome.warnings;
-    told.faults = outcome.faults;
-    return json_of(told);
+    report::ReloadReply result{outcome.applied, outcome.changes};
+    for (const Plan::Leaving& one : outcome.leaving) result.leaving.push_back({one.station, one.reason});
+    result.pending = outcome.pending;
+    result.warnings = outcome.warnings;
+    result.faults = outcome.faults;
+    return json_of(result);
 }
 
 Reply Reload::request(bool dry_run)

@@ -51,25 +51,25 @@ report::Drive drive_report(const Station& station)
 {
     const drive::UnitSnapshot& drive = station.drive;
     const config::LineConfig& line = *station.line;
-    report::Drive told;
-    told.line = line.name;
-    told.port = line.port;
-    told.protocol = line.protocol;
-    told.unit = station.config->unit_text;
-    told.link = link_text(station);
-    told.port_open = station.line_open;
-    told.ever_answered = station.ever_answered;
-    told.baud = line.baud;
-    told.format = format_text(line.format);
-    told.timeout_ms = line.timeout.count();
-    if (drive.cycle.count() > 0) told.cycle_ms = milliseconds(drive.cycle);
-    told.reads = integer(drive.reads);
-    told.writes = integer(drive.writes);
-    told.silences = integer(drive.silences);
-    told.refusals = integer(drive.refusals);
-    told.losses = integer(drive.losses);
-    if (!station.troubles.empty()) told.last_trouble = station.troubles.back().text.data();
-    return told;
+    report::Drive result;
+    result.line = line.name;
+    result.port = line.port;
+    result.protocol = line.protocol;
+    result.unit = station.config->unit_text;
+    result.link = link_text(station);
+    result.port_open = station.line_open;
+    result.ever_answered = station.ever_answered;
+    result.baud = line.baud;
+    result.format = format_text(line.format);
+    result.timeout_ms = line.timeout.count();
+    if (drive.cycle.count() > 0) result.cycle_ms = milliseconds(drive.cycle);
+    result.reads = integer(drive.reads);
+    result.writes = integer(drive.writes);
+    result.silences = integer(drive.silences);
+    result.refusals = integer(drive.refusals);
+    result.losses = integer(drive.losses);
+    if (!station.troubles.empty()) result.last_trouble = station.troubles.back().text.data();
+    return result;
 }
 
 /// Nothing: the outputs do not outlive a master. `ends_in_ms` null: they do for ever.
@@ -171,50 +171,50 @@ std::string_view text(AccessError error) noexcept
 
 report::Bus bus_report(const View& view, Instant now)
 {
-    report::Bus told;
-    told.port = view.config->bus.port;
-    told.baud = integer(view.bus.baud);
-    told.baud_state = fdl::text(view.bus.baud_state);
-    if (view.config->bus.baud) told.configured_baud = integer(*view.config->bus.baud);
-    told.port_open = view.bus.port_open;
-    told.driver_works = view.bus.driver_works;
-    told.unanswered = unanswered_report(view, now);
-    told.stations = integer(view.stations.size());
-    told.exchanging = exchanging(view);
-    told.last_telegram_age_ms = age(view.bus.last_telegram, now);
-    return told;
+    report::Bus result;
+    result.port = view.config->bus.port;
+    result.baud = integer(view.bus.baud);
+    result.baud_state = fdl::text(view.bus.baud_state);
+    if (view.config->bus.baud) result.configured_baud = integer(*view.config->bus.baud);
+    result.port_open = view.bus.port_open;
+    result.driver_works = view.bus.driver_works;
+    result.unanswered = unanswered_report(view, now);
+    result.stations = integer(view.stations.size());
+    result.exchanging = exchanging(view);
+    result.last_telegram_age_ms = age(view.bus.last_telegram, now);
+    return result;
 }
 
 report::Station station_report(const Station& station, Instant now)
 {
     const dp::Snapshot& bus = station.bus;
-    report::Station told;
-    told.name = station.config->name;
-    told.address = station.address;
-    told.profile = station.config->profile->name;
-    told.device = station.config->profile->device;
-    told.state = dp::text(bus.state);
-    if (bus.master != 0xFF) told.master = bus.master;
-    if (bus.watchdog_on) told.watchdog_ms = bus.watchdog.count();
-    told.min_tsdr = bus.min_tsdr.count;
-    told.groups = bus.groups;
-    told.sync = bus.sync;
-    told.freeze = bus.freeze;
-    told.clear = bus.clear;
-    told.held = bus.holds;
-    told.ride = ride_report(station, now);
-    told.silent_because = unless_empty(station.silent_because);
-    told.stat_diag = bus.stat_diag;
-    told.diag_pending = bus.diag_pending;
-    told.parameters = integer(bus.layout.count);
-    told.demand_data = bus.demand_data;
-    told.left_count = integer(bus.counters.left_data_exchange);
+    report::Station result;
+    result.name = station.config->name;
+    result.address = station.address;
+    result.profile = station.config->profile->name;
+    result.device = station.config->profile->device;
+    result.state = dp::text(bus.state);
+    if (bus.master != 0xFF) result.master = bus.master;
+    if (bus.watchdog_on) result.watchdog_ms = bus.watchdog.count();
+    result.min_tsdr = bus.min_tsdr.count;
+    result.groups = bus.groups;
+    result.sync = bus.sync;
+    result.freeze = bus.freeze;
+    result.clear = bus.clear;
+    result.held = bus.holds;
+    result.ride = ride_report(station, now);
+    result.silent_because = unless_empty(station.silent_because);
+    result.stat_diag = bus.stat_diag;
+    result.diag_pending = bus.diag_pending;
+    result.parameters = integer(bus.layout.count);
+    result.demand_data = bus.demand_data;
+    result.left_count = integer(bus.counters.left_data_exchange);
     if (bus.left_because != dp::LeaveReason::none) {
-        told.left_because = dp::text(bus.left_because);
-        told.left_code = code(bus.left_because);
+        result.left_because = dp::text(bus.left_because);
+        result.left_code = code(bus.left_because);
     }
-    told.drive = drive_report(station);
-    return told;
+    result.drive = drive_report(station);
+    return result;
 }
 
 std::vector<report::Station> stations_report(const View& view, Instant now)
@@ -233,36 +233,36 @@ report::Info info_report(const Station& station, std::optional<std::uint8_t> pen
     const std::size_t demand_octets = personality.demand == dp::DemandForm::none ? 0 : dp::kDemandOctets;
     std::size_t most_octets = demand_octets + 2 * personality.max_parameters;
     if (personality.max_words != 0) most_octets = std::min(most_octets, 2 * personality.max_words);
-    report::Info told;
-    told.name = config.name;
-    told.profile = profile.name;
-    told.device = profile.device;
-    told.order_code = profile.order_code;
-    told.firmware = profile.firmware;
-    told.manual = profile.manual;
-    told.ident = personality.ident;
-    told.address_active = station.address;
-    told.address_pending = pending;
-    told.address_min = profile.min_address;
-    told.address_max = profile.max_address;
-    told.max_parameters = integer(personality.max_parameters);
-    told.max_input_octets = told.max_output_octets = integer(most_octets);
-    told.max_diag_octets = integer(personality.max_diag_length);
-    told.demand_data = personality.demand != dp::DemandForm::none;
-    told.sync = personality.sync;
-    told.freeze = personality.freeze;
+    report::Info result;
+    result.name = config.name;
+    result.profile = profile.name;
+    result.device = profile.device;
+    result.order_code = profile.order_code;
+    result.firmware = profile.firmware;
+    result.manual = profile.manual;
+    result.ident = personality.ident;
+    result.address_active = station.address;
+    result.address_pending = pending;
+    result.address_min = profile.min_address;
+    result.address_max = profile.max_address;
+    result.max_parameters = integer(personality.max_parameters);
+    result.max_input_octets = result.max_output_octets = integer(most_octets);
+    result.max_diag_octets = integer(personality.max_diag_length);
+    result.demand_data = personality.demand != dp::DemandForm::none;
+    result.sync = personality.sync;
+    result.freeze = personality.freeze;
     for (std::size_t i = 0; i < kBauds.size(); ++i) {
         if (personality.max_tsdr[i].count == 0) continue;
-        told.bauds.push_back(integer(kBauds[i]));
-        told.max_tsdr.push_back(personality.max_tsdr[i].count);
+        result.bauds.push_back(integer(kBauds[i]));
+        result.max_tsdr.push_back(personality.max_tsdr[i].count);
     }
-    told.tag_table = config.tag_file;
-    told.tags_in_table = integer(config.tags->all().size());
-    told.option_software = unless_empty(profile.option_software);
-    told.comms_status = comms_status(station);
-    if (profile.selectable_resolution) told.resolution = config.integer_resolution ? "integer" : "full";
-    told.notes = notes;
-    return told;
+    result.tag_table = config.tag_file;
+    result.tags_in_table = integer(config.tags->all().size());
+    result.option_software = unless_empty(profile.option_software);
+    result.comms_status = comms_status(station);
+    if (profile.selectable_resolution) result.resolution = config.integer_resolution ? "integer" : "full";
+    result.notes = notes;
+    return result;
 }
 
 std::vector<report::Word> words_report(const Station& station, Instant now)
@@ -274,23 +274,23 @@ std::vector<report::Word> words_report(const Station& station, Instant now)
     std::int64_t out_octet = in_octet;
     std::vector<report::Word> words;
     const auto add = [&](std::size_t i, bool input) {
-        report::Word told;
+        report::Word result;
         const std::uint16_t tag = bus.layout.parameters[i].tag;
         const std::uint16_t raw = input ? bus.inputs[i] : bus.outputs[i];
         std::int64_t& octet = input ? in_octet : out_octet;
-        told.tag = tag;
-        if (const drive::Tag* row = station.config->tags->find(tag)) told.name = row->name;
-        told.direction = input ? "in" : "out";
-        told.octet = octet;
-        told.raw = raw;
-        told.value = shown_value(*station.config->tags, tag, raw);
-        told.state = text(same_layout ? drive.states[i] : WordState::untried);
+        result.tag = tag;
+        if (const drive::Tag* row = station.config->tags->find(tag)) result.name = row->name;
+        result.direction = input ? "in" : "out";
+        result.octet = octet;
+        result.raw = raw;
+        result.value = shown_value(*station.config->tags, tag, raw);
+        result.state = text(same_layout ? drive.states[i] : WordState::untried);
         if (same_layout) {
-            if (drive.errors[i] == AccessError::contradicted) told.state = "contradicted";
-            told.answer = unless_empty(drive.answer_texts[i].data());
-            told.age_ms = age(drive.updated_at[i], now);
+            if (drive.errors[i] == AccessError::contradicted) result.state = "contradicted";
+            result.answer = unless_empty(drive.answer_texts[i].data());
+            result.age_ms = age(drive.updated_at[i], now);
         }
-        words.push_back(std::move(told));
+        words.push_back(std::move(result));
         octet += 2;
     };
     for (std::size_t i = 0; i < bus.layout.count; ++i) {
@@ -303,22 +303,22 @@ std::vector<report::Word> words_report(const Station& station, Instant now)
 report::StationIo io_report(const Station& station, Instant now)
 {
     const dp::Snapshot& bus = station.bus;
-    report::StationIo told{.name = station.config->name,
-                           .address = station.address,
-                           .state = std::string{dp::text(bus.state)},
-                           .may_write = bus.may_write,
-                           .clear = bus.clear,
-                           .sync = bus.sync,
-                           .freeze = bus.freeze,
-                           .words = words_report(station, now)};
+    report::StationIo result{.name = station.config->name,
+                             .address = station.address,
+                             .state = std::string{dp::text(bus.state)},
+                             .may_write = bus.may_write,
+                             .clear = bus.clear,
+                             .sync = bus.sync,
+                             .freeze = bus.freeze,
+                             .words = words_report(station, now)};
     const auto registers = [](const auto& words) {
         return std::vector<std::int64_t>(words.begin(), words.end());
     };
     if (bus.demand_data)
-        told.demand = {.request = registers(bus.demand_request),
-                       .reply = registers(bus.demand_reply),
-                       .words = demand_words(*station.config, bus.demand_request, bus.demand_reply)};
-    return told;
+        result.demand = {.request = registers(bus.demand_request),
+                         .reply = registers(bus.demand_reply),
+                         .words = demand_words(*station.config, bus.demand_request, bus.demand_reply)};
+    return result;
 }
 
 std::string status_line(const View& view)
@@ -350,18 +350,18 @@ bool is_fed(const config::StationConfig& station, std::string_view lamp)
 report::StationLeds leds_report(const config::StationConfig& station, const led::Condition& condition,
                                 Instant now)
 {
-    report::StationLeds told{station.name, std::string{led::meaning(station.profile->leds, condition)}};
+    report::StationLeds result{station.name, std::string{led::meaning(station.profile->leds, condition)}};
     for (const led::Lamp& lamp : led::lamps(station.profile->leds, condition)) {
         const auto wired =
             std::find_if(station.leds.begin(), station.leds.end(),
                          [&lamp](const config::LedConfig& one) { return one.lamp == lamp.name; });
-        told.leds.push_back({std::string{lamp.name}, wired == station.leds.end() ? "none" : wired->sink,
-                             led::lit(lamp.pattern, now),
-                             is_fed(station, lamp.name)
-                                 ? std::string{led::words(station.profile->leds, lamp.pattern)}
-                                 : "not configured: no bit of the drive feeds it"});
+        result.leds.push_back({std::string{lamp.name}, wired == station.leds.end() ? "none" : wired->sink,
+                               led::lit(lamp.pattern, now),
+                               is_fed(station, lamp.name)
+                                   ? std::string{led::words(station.profile->leds, lamp.pattern)}
+                                   : "not configured: no bit of the drive feeds it"});
     }
-    return told;
+    return result;
 }
 
 } // namespace dpslave::app

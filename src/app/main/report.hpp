@@ -35,7 +35,7 @@ public:
 
     /// All counters as they are now; to be called about once a second. A station that has gone is forgotten.
     void sample(const View& view, Instant now);
-    /// `counter`: its place in the group that counters_report() tells. Null: it was never sampled.
+    /// `counter`: its place in the group of counters_report(). Null: it was never sampled.
     const RecentCount* find(std::uint32_t owner, std::size_t counter) const;
 
 private:

@@ -125,28 +125,28 @@ report::Counter counter_report(const Counter& counter, const RecentCount* recent
                    ? std::nullopt
                    : std::optional{std::chrono::duration<double, std::milli>(now - then).count()};
     };
-    report::Counter told{counter.name, integer(counter.value), std::string{counter.meaning}};
-    if (recent == nullptr) return told;
-    told.minute = integer(recent->in_span());
-    told.last_age_ms = age(recent->last());
-    told.since_age_ms = age(recent->since());
-    return told;
+    report::Counter result{counter.name, integer(counter.value), std::string{counter.meaning}};
+    if (recent == nullptr) return result;
+    result.minute = integer(recent->in_span());
+    result.last_age_ms = age(recent->last());
+    result.since_age_ms = age(recent->since());
+    return result;
 }
 
 report::Distribution distribution(const char* unit, const Histogram& counted)
 {
-    report::Distribution told{unit, integer(counted.count())};
+    report::Distribution result{unit, integer(counted.count())};
     for (std::size_t n = 0; n < Histogram::kClasses; ++n) {
         if (counted.in_class(n) == 0) continue;
-        told.classes.push_back({Histogram::lower_end(n), std::nullopt, integer(counted.in_class(n))});
-        if (n + 1 < Histogram::kClasses) told.classes.back().to = integer(Histogram::lower_end(n + 1)) - 1;
+        result.classes.push_back({Histogram::lower_end(n), std::nullopt, integer(counted.in_class(n))});
+        if (n + 1 < Histogram::kClasses) result.classes.back().to = integer(Histogram::lower_end(n + 1)) - 1;
     }
-    if (counted.count() == 0) return told;
-    told.p50 = counted.quantile(0.5);
-    told.p99 = counted.quantile(0.99);
-    told.p999 = counted.quantile(0.999);
-    told.highest = counted.highest();
-    return told;
+    if (counted.count() == 0) return result;
+    result.p50 = counted.quantile(0.5);
+    result.p99 = counted.quantile(0.99);
+    result.p999 = counted.quantile(0.999);
+    result.highest = counted.highest();
+    return result;
 }
 
 } // namespace
@@ -179,18 +179,18 @@ const RecentCount* CounterHistory::find(std::uint32_t owner, std::size_t counter
 
 report::GetCountersReply counters_report(const View& view, Instant now)
 {
-    report::GetCountersReply told;
+    report::GetCountersReply result;
     const std::vector<Group> all = groups_of(view);
     for (std::size_t i = 0; i < all.size(); ++i) {
         const std::uint32_t owner = i == 0 ? CounterHistory::kOfBus : view.stations[i - 1].number;
-        report::CounterGroup& group = told.groups.emplace_back();
+        report::CounterGroup& group = result.groups.emplace_back();
         group.name = all[i].name;
         for (std::size_t k = 0; k < all[i].counters.size(); ++k)
             group.counters.push_back(counter_report(all[i].counters[k], view.history.find(owner, k), now));
     }
-    told.turnaround = {distribution("us", view.bus.turnaround_us),
-                       distribution("T_bit", view.bus.turnaround_tbit)};
-    return told;
+    result.turnaround = {distribution("us", view.bus.turnaround_us),
+                         distribution("T_bit", view.bus.turnaround_tbit)};
+    return result;
 }
 
 } // namespace dpslave::app

@@ -11,17 +11,17 @@ using profile::DiagForm;
 
 report::Tec tec_report(const std::string& station, const DeviceState& device)
 {
-    report::Tec told;
-    told.name = station;
-    told.view = device.settings().type == tec::kProfibusDp ? "profibus" : "generic";
+    report::Tec result;
+    result.name = station;
+    result.view = device.settings().type == tec::kProfibusDp ? "profibus" : "generic";
     for (const tec::Row& row : device.rows())
-        told.rows.push_back({std::string{row.name}, std::string{row.generic_name}, row.is_input,
-                             integer(row.value), row.shown, std::string{row.range}});
-    told.trip = device.trip();
-    told.trip_tag = device.trip_tag();
-    told.tripped = device.tripped();
-    told.notes = device.notes();
-    return told;
+        result.rows.push_back({std::string{row.name}, std::string{row.generic_name}, row.is_input,
+                               integer(row.value), row.shown, std::string{row.range}});
+    result.trip = device.trip();
+    result.trip_tag = device.trip_tag();
+    result.tripped = device.tripped();
+    result.notes = device.notes();
+    return result;
 }
 
 namespace {

@@ -79,38 +79,38 @@ std::string with_article(std::string_view type)
 
 report::Diagnosis diagnosis_octets(const config::StationConfig& station, Bytes diagnosis)
 {
-    report::Diagnosis told;
+    report::Diagnosis result;
     for (std::size_t i = 0; i < diagnosis.size(); ++i)
-        told.octets.push_back(
+        result.octets.push_back(
             {integer(i + 1), integer(i), diagnosis[i], octet_meaning(station, i, diagnosis)});
     for (const dp::DiagnosisBit& bit : dp::kDiagnosisBits)
         if (bit.offset < diagnosis.size() && (diagnosis[bit.offset] & bit.mask) != 0)
-            told.bits.push_back(fmt::format("{}: {}", bit.name, bit.meaning));
-    return told;
+            result.bits.push_back(fmt::format("{}: {}", bit.name, bit.meaning));
+    return result;
 }
 
 report::Diagnosis diagnosis_report(const Station& station)
 {
     const dp::RefusalDetail& refused = station.bus.refusal;
-    report::Diagnosis told = diagnosis_octets(*station.config, station.bus.diagnosis.bytes());
-    told.name = station.config->name;
-    told.hex = hex(station.bus.diagnosis.bytes());
-    if (refused.why != dp::Refusal::none) told.refusal = explain(refused);
-    told.last_prm = hex(station.bus.prm.bytes());
-    told.last_cfg = hex(station.bus.cfg.bytes());
-    told.held = station.bus.holds;
-    told.unscaled = unscaled_report(station);
+    report::Diagnosis result = diagnosis_octets(*station.config, station.bus.diagnosis.bytes());
+    result.name = station.config->name;
+    result.hex = hex(station.bus.diagnosis.bytes());
+    if (refused.why != dp::Refusal::none) result.refusal = explain(refused);
+    result.last_prm = hex(station.bus.prm.bytes());
+    result.last_cfg = hex(station.bus.cfg.bytes());
+    result.held = station.bus.holds;
+    result.unscaled = unscaled_report(station);
     if (station.drive.known && !station.drive.answers)
-        told.trouble.emplace_back("the drive does not answer: its inputs are held and marked stale");
-    if (const auto scales = scale_words(station)) told.trouble.push_back(*scales);
+        result.trouble.emplace_back("the drive does not answer: its inputs are held and marked stale");
+    if (const auto scales = scale_words(station)) result.trouble.push_back(*scales);
     if (station.config->tec && station.config->tec->trip.bit.tag == 0)
-        told.trouble.emplace_back("trips are not known: no tag tells them, so \"no trip\" above means "
-                                  "nothing; set trip_tag in [station.tec]");
+        result.trouble.emplace_back("trips are not known: no tag reports them, so \"no trip\" above means "
+                                    "nothing; set trip_tag in [station.tec]");
     for (const Trouble& one : station.troubles) {
-        told.trouble.emplace_back(one.text.data());
-        told.refused.push_back({one.tag, one.is_write, std::string{code(one.error)}, one.text.data()});
+        result.trouble.emplace_back(one.text.data());
+        result.refused.push_back({one.tag, one.is_write, std::string{code(one.error)}, one.text.data()});
     }
-    return told;
+    return result;
 }
 
 report::Refusal explain(const dp::RefusalDetail& refusal)

@@ -13,13 +13,13 @@ using control::Json;
 
 Json Watchers::reply(const Station* station, Instant now) const
 {
-    report::WatchReply told{bus_report(monitor_.view(), now)};
+    report::WatchReply result{bus_report(monitor_.view(), now)};
     for (const Station& one : monitor_.view().stations) {
         if (station != nullptr && station != &one) continue;
-        told.stations.push_back(station_report(one, now));
-        told.words.push_back({one.config->name, words_report(one, now)});
+        result.stations.push_back(station_report(one, now));
+        result.words.push_back({one.config->name, words_report(one, now)});
     }
-    return json_of(told);
+    return json_of(result);
 }
 
 /// What counts as a change: states, links and values, and what the bus is at, but no age and no counter.

@@ -146,7 +146,8 @@ void number_arguments(CLI::App& app, Options& options)
 
 void reload_arguments(CLI::App& app, Options& options)
 {
-    app.add_flag("--dry-run", options.dry_run, "Only tells what a reload would do; no port is opened for it");
+    app.add_flag("--dry-run", options.dry_run,
+                 "Only prints what a reload would do; no port is opened for it");
 }
 
 void octet_arguments(CLI::App& app, Options& options)

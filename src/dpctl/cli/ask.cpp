@@ -11,7 +11,7 @@
 
 namespace dpslave::dpctl {
 
-int tell(const control::ClientError& error, Terminal& terminal)
+int print_error(const control::ClientError& error, Terminal& terminal)
 {
     using Kind = control::ClientError::Kind;
     terminal.err << "dpctl: " << error.text << '\n';
@@ -26,7 +26,7 @@ int tell(const control::ClientError& error, Terminal& terminal)
     return error.kind == Kind::no_daemon || error.kind == Kind::no_access ? kNoDaemon : kNo;
 }
 
-int tell(const control::ReplyMessage& error, const Options& options, Terminal& terminal)
+int print_error(const control::ReplyMessage& error, const Options& options, Terminal& terminal)
 {
     if (options.json)
         terminal.out << json_text(Json::object({{"error", error.error}, {"parameters", error.parameters}}))
@@ -45,10 +45,10 @@ Result<Json, int> ask(const Options& options, Terminal& terminal, std::string_vi
                       const Json& parameters)
 {
     auto client = control::Client::connect(options.socket, options.timeout());
-    if (!client) return Failure{tell(client.error(), terminal)};
+    if (!client) return Failure{print_error(client.error(), terminal)};
     auto reply = client->call(method, parameters);
-    if (!reply) return Failure{tell(reply.error(), terminal)};
-    if (!reply->error.empty()) return Failure{tell(*reply, options, terminal)};
+    if (!reply) return Failure{print_error(reply.error(), terminal)};
+    if (!reply->error.empty()) return Failure{print_error(*reply, options, terminal)};
     return options.json ? std::move(reply->parameters) : printable_texts(std::move(reply->parameters));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Asking the daemon, and saying in words why there is no answer.
+/// Calls a method of the daemon, and prints why there is no answer.
 #pragma once
 
 #include "subcommands.hpp"
@@ -15,7 +15,7 @@ namespace dpslave::dpctl {
 
 using control::Json;
 
-/// The parameters of the reply, or the exit code of a failure that has been told already.
+/// The parameters of the reply, or the exit code of a failure that is printed already.
 Result<Json, int> ask(const Options& options, Terminal& terminal, std::string_view method,
                       const Json& parameters);
 
@@ -23,10 +23,10 @@ Result<Json, int> ask(const Options& options, Terminal& terminal, std::string_vi
 int show(const Options& options, Terminal& terminal, std::string_view method, const Json& parameters,
          const std::function<std::string(const Json&)>& render);
 
-/// Tells a failure to reach the daemon, with what to do. Returns the exit code.
-int tell(const control::ClientError& error, Terminal& terminal);
-/// Tells an error reply; as JSON too when wanted. Returns the exit code.
-int tell(const control::ReplyMessage& error, const Options& options, Terminal& terminal);
+/// Prints a failure to reach the daemon, with what to do. Returns the exit code.
+int print_error(const control::ClientError& error, Terminal& terminal);
+/// Prints an error reply; as JSON too when wanted. Returns the exit code.
+int print_error(const control::ReplyMessage& error, const Options& options, Terminal& terminal);
 
 /// {} or {"station": ...}.
 Json station_parameter(const Options& options);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What --json prints where it is not the reply of one method: the forms, as --help tells them.
+/// What --json prints where it is not the reply of one method: the forms, as --help shows them.
 #pragma once
 
 namespace dpslave::dpctl {

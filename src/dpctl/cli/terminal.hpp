@@ -19,7 +19,7 @@ struct Terminal {
     Look look() const { return {colour, width}; }
 };
 
-/// Exit codes; --help tells them.
+/// Exit codes; --help lists them.
 enum Exit : int {
     kFine = 0,
     kNo = 1,    ///< refused, faulty, or not so

@@ -15,7 +15,8 @@
 namespace dpslave::dpctl {
 namespace {
 
-/// A reserved bit is 1 and others are 0 in every diagnosis: enough to tell one from a telegram with a flaw.
+/// A reserved bit is 1 and others are 0 in every diagnosis: enough to distinguish one from a telegram with a
+/// flaw.
 bool looks_like_diagnosis(Bytes octets)
 {
     return octets.size() >= 6 && (octets[1] & 0x44) == 0x04 && (octets[2] & 0x7F) == 0;

@@ -185,7 +185,7 @@ private:
         add("length: " + length_words(units, words, in, !in, (octet & 0x80) != 0));
     }
 
-    /// False, and told once: an identifier announces octets that are not there.
+    /// False, and reported once: an identifier announces octets that are not there.
     bool promised()
     {
         if (at_ < data_.size()) return true;

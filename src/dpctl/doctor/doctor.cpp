@@ -140,7 +140,7 @@ std::string probe_text(const report::ProbeDriveReply& reply)
 }
 
 /// How long it takes at most, and then how far it is: on a terminal only, over the same line.
-void tell_progress(const report::ProbeDriveReply& reply, bool is_first, Terminal& terminal)
+void print_progress(const report::ProbeDriveReply& reply, bool is_first, Terminal& terminal)
 {
     if (is_first)
         terminal.err << fmt::format("looking for the drive of {} on {}: {} s at most; Ctrl-C ends it\n",
@@ -156,25 +156,25 @@ int do_probe(const Options& options, Terminal& terminal)
     Json parameters = station_parameter(options);
     if (options.yes) parameters["yes"] = true;
     auto client = control::Client::connect(options.socket, options.timeout());
-    if (!client) return tell(client.error(), terminal);
-    if (const auto failed = client->start("ProbeDrive", parameters)) return tell(*failed, terminal);
+    if (!client) return print_error(client.error(), terminal);
+    if (const auto failed = client->start("ProbeDrive", parameters)) return print_error(*failed, terminal);
     for (bool is_first = true;; is_first = false) {
         auto reply = client->next(end.fd());
-        if (!reply) return tell(reply.error(), terminal);
+        if (!reply) return print_error(reply.error(), terminal);
         if (!*reply) {
             terminal.err << "\nended; the line goes back to its work\n";
             return kNo;
         }
-        if (!(*reply)->error.empty()) return tell(**reply, options, terminal);
-        const Json told =
+        if (!(*reply)->error.empty()) return print_error(**reply, options, terminal);
+        const Json shown =
             options.json ? std::move((*reply)->parameters) : printable_texts(std::move((*reply)->parameters));
-        const auto now = report::read<report::ProbeDriveReply>(told);
+        const auto now = report::read<report::ProbeDriveReply>(shown);
         if (now.done || !(*reply)->continues) {
             if (terminal.tty) terminal.err << "\r\033[K" << std::flush;
-            terminal.out << (options.json ? json_text(told) + '\n' : probe_text(now)) << std::flush;
+            terminal.out << (options.json ? json_text(shown) + '\n' : probe_text(now)) << std::flush;
             return now.answering.empty() ? kNo : kFine;
         }
-        tell_progress(now, is_first, terminal);
+        print_progress(now, is_first, terminal);
     }
 }
 

@@ -34,7 +34,7 @@ struct Replies {
 enum class Family : std::uint8_t { option_board, technology_box, controller };
 
 /// What a rule may look at: the bus, and one station (empty in rules of the bus, and what the daemon does not
-/// tell of it).
+/// report of it).
 struct Facts {
     const Replies& replies;
     const report::Bus& bus;

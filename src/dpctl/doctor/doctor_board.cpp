@@ -49,7 +49,7 @@ constexpr std::array kRules = std::to_array<Rule>({
      "Configuration fault",
      "Check that the Usr_Prm_Data is declared correctly in the master. See what came: dpctl diag\n"
      "Check that the Cfg_Data is declared correctly in the master: its modules in the order of the tags.\n"
-     "Read the diagnosis of the slave into the master. The station status octets tell where the problem is.",
+     "Read the diagnosis of the slave into the master. The station status octets show where the problem is.",
      kBoard, seen_configuration},
     {"board.external", Rank::checklist, "red on, green flashing 1 Hz: nothing was refused",
      "External communications fault",

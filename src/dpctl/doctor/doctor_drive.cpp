@@ -177,10 +177,10 @@ std::string seen_noise(const Facts& f)
     const Count silences = counted(f.station_counters, "drive_silences");
     const std::int64_t all = silences.minute + counted(f.station_counters, "drive_reads").minute +
                              counted(f.station_counters, "drive_writes").minute;
-    const bool is_told = counted(f.station_counters, "drive_late").minute >= kSome ||
-                         counted(f.station_counters, "drive_damaged").minute >= kSome || is_echo(f) ||
-                         is_unsteady(f);
-    if (is_told || silences.minute < kSome || silences.minute * kShare < all) return {};
+    const bool is_known = counted(f.station_counters, "drive_late").minute >= kSome ||
+                          counted(f.station_counters, "drive_damaged").minute >= kSome || is_echo(f) ||
+                          is_unsteady(f);
+    if (is_known || silences.minute < kSome || silences.minute * kShare < all) return {};
     return fmt::format("{} of {} were not answered {}", silences.minute, plural(all, "request"),
                        lately(silences));
 }

@@ -32,7 +32,7 @@ struct Count {
     std::int64_t minute = 0;
     std::optional<double> last_ms;  ///< age of the last one; none = never
     std::optional<double> since_ms; ///< how long it has counted without a quiet minute
-    /// It counted within this time; told to the second.
+    /// It counted within this time; exact to the second.
     bool within(double ms) const { return last_ms && *last_ms <= ms; }
 };
 Count counted(const report::CounterGroup& group, std::string_view name);

@@ -192,8 +192,8 @@ std::string seen_freeze(const Facts& f)
 }
 std::string seen_restless(const Facts& f)
 {
-    const bool is_told = !seen_watchdog(f).empty() || master_left(f);
-    return f.family == Family::controller || is_told ? std::string{} : restlessness(f);
+    const bool is_known = !seen_watchdog(f).empty() || master_left(f);
+    return f.family == Family::controller || is_known ? std::string{} : restlessness(f);
 }
 std::string seen_ride(const Facts& f)
 {
@@ -351,7 +351,7 @@ constexpr std::array kRules = std::to_array<Rule>({
      "Make a tag table with dpctl survey and the drive's product manual. Name it with 'tags' in [[station]]. "
      "Then: dpctl reload",
      kGateway, seen_no_table},
-    {"station.no_trip", Rank::note, "no tag tells the trip of the drive",
+    {"station.no_trip", Rank::note, "no tag reports the trip of the drive",
      "Trips are not known: the diagnosis never says a trip",
      "Set trip_tag in [station.tec] to the tag of the trip code, or to a bit that is set while the drive has "
      "tripped (\"272.3\").",

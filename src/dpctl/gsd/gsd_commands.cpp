@@ -93,7 +93,7 @@ std::optional<drive::TagTable> own_table(const std::string& file, Terminal& term
 // ---- make
 // ---------------------------------------------------------------------------------------------------
 
-/// Puts what the command line says over what the mapping says. False: told and refused.
+/// Puts what the command line says over what the mapping says. False: refused, the reason is printed.
 class SelectionReader {
 public:
     SelectionReader(profile::Mapping& mapping, Terminal& terminal) : into_(mapping), terminal_(terminal) {}

@@ -53,9 +53,9 @@ void show_one(const Followed& followed, const Json& before, const Json& now, con
 }
 
 /// The daemon was there and has gone.
-int tell_gone(const control::ClientError& error, Terminal& terminal)
+int print_gone(const control::ClientError& error, Terminal& terminal)
 {
-    const int code = tell(error, terminal);
+    const int code = print_error(error, terminal);
     return error.kind == control::ClientError::Kind::ended ? kNoDaemon : code;
 }
 
@@ -63,16 +63,16 @@ int follow(const Followed& followed, const Options& options, Terminal& terminal)
 {
     const EndSignals end;
     auto client = control::Client::connect(options.socket, options.timeout());
-    if (!client) return tell(client.error(), terminal);
+    if (!client) return print_error(client.error(), terminal);
     if (const auto failed = client->start("Watch", station_parameter(options)))
-        return tell(*failed, terminal);
+        return print_error(*failed, terminal);
     if (terminal.tty && !options.json) terminal.out << "\033[2J";
     Json before = Json::object();
     while (terminal.out) {
         auto reply = client->next(end.fd());
-        if (!reply) return tell_gone(reply.error(), terminal);
+        if (!reply) return print_gone(reply.error(), terminal);
         if (!*reply) return kFine; // Ctrl-C
-        if (!(*reply)->error.empty()) return tell(**reply, options, terminal);
+        if (!(*reply)->error.empty()) return print_error(**reply, options, terminal);
         if (!options.json) (*reply)->parameters = printable_texts(std::move((*reply)->parameters));
         show_one(followed, before, (*reply)->parameters, options, terminal);
         if (!(*reply)->continues) return kFine;

@@ -40,9 +40,9 @@ Result<Json, int> ask_status(const Options& options, Terminal& terminal)
         if (is_meant(station, options.station)) meant.push_back(one);
     }
     if (meant.empty())
-        return Failure{tell({Json::object({{"station", options.station}, {"known", known}}),
-                             "org.dpslaved.Control.NoSuchStation", false},
-                            options, terminal)};
+        return Failure{print_error({Json::object({{"station", options.station}, {"known", known}}),
+                                    "org.dpslaved.Control.NoSuchStation", false},
+                                   options, terminal)};
     (*reply)["stations"] = std::move(meant);
     return reply;
 }

@@ -9,7 +9,7 @@
 
 namespace dpslave::dpctl {
 
-/// Of `options.station` only, if one is said. If there is none, that was told, and the exit code comes back.
+/// Of `options.station` only, if it is set. An unknown station is reported, and its exit code returned.
 Result<Json, int> ask_status(const Options& options, Terminal& terminal);
 void print_status(const Json& reply, const Options& options, Terminal& terminal);
 

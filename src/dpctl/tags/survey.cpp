@@ -45,7 +45,7 @@ enum class End {
     interrupted,
     no_drive, ///< it did not answer at all for long
     other,    ///< another survey of this station is under way
-    failed,   ///< told already
+    failed,   ///< printed already
 };
 
 /// One survey, from its first read to its last.
@@ -109,7 +109,7 @@ int Run::go(const EndSignals& end)
     }
     auto client = control::Client::connect(
         options_.socket, std::max<std::chrono::milliseconds>(options_.timeout(), kLongestRound));
-    if (!client) return tell(client.error(), terminal_);
+    if (!client) return print_error(client.error(), terminal_);
     return report(read_all(*client, end));
 }
 
@@ -131,18 +131,18 @@ std::optional<End> Run::read_one(control::Client& client, const EndSignals& end,
     for (;;) {
         const auto asked_at = Clock::now();
         if (const auto failed = client.start("Survey", {{"station", scope_.station}, {"tag", tag}})) {
-            tell(*failed, terminal_);
+            print_error(*failed, terminal_);
             return End::failed;
         }
         const auto reply = client.next(end.fd());
         if (!reply) {
-            tell(reply.error(), terminal_);
+            print_error(reply.error(), terminal_);
             return End::failed;
         }
         if (!*reply) return End::interrupted;
         const bool is_busy = (*reply)->error == "org.dpslaved.Control.Busy";
         if (!(*reply)->error.empty() && !is_busy) {
-            tell(**reply, options_, terminal_);
+            print_error(**reply, options_, terminal_);
             return End::failed;
         }
         if (!is_busy && take(report::read<report::SurveyReply>((*reply)->parameters), tag)) {

@@ -74,7 +74,7 @@ struct SurveyProgress {
     std::size_t visited = 0, tags = 0, answering = 0, denied = 0, silent = 0;
     double share = 0;                         ///< of the whole, 0 to 1
     std::optional<std::chrono::seconds> left; ///< nothing: not measured yet
-    bool is_time_given = false;               ///< `left` is what is left of the time that was told
+    bool is_time_given = false;               ///< `left` is what is left of the time given with --for
     bool waits_for_drive = false;             ///< it does not answer
 };
 /// "412 of 1612 tags asked: 58 answer, 354 denied, 0 silent; about 1 min 10 s left".

@@ -85,7 +85,7 @@ void read_processors(const fs::path& root, MachineFacts& machine)
                             machine.governors.end());
 }
 
-/// Reading tells the limit that stands now; 2 000 000 000 us is the kernel's word for "none".
+/// A read gives the limit that stands now; 2 000 000 000 us is the kernel's word for "none".
 std::optional<int> read_latency_limit(const fs::path& root)
 {
     constexpr std::int32_t kNone = 2'000'000'000;

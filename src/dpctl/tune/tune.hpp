@@ -30,7 +30,7 @@ struct Traffic {
     std::uint64_t too_late = 0;  ///< suppressed, because their window had closed, or ended behind it
     std::uint64_t overtaken = 0; ///< requests dropped, because the next one was there already
     std::uint64_t repeated = 0;  ///< requests that the master sent again, because it had not heard the reply
-    /// From the read of a request's last octet to the end of the write of its reply; nothing = not told.
+    /// From the read of a request's last octet to the end of the write of its reply; nothing = not reported.
     /// Interrupt, FIFO and the way to the reader come before it.
     std::optional<std::uint64_t> p999_us, highest_us;
     std::uint64_t measured = 0; ///< replies that these figures are of
@@ -90,7 +90,7 @@ struct TuneFinding {
     Severity severity = Severity::know;
     std::string name;
     std::string what;
-    std::string cost;               ///< in bit times where it can be told; empty = nothing
+    std::string cost;               ///< in bit times where they are known; empty = nothing
     std::vector<std::string> steps; ///< what to do next, with the command to type
 };
 /// Those to mend first.

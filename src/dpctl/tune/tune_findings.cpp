@@ -22,8 +22,8 @@ namespace {
 
 using Findings = std::vector<TuneFinding>;
 
-/// Costs are told at the rate of the bus, or at the highest up to 187.5 kbit/s that the machine may hold.
-Baud told_at(const TuneFacts& facts, const std::vector<RateJudgment>& rates)
+/// Costs are given at the rate of the bus, or at the highest up to 187.5 kbit/s that the machine may hold.
+Baud rate_of_costs(const TuneFacts& facts, const std::vector<RateJudgment>& rates)
 {
     if (facts.bus && facts.bus->baud) return *facts.bus->baud;
     Baud highest = Baud::k9_6;
@@ -32,7 +32,7 @@ Baud told_at(const TuneFacts& facts, const std::vector<RateJudgment>& rates)
     return highest;
 }
 
-std::string told(Baud baud)
+std::string text_of(Baud baud)
 {
     return rate(static_cast<std::uint32_t>(baud));
 }
@@ -44,7 +44,7 @@ std::uint64_t bit_times(std::uint64_t us, Baud baud)
 
 std::string cost_of(std::uint64_t us, Baud baud)
 {
-    return fmt::format("{} us: {} bit times at {}", us, bit_times(us, baud), told(baud));
+    return fmt::format("{} us: {} bit times at {}", us, bit_times(us, baud), text_of(baud));
 }
 
 const RateJudgment* judged(const std::vector<RateJudgment>& rates, Baud baud)
@@ -75,7 +75,7 @@ void configured_rate(const TuneFacts& facts, const std::vector<RateJudgment>& ra
     }
     const RateJudgment* now = facts.bus && facts.bus->baud ? judged(rates, *facts.bus->baud) : nullptr;
     if (now == nullptr) return;
-    const std::string at = told(now->baud);
+    const std::string at = text_of(now->baud);
     if (now->verdict == Verdict::cannot) {
         out.push_back({Severity::mend,
                        "rate.cannot",
@@ -85,7 +85,7 @@ void configured_rate(const TuneFacts& facts, const std::vector<RateJudgment>& ra
         for (auto one = rates.rbegin(); one != rates.rend(); ++one)
             if (one->verdict == Verdict::holds) {
                 out.back().steps.push_back(
-                    "Set the master to " + told(one->baud) +
+                    "Set the master to " + text_of(one->baud) +
                     ", the highest rate that this machine holds, or mend what is named below");
                 break;
             }
@@ -204,7 +204,7 @@ void kernel(const TuneFacts& facts, Baud baud, Findings& out)
              fmt::format("The kernel {} is not PREEMPT_RT: plan with 1000 to 2500 us instead of 300",
                          machine.release.empty() ? "of this machine" : machine.release),
              fmt::format("700 to 2200 us: {} to {} bit times at {}", bit_times(700, baud),
-                         bit_times(2200, baud), told(baud)),
+                         bit_times(2200, baud), text_of(baud)),
              {rt_package(machine.release)}});
     if (machine.virtual_machine)
         out.push_back({Severity::know,
@@ -400,7 +400,7 @@ std::string_view text(Severity severity)
 std::vector<TuneFinding> tune_findings(const TuneFacts& facts, const std::vector<RateJudgment>& rates)
 {
     Findings out;
-    const Baud baud = told_at(facts, rates);
+    const Baud baud = rate_of_costs(facts, rates);
     configured_rate(facts, rates, out);
     if (facts.port.there && (facts.port.serial || facts.port.pty)) {
         uart(facts, out);

@@ -29,7 +29,7 @@ std::vector<std::string> DeviceCommands::common_help()
         "  list                       all parameters",
         "  unit NN|all                whom the next commands concern",
         "  echo on|off                the transceiver of the master hears what it sends",
-        "  log on|off                 tell what is written",
+        "  log on|off                 print what is written",
         "  stats                      counters",
         "  quit                       ends",
     };

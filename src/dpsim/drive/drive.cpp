@@ -18,7 +18,7 @@ constexpr auto kMessageGap = 500ms;
 constexpr auto kConnectionLapse = 10s;
 constexpr std::size_t kLongestText = 40;
 
-/// Identity words of this simulator; no source tells those of the real drives.
+/// Identity words of this simulator; no source has those of the real drives.
 constexpr std::string_view kSoftwareVersion = ">0100";
 std::string_view identity(Model model)
 {
@@ -130,7 +130,7 @@ void DriveLine::collect(std::uint8_t octet)
     text_ += static_cast<char>(octet);
 }
 
-/// A message without form gets no answer; only EE tells (EI-ASCII reference, section 1).
+/// A malformed message gets no answer; only EE reports it (EI-ASCII reference, section 1).
 void DriveLine::malformed()
 {
     if (phase_ == Phase::body || phase_ == Phase::select) {

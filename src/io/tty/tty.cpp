@@ -245,9 +245,9 @@ bool Tty::wait_readable(std::chrono::nanoseconds timeout)
 
 std::optional<bool> Tty::transmitter_empty() const
 {
-    if (!tells_empty_) return std::nullopt;
+    if (!reports_empty_) return std::nullopt;
     const auto empty = io::transmitter_empty(fd());
-    if (!empty) tells_empty_ = errno != ENOTTY && errno != EINVAL && errno != EOPNOTSUPP;
+    if (!empty) reports_empty_ = errno != ENOTTY && errno != EINVAL && errno != EOPNOTSUPP;
     return empty;
 }
 
