@@ -122,7 +122,7 @@ TEST_F(DriverEnableOfTheBus, ThatDoesNotWorkKeepsTheReplyBackUntilItWorksAgain)
     ask_status();
 }
 
-TEST(BusSender, TellsAPortThatHasGoneFromOneThatIsFull)
+TEST(BusSender, DistinguishesAPortThatHasGoneFromOneThatIsFull)
 {
     io::Pty pty;
     auto port = io::Tty::open(pty.path(), {.baud = 1'500'000});
@@ -134,7 +134,7 @@ TEST(BusSender, TellsAPortThatHasGoneFromOneThatIsFull)
 
     auto sent = sender.send(telegram, *port, Baud::k1500);
     EXPECT_TRUE(sent);
-    for (int i = 0; i < 1000 && sent; ++i) sent = sender.send(telegram, *port, Baud::k1500); // nobody reads
+    for (int i = 0; i < 1000 && sent; ++i) sent = sender.send(telegram, *port, Baud::k1500); // not read
     ASSERT_FALSE(sent);
     EXPECT_EQ(sent.error(), app::BusSender::Unsent::not_taken);
 
@@ -145,7 +145,7 @@ TEST(BusSender, TellsAPortThatHasGoneFromOneThatIsFull)
     EXPECT_EQ(sender.write_errors(), 2u);
 }
 
-/// Nobody comes to let it go: the bus thread hangs, or the program is at its end.
+/// The bus thread does not release it: it hangs, or the program is at its end.
 TEST_F(DriverEnableOfTheBus, IsLetGoByAThreadOfItsOwnAfterTwiceTheLongestTelegramAtTheRateOfTheBus)
 {
     const auto port = io::Tty::open(pty.path(), {.baud = 1'500'000});

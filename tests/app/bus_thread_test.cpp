@@ -121,10 +121,10 @@ TEST_F(BusThread, SaysWhatItCountsOfItsPageFaults)
 {
     start({}, {station(kStation)});
     const std::uint64_t before = page_faults();
-    const std::uint64_t told = snapshot().page_faults;
+    const std::uint64_t reported = snapshot().page_faults;
     ASSERT_TRUE(master.ask(fdl_status(kStation)));
 
-    EXPECT_LE(told, before); // since it serves, not since it began
+    EXPECT_LE(reported, before); // since it serves, not since it began
 }
 
 class ReopenedPort : public BusThread {
@@ -239,7 +239,7 @@ TEST_P(EchoOnTheLine, IsTakenAwayBeforeLayerTwoSeesIt)
 INSTANTIATE_TEST_SUITE_P(Modes, EchoOnTheLine, testing::Values(fdl::EchoMode::on, fdl::EchoMode::automatic),
                          [](const auto& mode) { return mode.param == fdl::EchoMode::on ? "On" : "Auto"; });
 
-TEST_F(BusThread, TakesAnEchoThatNobodyRemovesForAnAddressConflict)
+TEST_F(BusThread, TakesAnEchoThatIsNotRemovedForAnAddressConflict)
 {
     start({.echo = fdl::EchoMode::off}, {station(kStation)});
     master.echoes = true;

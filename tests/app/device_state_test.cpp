@@ -67,7 +67,7 @@ TEST_F(Box, SendsTheBlockOfTheGoldenTelegram)
     EXPECT_EQ(device->trip(), "1: LINK OVERVOLTS");
 }
 
-TEST_F(Box, Of590PlusTellsATripWithoutItsReason)
+TEST_F(Box, Of590PlusReportsATripWithoutItsReason)
 {
     bench.is_a_box(profile::DiagForm::tripped);
     bench.drive_reads({0x0004, 0});
@@ -92,7 +92,7 @@ TEST_F(Box, Of590PlusIsTrippedWhileItIsNotHealthy)
     EXPECT_EQ(device->tripped(), true);
 }
 
-TEST_F(Box, OfAnyDeviceTellsABitOfATripAs31)
+TEST_F(Box, OfAnyDeviceReportsABitOfATripAs31)
 {
     bench.station.tec->trip = {{.tag = 4, .mask = 0x0008}, false}; // "4.3"
     bench.drive_reads({0x0008, 0});
@@ -102,7 +102,7 @@ TEST_F(Box, OfAnyDeviceTellsABitOfATripAs31)
     EXPECT_THAT(block(), ElementsAre(0x04, 0x00, 0x00, 0x00));
 }
 
-TEST_F(Box, SaysThatTripsAreNotKnownWhereNoTagTellsThem)
+TEST_F(Box, SaysThatTripsAreNotKnownWhereNoTagReportsThem)
 {
     bench.station.tec->trip = {};
     EXPECT_THAT(*looked().trip(), StartsWith("not known"));
@@ -320,7 +320,7 @@ TEST_F(Box, WarnsInTheLogWheneverRideThroughIsSetToAnythingOtherThan0)
                                                         Field(&app::Sentence::is_warning, false))));
 }
 
-TEST_F(Box, TellsTheDriveLineItsRideThrough)
+TEST_F(Box, PublishesItsRideThroughToTheDriveLine)
 {
     EXPECT_EQ(looked().zero_after_ms(), 0);
     ASSERT_FALSE(looked().set("RIDE THROUGH", "5"));
@@ -427,7 +427,8 @@ TEST_F(Box, IsFaultyInItsHardwareWhileAPortIsGone)
     EXPECT_EQ(value("FAULT"), static_cast<int>(OptionFault::hardware));
     bench.bus.port_open = true;
     bench.bus.driver_works = false;
-    EXPECT_EQ(value("FAULT"), static_cast<int>(OptionFault::hardware)) << "a reply that nobody can hear";
+    EXPECT_EQ(value("FAULT"), static_cast<int>(OptionFault::hardware))
+        << "a reply that does not reach the bus";
     bench.bus.driver_works = true;
     EXPECT_EQ(value("FAULT"), static_cast<int>(OptionFault::none));
     EXPECT_THAT(device->take_news(), Contains(says("FAULT is NONE again")));

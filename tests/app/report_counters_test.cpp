@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What was counted, as the control interface tells it.
+/// The counters, as the control interface reports them.
 #include "app/main/report.hpp"
 #include "control/interface.hpp"
 
@@ -19,7 +19,7 @@ std::uint64_t counter(const json& reply, const std::string& name)
     return 0;
 }
 
-TEST(CountersReport, TellsNoFigureBeforeTheFirstReply)
+TEST(CountersReport, HasNoFigureBeforeTheFirstReply)
 {
     const json reply = json_of(counters_report(View{}, Instant{}));
 
@@ -33,7 +33,7 @@ TEST(CountersReport, TellsNoFigureBeforeTheFirstReply)
     }
 }
 
-TEST(CountersReport, TellsTheTurnaroundInMicrosecondsAndBitTimes)
+TEST(CountersReport, HasTheTurnaroundInMicrosecondsAndBitTimes)
 {
     View view;
     for (int i = 0; i < 999; ++i) view.bus.turnaround_us.add(66);
@@ -55,7 +55,7 @@ TEST(CountersReport, TellsTheTurnaroundInMicrosecondsAndBitTimes)
     EXPECT_EQ(bits.at("classes"), json::parse(R"([{"from":12,"to":12,"count":1}])"));
 }
 
-TEST(CountersReport, TellsWhatTheEdgeCounted)
+TEST(CountersReport, HasWhatTheEdgeCounted)
 {
     View view;
     view.bus.counters.late = 1;
@@ -76,7 +76,7 @@ TEST(CountersReport, TellsWhatTheEdgeCounted)
     EXPECT_EQ(counter(reply, "page_faults"), 7u);
 }
 
-TEST(CountersReport, TellsTheDelayOfADriveThatIsAlwaysLateAndTheTimeOutThatItNeeds)
+TEST(CountersReport, HasTheDelayOfADriveThatIsAlwaysLateAndTheTimeOutThatItNeeds)
 {
     config::StationConfig config;
     config.name = "unwinder";
@@ -103,7 +103,7 @@ TEST(CountersReport, TellsTheDelayOfADriveThatIsAlwaysLateAndTheTimeOutThatItNee
     EXPECT_EQ(value("drive_needs_timeout_ms"), 525) << "a quarter more";
 }
 
-TEST(CountersReport, TellsWhatWasCountedWithinTheLastMinuteAndSinceWhen)
+TEST(CountersReport, HasWhatWasCountedWithinTheLastMinuteAndSinceWhen)
 {
     using std::chrono::seconds;
     View view;

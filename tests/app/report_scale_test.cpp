@@ -56,7 +56,7 @@ protected:
     app::DeviceState device{bench.station};
 };
 
-TEST_F(UnknownScale, ThatHoldsTheStartIsToldWithTagAnswerAndWhatToDo)
+TEST_F(UnknownScale, ThatHoldsTheStartIsReportedWithTagAnswerAndWhatToDo)
 {
     bench.view.bus.holds = true;
     EXPECT_THAT(
@@ -66,7 +66,7 @@ TEST_F(UnknownScale, ThatHoldsTheStartIsToldWithTagAnswerAndWhatToDo)
               HasSubstr("dpctl reload")));
 }
 
-TEST_F(UnknownScale, IsToldOnceAndAsAHoldAlsoInTheMomentBeforeTheBusSideKnows)
+TEST_F(UnknownScale, IsReportedOnceAndAsAHoldAlsoInTheMomentBeforeTheBusSideKnows)
 {
     EXPECT_THAT(news(), ElementsAre(HasSubstr("The exchange does not begin")));
     bench.view.bus.holds = true;
@@ -136,7 +136,7 @@ TEST_F(UnknownScale, TheAdviceNamesWhatTheTableLacksAndNeverATableOfThePackage)
     EXPECT_EQ(app::row_advice(bench.station, 55), "");
 }
 
-TEST_F(UnknownScale, OfTripsIsToldInTheDiagnosisOfABox)
+TEST_F(UnknownScale, OfTripsIsReportedInTheDiagnosisOfABox)
 {
     bench.is_a_box();
     exchange_runs();

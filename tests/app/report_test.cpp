@@ -189,7 +189,7 @@ TEST_F(Report, OfInfoRepeatsWhatTheFunctionBlockWarnsOf)
     EXPECT_EQ(json_of(app::info_report(bench.view, std::nullopt, {})).at("notes"), json::array());
 }
 
-TEST_F(Report, OfLampsTellsTheThreeFlashesOfABoxApart)
+TEST_F(Report, OfLampsDistinguishesTheThreeFlashesOfABox)
 {
     bench.is_a_box();
     const auto network = [this](NetworkState state) {

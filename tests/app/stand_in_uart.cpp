@@ -18,7 +18,7 @@ namespace {
 
 std::atomic<bool> active{false};
 std::atomic<bool> refusing{false};
-std::atomic<Shift> shift{Shift::untold};
+std::atomic<Shift> shift{Shift::unknown};
 std::array<Edge, 16384> seen;
 std::atomic<std::size_t> count{0};
 
@@ -39,7 +39,7 @@ int set_rts(bool to)
 
 int line_status(unsigned* into)
 {
-    if (shift == Shift::untold) {
+    if (shift == Shift::unknown) {
         errno = ENOTTY;
         return -1;
     }
@@ -52,7 +52,7 @@ int line_status(unsigned* into)
 void reset()
 {
     active = refusing = false;
-    shift = Shift::untold;
+    shift = Shift::unknown;
     count = 0;
 }
 void refuse_edges(bool refuse)

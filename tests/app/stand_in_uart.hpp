@@ -15,9 +15,9 @@ struct Edge {
     Instant at{};
 };
 
-enum class Shift { untold, empty, busy }; ///< what TIOCSERGETLSR says; untold: ENOTTY, as a pty does
+enum class Shift { unknown, empty, busy }; ///< what TIOCSERGETLSR says; unknown: ENOTTY, as a pty does
 
-/// Inactive, no edge yet, the shift register untold, nothing refused.
+/// Inactive, no edge yet, the shift register unknown, nothing refused.
 void reset();
 void refuse_edges(bool refuse); ///< EIO, as of a device that has gone
 void shift_register(Shift says);

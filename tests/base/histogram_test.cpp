@@ -25,7 +25,7 @@ std::size_t class_of(std::uint32_t value)
     return found;
 }
 
-TEST(Histogram, TellsNothingBeforeTheFirstValue)
+TEST(Histogram, HasNoFigureBeforeTheFirstValue)
 {
     const Histogram none;
 

@@ -47,7 +47,7 @@ TEST(Printable, TakesOctetsThatAreNoUtf8ForIso8859)
     EXPECT_EQ(printable("\xED\xA0\x80"), "\u00ED\u00A0\\x80") << "a surrogate";
 }
 
-TEST(Printable, LetsNothingThroughThatATerminalObeys)
+TEST(Printable, LetsNothingThroughThatATerminalExecutes)
 {
     for (int first = 0; first < 256; ++first)
         for (int second = 0; second < 256; ++second) {
@@ -69,7 +69,7 @@ TEST(Utf8, IsKeptAndAnyOtherTextIsIso8859)
     EXPECT_EQ(utf8("\n\t"), "\n\t") << "ends of lines stay";
 }
 
-TEST(PrintableJson, IsTheSameValueWithoutCharactersThatATerminalObeys)
+TEST(PrintableJson, IsTheSameValueWithoutCharactersThatATerminalExecutes)
 {
     EXPECT_EQ(printable_json("{\"a\": \"Z\u00FCrich\"}\n"), "{\"a\": \"Z\u00FCrich\"}\n");
     EXPECT_EQ(printable_json("[\"\u009B\u202E\x7F\"]"), "[\"\\u009B\\u202E\\u007F\"]");

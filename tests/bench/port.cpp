@@ -40,7 +40,7 @@ Port::Port() : master_(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC
     keeps_open_ = io::Fd{::open(name, O_RDWR | O_NOCTTY | O_CLOEXEC)};
     termios settings{};
     if (!keeps_open_ || ::tcgetattr(keeps_open_.get(), &settings) != 0) fail(name);
-    ::cfmakeraw(&settings); // before anybody is there an echo would come back as an answer
+    ::cfmakeraw(&settings); // before the responder opens it an echo would come back as an answer
     ::cfsetspeed(&settings, B1500000);
     if (::tcsetattr(keeps_open_.get(), TCSANOW, &settings) != 0) fail(name);
 }

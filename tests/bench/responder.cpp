@@ -68,8 +68,8 @@ std::chrono::nanoseconds now()
     return std::chrono::seconds{time.tv_sec} + std::chrono::nanoseconds{time.tv_nsec};
 }
 
-/// The child's whole life: as little as an answer can cost to somebody who also has deadlines to keep, as
-/// every slave has: wait for octets or the time, read, look at the length, wait for `min_tsdr`, write.
+/// All that the child does: as little as an answer can cost a slave that keeps its deadlines. Wait for octets
+/// or the time, read, look at the length, wait for `min_tsdr`, write.
 [[noreturn]] void respond(const char* path, const Octets& reply, const Scheduling& scheduling,
                           std::chrono::nanoseconds min_tsdr)
 {

@@ -5,7 +5,7 @@
 ///
 /// The time of a telegram runs from before the master's write to after its read of the reply: the pty and the
 /// master's own waking are in it, for all responders the same. What counts as CPU is the daemon's bus thread:
-/// it does all that a telegram asks for and wakes nobody. The other threads work by the clock, whether
+/// it does all that a telegram asks for and wakes no thread. The other threads work by the clock, whether
 /// telegrams come or not; the whole process with them is shown beside it.
 #include "port.hpp"
 #include "report.hpp"
@@ -175,7 +175,7 @@ void pause()
 }
 
 /// `rounds` telegrams to each target, in an order that is drawn anew each round. `drive` is emptied now and
-/// then: the daemon asks there for a drive that nobody plays.
+/// then: the daemon asks there for a drive that is not simulated.
 void run(std::span<Target* const> targets, std::size_t rounds, std::mt19937& random, Port& drive)
 {
     std::vector<Target*> order(targets.begin(), targets.end());

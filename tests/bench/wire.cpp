@@ -20,7 +20,7 @@ Octets with_saps(std::uint8_t fc, std::uint8_t dsap, std::uint8_t ssap, const Oc
     return sd2(body);
 }
 
-/// An SD2 frame that is whole, from the slave to the master, is told by everything but its contents.
+/// An SD2 frame that is whole, from the slave to the master, is recognised by everything but its contents.
 bool is_whole_sd2(std::span<const std::uint8_t> frame)
 {
     if (frame.size() < 9 || frame.size() != length_of(frame) || frame.back() != 0x16) return false;

@@ -229,7 +229,7 @@ TEST_F(TecKeys, of_the_lamps_of_a_box_that_has_none_say_so)
     EXPECT_THAT(none.watched, testing::IsEmpty()) << "nothing is polled for them";
 }
 
-TEST_F(TecKeys, take_what_a_pc_tool_may_set_for_fault_tells_it)
+TEST_F(TecKeys, take_what_a_pc_tool_may_set_for_fault_reports_it)
 {
     const auto type = [this](const char* value) {
         return box(std::string{"[station.tec]\ntype = "} + value + "\n").tec->start.type;

@@ -512,7 +512,7 @@ TEST_F(ConfigFile, an_empty_file_says_that_bus_and_station_are_missing)
                 ElementsAre(HasSubstr("'bus' is missing in the file"), HasSubstr("there is no station")));
 }
 
-TEST_F(ConfigFile, what_is_no_toml_is_told_with_its_place)
+TEST_F(ConfigFile, what_is_no_toml_is_reported_with_its_place)
 {
     EXPECT_THAT(short_forms(bad("[bus\nport = 1\n")),
                 ElementsAre(AllOf(StartsWith("1:5: "), HasSubstr("no TOML"))));
@@ -565,7 +565,7 @@ TEST_F(ConfigFile, an_error_base_without_demand_data_is_a_fault)
                 ElementsAre(AllOf(StartsWith("21:14: "), HasSubstr("has no Demand Data"))));
 }
 
-TEST_F(ConfigFile, all_faults_of_configuration_profiles_and_tables_are_told_in_one_run)
+TEST_F(ConfigFile, all_faults_of_configuration_profiles_and_tables_are_reported_in_one_run)
 {
     change_profile("broken", "ident = 0x0533", "ident = \"x\"");
     folder_.write("tags/empty.csv", "tag\nx\n");
@@ -622,7 +622,7 @@ TEST_F(ConfigFile, a_table_that_is_too_large_by_itself_is_not_blamed_on_the_othe
                 ElementsAre(HasSubstr("larger than 1 MiB")));
 }
 
-TEST_F(ConfigFile, a_table_of_two_profiles_tells_its_faults_once)
+TEST_F(ConfigFile, a_table_of_two_profiles_reports_its_faults_once)
 {
     folder_.write("tags/empty.csv", "tag\nx\n");
 

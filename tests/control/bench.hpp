@@ -15,7 +15,7 @@ namespace dpslave::test {
 
 using control::Json;
 
-/// A folder that goes with the test; readable for everybody.
+/// A folder that is removed after the test; readable for every user.
 class TempFolder {
 public:
     TempFolder();

@@ -201,9 +201,9 @@ TEST_F(Fairness, OfManyUsersWhoHoldAllPlacesTheOneWithTheMostMakesRoomForOneWhoH
         for (RawCaller& one : callers(kShare, uid)) all.push_back(std::move(one));
     EXPECT_EQ(bench.server->clients(), kPlaces - kKept);
 
-    RawCaller newcomer = caller(1004);
+    RawCaller next = caller(1004);
 
-    EXPECT_TRUE(is_served(newcomer));
+    EXPECT_TRUE(is_served(next));
     EXPECT_EQ(bench.server->clients(), kPlaces - kKept);
 }
 

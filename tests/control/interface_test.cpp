@@ -24,7 +24,7 @@ TEST(ControlInterface, HasAHandlerNameForEachMethodOfTheFileAndNoOther)
     EXPECT_EQ(written, known);
 }
 
-TEST(ControlInterface, LetsEverybodyLookAndOnlyOperatorsChange)
+TEST(ControlInterface, LetsEveryUserReadAndOnlyOperatorsChange)
 {
     const std::set<std::string_view> operating{"Survey", "WriteTag", "SetTec", "ProbeDrive", "Reload"};
     for (const MethodEntry& method : kMethods)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A caller may be slow, dead, noisy or one of too many: it is he who loses, nobody else.
+// A caller may be slow, dead, noisy or one of too many: no other caller is delayed or refused.
 #include "bench.hpp"
 
 #include <fcntl.h>
@@ -75,7 +75,7 @@ TEST(ControlLimits, TheLongestCallIsAnswered)
     EXPECT_TRUE(bench.reply(caller)->contains("parameters"));
 }
 
-TEST(ControlLimits, AStreamThatNobodyReadsIsDroppedAtItsBound)
+TEST(ControlLimits, AStreamThatIsNotReadIsDroppedAtItsBound)
 {
     constexpr std::size_t kReply = 100'000;
     Bench bench{large_answers(kReply), [](ServerSettings& s) { s.max_unsent = 3 * kReply; }};
@@ -137,7 +137,7 @@ TEST(ControlLimits, AnAnswerLongerThanAnyClientTakesIsOurFault)
     EXPECT_EQ(bench.server->counters().handler_failures, 1u);
 }
 
-TEST(ControlLimits, ThirtyTwoCallersAreServedAndTheNextIsToldBusy)
+TEST(ControlLimits, ThirtyTwoCallersAreServedAndTheNextGetsBusy)
 {
     Bench bench;
     std::vector<RawCaller> callers;

@@ -15,7 +15,7 @@ namespace {
 using test::Bench;
 using test::call;
 
-constexpr uid_t kNobody = 65534;
+constexpr uid_t kUnprivileged = 65534;
 constexpr gid_t kOperators = 4242;
 
 Caller caller_with(uid_t uid, gid_t gid, std::vector<gid_t> groups)
@@ -39,7 +39,7 @@ TEST(OperatorRights, AreThoseOfTheGroupsMembersAsMainOrSupplementaryGroup)
     EXPECT_TRUE(may_operate(caller_with(1000, 1000, {20, kOperators, 27}), kOperators));
 }
 
-TEST(OperatorRights, AreNobodyElses)
+TEST(OperatorRights, AreForNoOtherUser)
 {
     EXPECT_FALSE(may_operate(caller_with(1000, 1000, {20, 27}), kOperators));
     EXPECT_FALSE(may_operate(caller_with(1000, 0, {0}), kOperators));
@@ -92,7 +92,7 @@ class KernelsWord : public testing::Test {
 protected:
     void SetUp() override
     {
-        if (::geteuid() != 0) GTEST_SKIP() << "only root can become somebody else";
+        if (::geteuid() != 0) GTEST_SKIP() << "only root can become another user";
     }
     Bench bench{test::quiet_handlers(), [](ServerSettings& s) {
                     s.operator_group = kOperators;
@@ -111,38 +111,40 @@ TEST_F(KernelsWord, LetsRootWrite)
 
 TEST_F(KernelsWord, LetsAMemberBySupplementaryGroupWrite)
 {
-    EXPECT_EQ(ask_as(bench, caller_with(kNobody, kNobody, {20, kOperators}), write), done);
+    EXPECT_EQ(ask_as(bench, caller_with(kUnprivileged, kUnprivileged, {20, kOperators}), write), done);
 }
 
 TEST_F(KernelsWord, LetsAMemberByMainGroupWrite)
 {
-    EXPECT_EQ(ask_as(bench, caller_with(kNobody, kOperators, {}), write), done);
+    EXPECT_EQ(ask_as(bench, caller_with(kUnprivileged, kOperators, {}), write), done);
 }
 
 TEST_F(KernelsWord, CountsForTheGroupThatMayOperateFromNowOn)
 {
     constexpr gid_t others = 4343;
     bench.server->set_operators(others, "others");
-    EXPECT_EQ(ask_as(bench, caller_with(kNobody, others, {}), write), done);
-    EXPECT_NE(ask_as(bench, caller_with(kNobody, kOperators, {}), write), done);
+    EXPECT_EQ(ask_as(bench, caller_with(kUnprivileged, others, {}), write), done);
+    EXPECT_NE(ask_as(bench, caller_with(kUnprivileged, kOperators, {}), write), done);
 }
 
 TEST_F(KernelsWord, RefusesAnOrdinaryUserAndCountsIt)
 {
-    EXPECT_EQ(ask_as(bench, caller_with(kNobody, kNobody, {20}), write), refused);
+    EXPECT_EQ(ask_as(bench, caller_with(kUnprivileged, kUnprivileged, {20}), write), refused);
     EXPECT_EQ(bench.server->counters().not_permitted, 1u);
 }
 
 TEST_F(KernelsWord, LetsAnOrdinaryUserLook)
 {
-    EXPECT_EQ(ask_as(bench, caller_with(kNobody, kNobody, {}), call("GetStatus")), done);
-    EXPECT_EQ(ask_as(bench, caller_with(kNobody, kNobody, {}), call("ReadTag", R"({"tag":56})")), done);
+    EXPECT_EQ(ask_as(bench, caller_with(kUnprivileged, kUnprivileged, {}), call("GetStatus")), done);
+    EXPECT_EQ(ask_as(bench, caller_with(kUnprivileged, kUnprivileged, {}), call("ReadTag", R"({"tag":56})")),
+              done);
 }
 
 TEST_F(KernelsWord, RefusesBeforeItLooksAtTheParameters)
 {
-    EXPECT_EQ(ask_as(bench, caller_with(kNobody, kNobody, {}), call("WriteTag", R"({"nonsense":1})")),
-              refused);
+    EXPECT_EQ(
+        ask_as(bench, caller_with(kUnprivileged, kUnprivileged, {}), call("WriteTag", R"({"nonsense":1})")),
+        refused);
 }
 
 TEST_F(KernelsWord, KeepsTheLastPlacesForOperators)
@@ -151,9 +153,11 @@ TEST_F(KernelsWord, KeepsTheLastPlacesForOperators)
     for (int i = 0; i < 28; ++i) callers.push_back(bench.caller());
     bench.settle();
 
-    EXPECT_EQ(ask_as(bench, caller_with(kNobody, kNobody, {}), call("GetStatus")).value("error", ""),
-              "org.dpslaved.Control.Busy");
-    EXPECT_EQ(ask_as(bench, caller_with(kNobody, kNobody, {kOperators}), call("GetStatus")), done);
+    EXPECT_EQ(
+        ask_as(bench, caller_with(kUnprivileged, kUnprivileged, {}), call("GetStatus")).value("error", ""),
+        "org.dpslaved.Control.Busy");
+    EXPECT_EQ(ask_as(bench, caller_with(kUnprivileged, kUnprivileged, {kOperators}), call("GetStatus")),
+              done);
 }
 
 } // namespace

@@ -105,7 +105,7 @@ TEST_F(ControlServer, StillAnswersACallerWhoHasClosedHisSideForWriting)
 
 // ---------------------------------------------------------------- org.varlink.service
 
-TEST_F(ControlServer, TellsItsInterfaces)
+TEST_F(ControlServer, ListsItsInterfaces)
 {
     auto caller = bench.caller();
 
@@ -118,7 +118,7 @@ TEST_F(ControlServer, TellsItsInterfaces)
                               "interfaces":["org.varlink.service","org.dpslaved.Control"]}})"));
 }
 
-TEST_F(ControlServer, TellsTheDescriptionOfAnInterface)
+TEST_F(ControlServer, ReturnsTheDescriptionOfAnInterface)
 {
     auto caller = bench.caller();
 

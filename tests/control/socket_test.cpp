@@ -35,7 +35,7 @@ void leave_stale_socket(const std::filesystem::path& path)
     ::close(fd);
 }
 
-TEST(ControlSocket, IsOpenForEverybodyToLook)
+TEST(ControlSocket, IsReadableForEveryUser)
 {
     const test::Bench bench;
     struct stat status {};
@@ -45,7 +45,7 @@ TEST(ControlSocket, IsOpenForEverybodyToLook)
     EXPECT_EQ(status.st_mode & 0777U, 0666U);
 }
 
-TEST(ControlSocket, ThatNobodyServesIsReplaced)
+TEST(ControlSocket, WithoutAServerIsReplaced)
 {
     const TempFolder folder;
     const auto path = folder.path() / "control.sock";
@@ -57,7 +57,7 @@ TEST(ControlSocket, ThatNobodyServesIsReplaced)
     EXPECT_NO_THROW(test::RawCaller{path});
 }
 
-TEST(ControlSocket, ThatSomebodyServesIsLeftAlone)
+TEST(ControlSocket, WithAServerIsKept)
 {
     test::Bench first;
 
@@ -112,7 +112,7 @@ TEST(ControlSocket, GoesWithItsServer)
     EXPECT_FALSE(std::filesystem::exists(path));
 }
 
-TEST(ControlSocket, ThatHasBecomeSomebodyElsesIsNotRemoved)
+TEST(ControlSocket, ThatAnotherServerReplacedIsNotRemoved)
 {
     const TempFolder folder;
     const auto path = folder.path() / "control.sock";

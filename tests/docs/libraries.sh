@@ -5,11 +5,11 @@ set -eu
 cd "$1"
 row() { sed -E 's/ *\| */|/g; s/ +$//'; }
 
-told=$(sed -n '/^| library |/,/^$/p' docs/internals/architecture.md | sed '1,2d;$d' | row | sed 's/^|//' | cut -d'|' -f1,2)
+table=$(sed -n '/^| library |/,/^$/p' docs/internals/architecture.md | sed '1,2d;$d' | row | sed 's/^|//' | cut -d'|' -f1,2)
 ruled=$(grep '^[a-z]' src/libraries.txt | row | cut -d'|' -f1,3)
-[ -n "$told" ] || { echo "docs/internals/architecture.md has no table of the libraries" >&2; exit 1; }
-if [ "$told" != "$ruled" ]; then
-    printf 'docs/internals/architecture.md says:\n%s\n\nsrc/libraries.txt says:\n%s\n' "$told" "$ruled" >&2
+[ -n "$table" ] || { echo "docs/internals/architecture.md has no table of the libraries" >&2; exit 1; }
+if [ "$table" != "$ruled" ]; then
+    printf 'docs/internals/architecture.md says:\n%s\n\nsrc/libraries.txt says:\n%s\n' "$table" "$ruled" >&2
     exit 1
 fi
 for folder in src/*/; do

@@ -87,7 +87,7 @@ protected:
     dpslave::dp::Snapshot seen() const { return slave.snapshot(); }
     dpslave::Generation generation() const { return slave.snapshot().layout.generation; }
     std::vector<dpslave::dp::Event> events();
-    /// How often "left Data_Exch" was told since the last question.
+    /// Each "left Data_Exch" that was reported since the last call.
     std::vector<dpslave::Generation> left();
 
     dpslave::dp::Personality personality;

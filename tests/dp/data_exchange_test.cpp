@@ -77,7 +77,7 @@ protected:
     }
 };
 
-TEST_F(WaysOut, C12_OutputsAreZeroAndItIsToldExactlyOnce)
+TEST_F(WaysOut, C12_OutputsAreZeroAndTheEndIsReportedExactlyOnce)
 {
     for (const Way& way : ways()) {
         SCOPED_TRACE(text(way.reason));
@@ -119,7 +119,7 @@ TEST_F(WaysOut, C12_AFastStartUpLosesNoLeaving)
     EXPECT_EQ(seen().counters.orders_lost, 0u);
 }
 
-TEST_F(WaysOut, C12_LeavingsBeyondEightThatNobodyFetchedAreCounted)
+TEST_F(WaysOut, C12_LeavingsBeyondEightThatWereNotFetchedAreCounted)
 {
     for (int i = 0; i < 10; ++i) {
         exchanges();

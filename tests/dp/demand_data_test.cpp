@@ -306,7 +306,7 @@ TEST_F(DemandData, LeavingTheExchangeCancelsUnderTheOldGeneration)
     EXPECT_EQ(demand(0), kNothing);
 }
 
-TEST_F(DemandData, AnOrderThatNobodyFetchedIsNotExecutedAfterTheExchange)
+TEST_F(DemandData, AnOrderThatWasNotFetchedIsNotExecutedAfterTheExchange)
 {
     demand(0x2037, 5);
 
@@ -316,7 +316,7 @@ TEST_F(DemandData, AnOrderThatNobodyFetchedIsNotExecutedAfterTheExchange)
     EXPECT_FALSE(slave.take_demand_order());
 }
 
-TEST_F(DemandData, ACancelThatNobodyFetchedOutlivesTheExchange)
+TEST_F(DemandData, ACancelThatWasNotFetchedOutlivesTheExchange)
 {
     demand(0x1037);
     order();   // the drive side reads now
@@ -348,7 +348,7 @@ TEST_F(DemandData, ALayoutMayBeginWithACommand)
     EXPECT_EQ(again.generation, generation());
 }
 
-TEST_F(DemandData, OfOrdersThatNobodyFetchedEveryWriteAndTheNewestRemain)
+TEST_F(DemandData, OfOrdersThatWereNotFetchedEveryWriteAndTheNewestRemain)
 {
     demand(0x1001);
     demand(0x2003, 1);
@@ -362,7 +362,7 @@ TEST_F(DemandData, OfOrdersThatNobodyFetchedEveryWriteAndTheNewestRemain)
     EXPECT_FALSE(slave.take_demand_order());
 }
 
-TEST_F(DemandData, WritesBeyondEightThatNobodyFetchedLoseTheOldestAndAreCounted)
+TEST_F(DemandData, WritesBeyondEightThatWereNotFetchedLoseTheOldestAndAreCounted)
 {
     for (std::uint16_t value = 1; value <= 10; ++value) demand(0x2037, value);
 

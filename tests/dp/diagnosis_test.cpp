@@ -101,7 +101,7 @@ TEST_F(Diagnosis, C19_ADiagnosisThatAppearsIsPendingUntilTheOwnerHasReadIt)
     EXPECT_EQ(master.slave_diag(), "DL 08 0C 00 02 47 11 02 01"); // reading clears nothing that is true
 }
 
-TEST_F(Diagnosis, C19_ADiagnosisThatDisappearsIsToldToo)
+TEST_F(Diagnosis, C19_ADiagnosisThatDisappearsIsReportedToo)
 {
     exchanges();
     slave.set_ext_diag(octets("02 01"), true);

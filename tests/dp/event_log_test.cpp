@@ -40,12 +40,12 @@ TEST(EventLog, DropsARepetitionAlsoWhenTheFirstOneWasFetched)
     EXPECT_EQ(log.take(State::wait_prm, 9), kSync);
 }
 
-TEST(EventLog, TellsALossInItsPlace)
+TEST(EventLog, ReportsALossInItsPlace)
 {
     EventLog log;
     for (int i = 0; i < 17; ++i) log.add(kSync);
     for (int i = 0; i < 16; ++i) EXPECT_EQ(log.take(State::wait_prm, 9), kSync);
-    log.add(kFreeze); // behind the loss, which has not been told yet
+    log.add(kFreeze); // behind the loss, which has not been reported yet
 
     EXPECT_EQ(log.take(State::wait_cfg, 3),
               (Event{.kind = Event::Kind::overflow, .state = State::wait_cfg, .master = 3}));

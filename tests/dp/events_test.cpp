@@ -26,7 +26,7 @@ protected:
     }
 };
 
-TEST_F(Events, AStartUpTellsItsStatesAndItsMaster)
+TEST_F(Events, AStartUpReportsItsStatesAndItsMaster)
 {
     exchanges();
 
@@ -34,7 +34,7 @@ TEST_F(Events, AStartUpTellsItsStatesAndItsMaster)
                                       Event{.kind = Kind::state, .state = State::data_exch, .master = 2}));
 }
 
-TEST_F(Events, LeavingTellsWhyAndWhoseItWas)
+TEST_F(Events, LeavingReportsReasonAndMaster)
 {
     exchanges();
     events();
@@ -46,19 +46,19 @@ TEST_F(Events, LeavingTellsWhyAndWhoseItWas)
             .kind = Kind::state, .state = State::wait_prm, .reason = LeaveReason::watchdog, .master = 2}));
 }
 
-TEST_F(Events, ARefusalIsToldWithItsDetail)
+TEST_F(Events, ARefusalIsReportedWithItsDetail)
 {
     master.set_prm("88 14 01 0B 47 12 01");
 
-    const auto told = events();
-    ASSERT_EQ(told.size(), 1u);
-    EXPECT_EQ(told[0].kind, Kind::refused);
-    EXPECT_EQ(told[0].master, 2);
-    EXPECT_EQ(told[0].refusal.why, Refusal::prm_ident);
-    EXPECT_EQ(told[0].refusal.got, 0x4712);
+    const auto logged = events();
+    ASSERT_EQ(logged.size(), 1u);
+    EXPECT_EQ(logged[0].kind, Kind::refused);
+    EXPECT_EQ(logged[0].master, 2);
+    EXPECT_EQ(logged[0].refusal.why, Refusal::prm_ident);
+    EXPECT_EQ(logged[0].refusal.got, 0x4712);
 }
 
-TEST_F(Events, TheSameRefusalForEverIsToldOnce)
+TEST_F(Events, TheSameRefusalForEverIsReportedOnce)
 {
     for (int i = 0; i < 5; ++i) master.set_prm("88 14 01 0B 47 12 01");
     EXPECT_THAT(kinds(), ElementsAre(Kind::refused));
@@ -67,16 +67,16 @@ TEST_F(Events, TheSameRefusalForEverIsToldOnce)
     EXPECT_EQ(seen().counters.set_prm, 6u);
 }
 
-TEST_F(Events, AForeignSetPrmIsTold)
+TEST_F(Events, AForeignSetPrmIsReported)
 {
     exchanges();
     events();
     foreign.set_prm(kPrm);
 
-    const auto told = events();
-    ASSERT_EQ(told.size(), 1u);
-    EXPECT_EQ(told[0].kind, Kind::foreign_set_prm);
-    EXPECT_EQ(told[0].master, 9);
+    const auto logged = events();
+    ASSERT_EQ(logged.size(), 1u);
+    EXPECT_EQ(logged[0].kind, Kind::foreign_set_prm);
+    EXPECT_EQ(logged[0].master, 9);
     EXPECT_EQ(seen().counters.foreign_prm, 1u);
 }
 
@@ -87,7 +87,7 @@ TEST_F(Events, AMasterWithoutWatchdogIsWarnedOf)
     EXPECT_THAT(kinds(), ElementsAre(Kind::watchdog_of_master, Kind::state));
 }
 
-TEST_F(Events, GlobalControlIsToldWhereItChangesSomething)
+TEST_F(Events, GlobalControlIsReportedWhereItChangesSomething)
 {
     exchanges(kPrmSyncFreeze);
     events();
@@ -102,17 +102,17 @@ TEST_F(Events, GlobalControlIsToldWhereItChangesSomething)
                                      Kind::clear_data));
 }
 
-TEST_F(Events, WhatNobodyFetchesIsLostWithAWordAboutIt)
+TEST_F(Events, WhatIsNotFetchedIsLostAndReportedAsLost)
 {
     for (int i = 0; i < 10; ++i) {
         master.set_prm(kPrm);
         master.set_prm("40 00 00 00 47 11 00");
     }
 
-    const auto told = events();
-    ASSERT_EQ(told.size(), 17u);
-    EXPECT_EQ(told[15].state, State::wait_prm);
-    EXPECT_EQ(told[16].kind, Kind::overflow);
+    const auto logged = events();
+    ASSERT_EQ(logged.size(), 17u);
+    EXPECT_EQ(logged[15].state, State::wait_prm);
+    EXPECT_EQ(logged[16].kind, Kind::overflow);
     EXPECT_THAT(kinds(), IsEmpty());
     master.set_prm(kPrm);
     EXPECT_THAT(kinds(), ElementsAre(Kind::state));

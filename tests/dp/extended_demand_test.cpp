@@ -92,7 +92,7 @@ TEST_F(ExtendedDemandData, OtherCommandsAreRejectedWithCode0)
     EXPECT_FALSE(slave.take_demand_order());
 }
 
-TEST_F(ExtendedDemandData, WhatTheControllerRefusesInHoldOrHasNotIsToldByItsCode)
+TEST_F(ExtendedDemandData, WhatTheControllerRefusesInHoldOrHasNotIsReportedByItsCode)
 {
     exchange({0x4000, 8192, 0, 7}); // program 0 while it runs
     refuse(order(), AccessError::not_stopped);
@@ -189,7 +189,7 @@ TEST_F(WorkedExamples, Example1SeesTheSelfTuneFailByBit3)
     EXPECT_EQ(response_to(poll), (Registers{4172, 0, 0, 0x1008}));
 }
 
-TEST_F(WorkedExamples, Example1TellsAnErrorAs28942AndItsCode)
+TEST_F(WorkedExamples, Example1ReportsAnErrorAs28942AndItsCode)
 {
     EXPECT_EQ(response_to({8462, kAnything, kAnything, 1}), (Registers{28942, 0, 0, 0})); // no such tag
     response_to({0, 0, 0, 0});

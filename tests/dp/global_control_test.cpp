@@ -189,7 +189,7 @@ TEST_F(GlobalControl, ClearIsAnEventNotALock)
     EXPECT_EQ(master.rd_outp(), "DL 00 01");
 }
 
-TEST_F(GlobalControl, SyncAndFreezeThatSetPrmDidNotAskForAreIgnoredButClearIsObeyed)
+TEST_F(GlobalControl, SyncAndFreezeThatSetPrmDidNotAskForAreIgnoredButClearIsExecuted)
 {
     exchanges(kPrm);
     master.data_exchange("00 01");

@@ -67,7 +67,7 @@ TEST_F(Masters, TheFirstOneWins)
     EXPECT_EQ(seen().master, 2);
 }
 
-TEST_F(Masters, MinTsdrWithoutLockIsAnybodysWhileNobodyOwnsTheSlave)
+TEST_F(Masters, MinTsdrWithoutLockIsTakenFromAnyMasterWhileTheSlaveHasNoOwner)
 {
     foreign.set_prm("00 00 00 0F 00 00 00");
 

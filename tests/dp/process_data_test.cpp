@@ -113,7 +113,7 @@ TEST_F(ProcessData, StatDiagMayEndWhenEveryInputWasTriedOrHadItsTime)
     EXPECT_FALSE(input_is(0x1111, true));
 }
 
-TEST_F(ProcessData, EndTellsTheDriveSideByOrderAndByImage)
+TEST_F(ProcessData, EndIsReportedToTheDriveSideByOrderAndByImage)
 {
     const auto generation = data.configuration().layout.generation;
     data.receive(octets("00 01"));

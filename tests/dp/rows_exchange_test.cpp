@@ -104,7 +104,7 @@ TEST_F(Rows, X1_DataExchangeBeforeTheStartUpIsNotActivated)
     EXPECT_EQ(state(), State::wait_cfg);
 }
 
-TEST_F(Rows, X2_DataExchangeTakesOutputsAndTellsInputs)
+TEST_F(Rows, X2_DataExchangeTakesOutputsAndReturnsInputs)
 {
     exchanges();
 
@@ -176,7 +176,7 @@ TEST_F(Rows, X5_ForeignDataExchangeIsNotActivated)
     EXPECT_EQ(master.rd_outp(), "DL A5 01");
 }
 
-TEST_F(Rows, R1_ReadingBackIsForEverybodyInDataExch)
+TEST_F(Rows, R1_ReadingBackIsForEveryMasterInDataExch)
 {
     exchanges();
     master.data_exchange("A5 01");
@@ -220,7 +220,7 @@ TEST_F(Rows, R3_ReadingBackBeforeTheExchangeIsNotActivated)
     EXPECT_EQ(master.rd_outp(), "RS");
 }
 
-TEST_F(Rows, G1_GlobalControlOfTheOwnerIsObeyed)
+TEST_F(Rows, G1_GlobalControlOfTheOwnerIsExecuted)
 {
     exchanges();
     master.data_exchange("A5 01");
@@ -311,7 +311,7 @@ TEST_F(Rows, A1_NewDiagnosisMakesTheRepliesHighPriority)
     EXPECT_EQ(master.data_exchange("00 00"), "DH 12 34");
 }
 
-TEST_F(Rows, A2_InputsReadyEndsStatDiagAndIsTold)
+TEST_F(Rows, A2_InputsReadyEndsStatDiagAndIsReported)
 {
     start_up(kPrm, kCfg);
     diagnosis_is_read();

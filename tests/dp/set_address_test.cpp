@@ -36,7 +36,7 @@ TEST_F(SetAddress, IsRefusedUntilTheSlaveIsStopped)
     EXPECT_EQ(seen().address, 7);
 }
 
-TEST_F(SetAddress, AStoppedSlaveIsSilentAndTellsThatItLeft)
+TEST_F(SetAddress, AStoppedSlaveIsSilentAndReportsThatItLeft)
 {
     exchanges();
     const auto layout = generation();

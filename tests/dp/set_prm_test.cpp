@@ -90,7 +90,7 @@ protected:
     }
 };
 
-TEST_F(SetPrmWithoutSync, C09_UnsupportedSyncIsToldBeforeTheWatchdogFactors)
+TEST_F(SetPrmWithoutSync, C09_UnsupportedSyncIsReportedBeforeTheWatchdogFactors)
 {
     master.set_prm("B8 00 00 0B 47 11 01");
 

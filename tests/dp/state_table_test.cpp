@@ -45,7 +45,7 @@ TEST_F(Rows, B2_StopFromDataExchLeavesAndEndsInPowerOn)
     EXPECT_EQ(slave.supervision(), dpslave::fdl::Supervision::unowned);
 }
 
-TEST_F(Rows, B2_StopInWaitPrmTellsNobodyOfOutputs)
+TEST_F(Rows, B2_StopInWaitPrmReportsNoOutputs)
 {
     slave.stop(bus.now());
 
@@ -104,7 +104,7 @@ TEST_F(Rows, S3_SetSlaveAddIsNotActivatedInAnyState)
     EXPECT_EQ(state(), State::data_exch);
 }
 
-TEST_F(Rows, D1_SlaveDiagIsAnsweredInEveryStateToEverybody)
+TEST_F(Rows, D1_SlaveDiagIsAnsweredInEveryStateToEveryMaster)
 {
     EXPECT_EQ(diag_of(foreign), "02 05 00 FF");
     waits_for_cfg();

@@ -159,7 +159,7 @@ TEST_F(LateWakeUp, C13_ARetryReceivedAfterTheExpiryIsTooLateToo)
     EXPECT_EQ(lonely.state(), State::wait_prm);
 }
 
-TEST_F(LateWakeUp, C13_AGlobalControlReceivedAfterTheExpiryFindsNobody)
+TEST_F(LateWakeUp, C13_AGlobalControlReceivedAfterTheExpiryIsIgnored)
 {
     const Octets clear = octets("02 00");
     lonely.sdn({.sa = 2, .dsap = 58, .ssap = 62, .data = clear, .at = start + 200ms});
@@ -167,7 +167,7 @@ TEST_F(LateWakeUp, C13_AGlobalControlReceivedAfterTheExpiryFindsNobody)
     EXPECT_EQ(lonely.state(), State::wait_prm);
 }
 
-TEST_F(LateWakeUp, TellsWhenItWantsToBeWoken)
+TEST_F(LateWakeUp, ReportsItsNextDeadline)
 {
     EXPECT_EQ(lonely.next_deadline(), start + 200ms);
     request_at(100ms);

@@ -72,8 +72,8 @@ TEST_F(DpctlProgram, EndsWith0WhenAllIsFine)
     }
 }
 
-/// The first character that a terminal would obey, but the ends of our own lines.
-std::string obeyed_in(std::string_view text)
+/// The first character that a terminal would execute, other than the ends of our own lines.
+std::string executed_in(std::string_view text)
 {
     while (!text.empty()) {
         const std::size_t length = character_length(text);
@@ -84,7 +84,7 @@ std::string obeyed_in(std::string_view text)
     return "";
 }
 
-TEST(DpctlOfAHostileReply, PrintsNothingThatATerminalObeysAndLeavesOtherTextAlone)
+TEST(DpctlOfAHostileReply, PrintsNothingThatATerminalExecutesAndKeepsOtherText)
 {
     const FixtureDaemon daemon{" Z\u00FCrich\x1B[2J\u009B31m\u202E\r\n"};
     for (const char* words :
@@ -96,8 +96,8 @@ TEST(DpctlOfAHostileReply, PrintsNothingThatATerminalObeysAndLeavesOtherTextAlon
         for (const bool json : {false, true}) {
             if (json) arguments.push_back("--json");
             const Ran ran = dpctl(arguments);
-            EXPECT_EQ(obeyed_in(ran.out), "") << words;
-            EXPECT_EQ(obeyed_in(ran.err), "") << words;
+            EXPECT_EQ(executed_in(ran.out), "") << words;
+            EXPECT_EQ(executed_in(ran.err), "") << words;
             if (words != std::string{"counters"} && words != std::string{"doctor"}) {
                 EXPECT_THAT(ran.out + ran.err, HasSubstr("Z\u00FCrich")) << words;
             }
@@ -218,10 +218,10 @@ TEST_F(DpctlProgram, EndsWith1AndAReasonWhenItIsRefused)
 
 TEST_F(DpctlProgram, LetsAnOrdinaryUserReadButNotWrite)
 {
-    if (::geteuid() != 0) GTEST_SKIP() << "only root can become somebody else";
+    if (::geteuid() != 0) GTEST_SKIP() << "only root can become another user";
 
-    EXPECT_EQ(run({"read", "7", "--station", "5"}, Dpctl::As::nobody).exit, 0);
-    const Ran ran = run({"write", "7", "5", "--station", "5"}, Dpctl::As::nobody);
+    EXPECT_EQ(run({"read", "7", "--station", "5"}, Dpctl::As::unprivileged).exit, 0);
+    const Ran ran = run({"write", "7", "5", "--station", "5"}, Dpctl::As::unprivileged);
     EXPECT_EQ(ran.exit, 1);
     EXPECT_THAT(ran.err, StartsWith("dpctl: only root and members of the group 'dpslaved' may do this"));
 }
@@ -243,7 +243,7 @@ TEST_F(DpctlProgram, ReloadsForOperatorsOnly)
     EXPECT_EQ(ran.out, dpctl::render_reload(report::read<report::ReloadReply>(fixture("Reload")), false));
     EXPECT_EQ(Json::parse(run({"reload", "--json"}).out), fixture("Reload"));
     if (::geteuid() == 0) {
-        EXPECT_EQ(run({"reload"}, Dpctl::As::nobody).exit, 1);
+        EXPECT_EQ(run({"reload"}, Dpctl::As::unprivileged).exit, 1);
     }
 }
 
@@ -324,12 +324,12 @@ TEST(DpctlWithoutDaemon, VersionWorks)
 
 TEST(DpctlWithoutDaemon, ASocketThatTheUserMayNotReachIsNoDaemonForHim)
 {
-    if (::geteuid() != 0) GTEST_SKIP() << "only root can become somebody else";
+    if (::geteuid() != 0) GTEST_SKIP() << "only root can become another user";
     const TempFolder folder;
     std::filesystem::create_directory(folder.path() / "closed");
     std::filesystem::permissions(folder.path() / "closed", std::filesystem::perms::owner_all);
 
-    const Ran ran = dpctl({"status", "--socket", folder.path() / "closed" / "s"}, Dpctl::As::nobody);
+    const Ran ran = dpctl({"status", "--socket", folder.path() / "closed" / "s"}, Dpctl::As::unprivileged);
 
     EXPECT_EQ(ran.exit, 3);
     EXPECT_THAT(ran.err, HasSubstr("Permission denied"));

@@ -42,7 +42,7 @@ TEST(DecodeTelegram, StartUpOfTheReferenceIsNamedTelegramByTelegram)
                             "SD1: acknowledgement without data", "SD4: token from master 2 to master 4"));
 }
 
-TEST(DecodeTelegram, TellsAddressesFunctionAndSaps)
+TEST(DecodeTelegram, ShowsAddressesFunctionAndSaps)
 {
     EXPECT_EQ(picture("68 05 05 68 85 82 6D 3C 3E EE 16"), test::lines(R"(
 SD2: Slave_Diag
@@ -72,7 +72,7 @@ TEST(DecodeTelegram, ReadsSd3AsItReadsSd2)
                 HasSubstr("  outputs   01 02 03 04 05 06 07 08 (8 octets)\n"));
 }
 
-TEST(DecodeTelegram, TellsWhatADamagedOneWouldHaveSaid)
+TEST(DecodeTelegram, DecodesADamagedOneAsFarAsItGoes)
 {
     EXPECT_EQ(picture("68 05 05 68 05 02 5D 00 00 65 16"), test::lines(R"(
 SD2: Data_Exchange

@@ -45,7 +45,7 @@ TEST_F(Doctor, NamesACableThatIsCutWithinSeconds)
     EXPECT_EQ(evidence("bus.silent"), "the last octet from the bus was received 4.0 s ago");
 }
 
-TEST_F(Doctor, TellsAWrongRateFromSilenceAndSaysWhichOneIsConfigured)
+TEST_F(Doctor, DistinguishesAWrongRateFromSilenceAndSaysWhichOneIsConfigured)
 {
     station().state = "Wait_Prm";
     is_not_asked();
@@ -185,7 +185,7 @@ TEST_F(Doctor, NamesTheDriveThatWasNeverHeardInOneCauseWithAProbe)
                       HasSubstr("620: check the connections")));
 }
 
-TEST_F(Doctor, TellsADriveThatFellSilentFromOneThatWasNeverHeard)
+TEST_F(Doctor, DistinguishesADriveThatFellSilentFromOneThatWasNeverHeard)
 {
     station().drive.link = "silent";
     set_count(1, "drive_losses", 1, 1, 90'000.0);
@@ -223,7 +223,7 @@ TEST_F(Doctor, FindsAnAddressThatIsUsedTwice)
               "2 telegrams of another device with one of our addresses as the sender in the last minute");
 }
 
-TEST_F(Doctor, TellsATransceiverThatHearsItselfFromAnAddressThatIsUsedTwice)
+TEST_F(Doctor, DistinguishesATransceiverThatHearsItselfFromAnAddressThatIsUsedTwice)
 {
     count("replies", 400);
     count("own_address", 398);
@@ -313,7 +313,7 @@ TEST_F(Doctor, LooksForTheLineWhereABoxWaitsOnASilentBus)
     EXPECT_THAT(found(), ElementsAre("bus.silent", "box.no_communications"));
 }
 
-TEST_F(Doctor, TellsWhichTelegramABoxRefused)
+TEST_F(Doctor, ReportsWhichTelegramABoxRefused)
 {
     station().state = "Wait_Prm";
     refuse("Chk_Cfg", "Cfg_Data is empty");
@@ -323,7 +323,7 @@ TEST_F(Doctor, TellsWhichTelegramABoxRefused)
               "NETWORK STATE is WAIT PARAM; Chk_Cfg was refused, octet 5: Cfg_Data is empty; use the GSD");
 }
 
-TEST_F(Doctor, TellsTheTripOfTheDrive)
+TEST_F(Doctor, ReportsTheTripOfTheDrive)
 {
     is_technology_box(0, "NONE", 0);
     report::Tec& tec = replies.tec.stations[0];
@@ -401,7 +401,7 @@ TEST_F(Doctor, ASilentInstrumentIsTheLinkAndNotTheBus)
     EXPECT_THAT(found(), ElementsAre("drive.silent"));
 }
 
-// ---------------------------------------------------------------- what the counters tell
+// ---------------------------------------------------------------- what the counters show
 
 struct Counted {
     const char* name;
@@ -650,7 +650,7 @@ INSTANTIATE_TEST_SUITE_P(
                                "23 answers came after timeout_ms = 200 in the last minute"}),
     [](const auto& row) { return row.param.name; });
 
-TEST_F(Doctor, ADriveThatIsAlwaysLateIsToldTheTimeThatItNeeds)
+TEST_F(Doctor, ADriveThatIsAlwaysLateIsReportedWithTheTimeThatItNeeds)
 {
     drive_was_never_heard();
     count_of_station("drive_late", 23);

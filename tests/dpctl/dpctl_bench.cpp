@@ -22,7 +22,7 @@ namespace dpslave::test {
 namespace {
 
 constexpr int kPatience = 20'000; ///< ms
-constexpr uid_t kNobody = 65534;
+constexpr uid_t kUnprivileged = 65534;
 
 using control::Done;
 using control::Error;
@@ -216,8 +216,8 @@ Dpctl::Dpctl(std::vector<std::string> arguments, As user, bool terminal)
         if (terminal) ::login_tty(out[1]); // standard input and output, and the signals of its keys
         if (!terminal) ::dup2(out[1], STDOUT_FILENO);
         ::dup2(err[1], STDERR_FILENO);
-        if (user == As::nobody &&
-            (::setgroups(0, nullptr) != 0 || ::setgid(kNobody) != 0 || ::setuid(kNobody) != 0))
+        if (user == As::unprivileged &&
+            (::setgroups(0, nullptr) != 0 || ::setgid(kUnprivileged) != 0 || ::setuid(kUnprivileged) != 0))
             ::_exit(126);
         ::execv(argv[0], argv.data());
         ::_exit(127);

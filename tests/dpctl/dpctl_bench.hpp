@@ -18,7 +18,7 @@ namespace dpslave::test {
 /// is read only, tag 2 never gets an answer. FAULT of
 /// TEC OPTION cannot be set. A survey of tags 1 to 5 and 9 finds 12.5, no such tag, silence, >1B0B, 30.
 /// and 7.; tag 5 is Busy and then lost before it answers. Watch gives a first picture at once and a second
-/// one, in which the unwinder has left Data_Exch, as soon as somebody watches.
+/// one, in which the unwinder has left Data_Exch, as soon as a client watches.
 class FixtureDaemon {
 public:
     /// `behind_each_text`: is added to each text of each reply.
@@ -72,7 +72,7 @@ struct Ran {
 /// A running dpctl.
 class Dpctl {
 public:
-    enum class As { this_user, nobody };
+    enum class As { this_user, unprivileged };
     /// `terminal`: its output and input are a pty.
     Dpctl(std::vector<std::string> arguments, As user = As::this_user, bool terminal = false);
     Dpctl(const Dpctl&) = delete;

@@ -192,7 +192,7 @@ TEST(GsdMakeCommand, MakesFilesForEveryProfileWhoseIdentTheSiteMustSay)
         EXPECT_EQ(make({"--profile", name}).exit, dpctl::kNo) << name;
         const Ran ran = make({"--profile", name, "--ident", "0x7EA5"});
         EXPECT_EQ(ran.exit, dpctl::kFine) << name;
-        EXPECT_THAT(test::told(ran.out, gsd::Reading::strict, "SITE7EA5.GSD"), IsEmpty()) << name;
+        EXPECT_THAT(test::findings_of(ran.out, gsd::Reading::strict, "SITE7EA5.GSD"), IsEmpty()) << name;
     }
 }
 
@@ -206,7 +206,7 @@ TEST(GsdMakeCommand, NamesTheProfilesThatThereAre)
 }
 
 /// A new device is data: a profile and a tag table in a folder of their own, and no line of C++.
-TEST(GsdMakeCommand, MakesTheFileOfADeviceThatSomebodyAdded)
+TEST(GsdMakeCommand, MakesTheFileOfADeviceThatTheSiteAdded)
 {
     const test::Folder folder;
     std::string profile = content_of(kSource / "config/profiles/605.toml");
@@ -221,7 +221,7 @@ TEST(GsdMakeCommand, MakesTheFileOfADeviceThatSomebodyAdded)
     EXPECT_EQ(file.number("Ident_Number"), 0x1D01);
     EXPECT_EQ(file.keys.at("Model_Name"), "\"Line shaft 7\"");
     EXPECT_EQ(file.number("Max_Module"), 5);
-    EXPECT_THAT(test::told(ran.out, gsd::Reading::strict, "MINE1D01.GSD"), IsEmpty());
+    EXPECT_THAT(test::findings_of(ran.out, gsd::Reading::strict, "MINE1D01.GSD"), IsEmpty());
 }
 
 TEST(GsdMakeCommand, RefusesNumbersThatAreNone)

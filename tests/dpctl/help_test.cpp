@@ -56,7 +56,7 @@ TEST(DpctlHelp, SuggestsTheCommandThatIsNearest)
     EXPECT_EQ(dpctl({"stauts"}).exit, 2);
 }
 
-TEST(DpctlHelp, TellsTheVersion)
+TEST(DpctlHelp, PrintsTheVersion)
 {
     EXPECT_EQ(dpctl({"--version"}).out, "dpctl " DPSLAVE_VERSION "\n");
     for (const std::vector<std::string>& words :
@@ -71,7 +71,7 @@ TEST(DpctlHelp, TellsTheVersion)
     EXPECT_EQ(dpctl({"--version"}).exit, 0);
 }
 
-TEST(DpctlHelp, TellsExitCodesAndWhereTheSchemaIs)
+TEST(DpctlHelp, ShowsExitCodesAndWhereTheSchemaIs)
 {
     const Ran ran = dpctl({"--help"});
 
@@ -102,7 +102,7 @@ TEST(DpctlHelp, HasACommandOfEachKindUnderItsHeading)
 
 class DpctlOwnHelp : public testing::TestWithParam<std::pair<const char*, const char*>> {};
 
-TEST_P(DpctlOwnHelp, TellsExitCodesAndWhatJsonPrints)
+TEST_P(DpctlOwnHelp, ShowsExitCodesAndWhatJsonPrints)
 {
     const auto& [command, exits] = GetParam();
 
@@ -133,7 +133,7 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair{"tag", kNeedsNone}, std::pair{"hex", kNeedsNone}, std::pair{"decode", kNeedsNone}),
     [](const auto& row) { return std::string{row.param.first}; });
 
-TEST(DpctlHelp, TellsTheFormOfJsonAndExamplesWhereNoDaemonIsNeeded)
+TEST(DpctlHelp, ShowsTheFormOfJsonAndExamplesWhereNoDaemonIsNeeded)
 {
     for (const char* subcommand : {"tag", "hex", "decode"}) {
         const std::string own = dpctl({subcommand, "--help"}).out;

@@ -82,7 +82,7 @@ TEST_F(Machine, FindsTheIdleStateThatTakesLongestToLeaveAndLeavesOutDisabledOnes
     EXPECT_EQ(machine().idle_exit_us, 2);
 }
 
-TEST_F(Machine, TellsTheLatencyLimitOnlyWhereSomebodyHoldsOne)
+TEST_F(Machine, ReportsTheLatencyLimitOnlyWhereAProcessHoldsOne)
 {
     EXPECT_EQ(machine().latency_limit_us, std::nullopt); // no such file, or no right to it
     tree.latency_limit(2'000'000'000);
@@ -197,7 +197,7 @@ TEST_F(Machine, ReadsPl011AndTheThreadOfItsInterrupt)
     EXPECT_EQ(facts.irq_thread->priority, 85);
 }
 
-TEST_F(Machine, TellsTheSlowestThreadOfASharedInterrupt)
+TEST_F(Machine, ReportsTheSlowestThreadOfASharedInterrupt)
 {
     test::tuned_pi(tree);
     tree.kernel_thread(82, "irq/30-other", 50, 1);

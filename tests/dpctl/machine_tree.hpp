@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// A /proc, /sys and /dev of a test's own. Each machine below is written down as its kernel shows it; files
-/// that nobody looks at are left out.
+/// that no test reads are left out.
 #pragma once
 
 #include <sys/stat.h>

@@ -152,7 +152,7 @@ TEST(DpctlPictures, Fit80ColumnsAndUseAWiderTerminal)
     EXPECT_GT(widest(render_status(status, wide)), 80U);
 }
 
-TEST(DpctlShow, TellsEverythingAboutAStation)
+TEST(DpctlShow, ShowsEverythingAboutAStation)
 {
     EXPECT_EQ(render_show(shown(0), false), test::lines(R"(
 unwinder, address 5
@@ -193,7 +193,7 @@ unwinder, address 5
 )"));
 }
 
-TEST(DpctlShow, TellsOfAStationWithoutMasterAndOfASilentDrive)
+TEST(DpctlShow, ReportsAStationWithoutMasterAndASilentDrive)
 {
     EXPECT_NE(render_show(shown(1), false).find(R"(rewinder, address 16
   device            590 with PROFIBUS-DP option board (profile 590)
@@ -227,7 +227,7 @@ TEST(DpctlShow, HasTheFunctionBlockBelowTheLamps)
     EXPECT_GT(picture.find("\n\nbooster: TEC OPTION\n"), lamps);
 }
 
-TEST(DpctlInfo, TellsWhatIsEmulatedAndThePendingAddress)
+TEST(DpctlInfo, ShowsWhatIsEmulatedAndThePendingAddress)
 {
     const std::string picture = render_show(shown(0), false);
     for (const char* line : {"590 with PROFIBUS-DP option board", "order code        590 option digit 2",
@@ -243,7 +243,7 @@ TEST(DpctlInfo, SaysNothingOfAPendingAddressWhenThereIsNone)
     EXPECT_NE(render_show(shown(0, info), {}).find("  address           5 active\n"), std::string::npos);
 }
 
-TEST(DpctlInfo, TellsReleaseStatusAndResolutionWhereTheDeviceHasThem)
+TEST(DpctlInfo, ShowsReleaseStatusAndResolutionWhereTheDeviceHasThem)
 {
     Json info = fixture("GetInfo")["stations"][0];
     const std::string without = render_show(shown(0, info), {});

@@ -251,7 +251,7 @@ TEST(SurveyProgressLine, SaysWhatWasAskedAndHowLongItTakes)
     EXPECT_THAT(progress_line(p), HasSubstr("the pace is not measured yet"));
     p.left = seconds{120};
     p.is_time_given = true;
-    EXPECT_THAT(progress_line(p), HasSubstr("; 2 min left")) << "told, not guessed";
+    EXPECT_THAT(progress_line(p), HasSubstr("; 2 min left")) << "given, not estimated";
     p.waits_for_drive = true;
     EXPECT_THAT(progress_line(p), HasSubstr("0 silent; the drive does not answer, waiting for it"));
 }
@@ -317,7 +317,7 @@ TEST_F(SurveyProgram, AsksEveryTagWritesTheRowsAndReports)
     EXPECT_THAT(content(folder.path() / "t.survey.csv"), HasSubstr("\n3,a3,0,3,0,")) << "silent: three times";
 }
 
-TEST_F(SurveyProgram, AsksOnlyWhatItIsToldToAndAsOftenAsItIsTold)
+TEST_F(SurveyProgram, AsksOnlyTheTagsOfItsOptionsAndAsOftenAsTheySay)
 {
     const Ran ran = dpctl(command({"--tags", "1,4-4", "--passes", "3", "--json"}));
 
@@ -362,7 +362,7 @@ TEST_F(SurveyProgram, ShowsABarOnATerminal)
     EXPECT_EQ(running.wait().exit, 0);
 }
 
-TEST_F(SurveyProgram, CountsOnlyTheTagsThatItWasToldToAskWhereTheRecordHasOthers)
+TEST_F(SurveyProgram, CountsOnlyTheTagsOfThisRunWhereTheRecordHasOthers)
 {
     ASSERT_EQ(dpctl(command({"--tags", "1-2"})).exit, 0);
     Dpctl running{command({"--resume", "--tags", "4", "--for", "2s"}), Dpctl::As::this_user, true};

@@ -84,7 +84,7 @@ TEST_F(TagLookup, LeavesNamesThatSayMoreToAll)
                 HasSubstr("\n1 name more with these words; --all shows them\n"));
 }
 
-TEST_F(TagLookup, TellsAllAboutATag)
+TEST_F(TagLookup, ShowsAllColumnsOfATag)
 {
     EXPECT_EQ(shown({"270"}), test::lines(R"(
 own.csv: tag 270 (0x010E) Autotune enable

@@ -213,7 +213,7 @@ TEST_F(Tune, APreemptRtKernelThatIsNotTunedMayNeedWhatAStockKernelHasAtItsBest)
     EXPECT_EQ(reason(Baud::k1500), "needs 482 to 1532, masters wait 1000: measure it");
 }
 
-TEST_F(Tune, ADeepIdleStateIsHarmlessWhileSomebodyHoldsTheLatency)
+TEST_F(Tune, ADeepIdleStateIsHarmlessWhileAProcessHoldsTheLatency)
 {
     on(test::tuned_pi, "/dev/ttyAMA0");
     tree.idle_state(0, 1, "C6", 133);
@@ -322,7 +322,7 @@ TEST_F(Tune, NamesTheInterruptsOfTrigger1AndTheGapsOfASmallFifo)
     EXPECT_EQ(rates()[index_of(Baud::k187_5)].verdict, holds);
 }
 
-TEST_F(Tune, AUartWhoseClockIsNotToldIsDoubtful)
+TEST_F(Tune, AUartWithAnUnknownClockIsDoubtful)
 {
     on(test::stock_pc, "/dev/ttyS1");
     tree.file("sys/devices/pnp0/00:05/tty/ttyS1/uartclk", "");
@@ -338,12 +338,12 @@ TEST_F(Tune, TheRateOfTheBusMustNotNeedMoreThanIsPromised)
     on(test::tuned_pi, "/dev/ttyAMA0");
     serves(Baud::k187_5);
 
-    const TuneFinding told = finding("rate.max_tsdr");
-    EXPECT_EQ(told.severity, Severity::mend);
-    EXPECT_EQ(told.what,
+    const TuneFinding found = finding("rate.max_tsdr");
+    EXPECT_EQ(found.severity, Severity::mend);
+    EXPECT_EQ(found.what,
               "At 187.5 kbit/s this machine may need 89 bit times to begin a reply, and 60 are promised");
-    EXPECT_THAT(told.steps[0], HasSubstr("max_tsdr = 89"));
-    EXPECT_THAT(told.steps[1], HasSubstr("dpctl gsd make --max-tsdr 89"));
+    EXPECT_THAT(found.steps[0], HasSubstr("max_tsdr = 89"));
+    EXPECT_THAT(found.steps[1], HasSubstr("dpctl gsd make --max-tsdr 89"));
 
     bus_->promised[index_of(Baud::k187_5)] = 89;
     EXPECT_THAT(names(), Not(Contains("rate.max_tsdr")));
@@ -359,7 +359,7 @@ TEST_F(Tune, ACleanRecordBeatsTheEstimate)
     EXPECT_EQ(rates()[index_of(Baud::k187_5)].needed, 60u);
     EXPECT_THAT(names(), Not(Contains("rate.max_tsdr")));
 
-    bus_->traffic.replies = 1999; // too few to tell
+    bus_->traffic.replies = 1999; // too few for a statement
     EXPECT_EQ(reason(Baud::k187_5), "with max_tsdr = 89");
 }
 
@@ -518,7 +518,7 @@ TEST_F(Tune, ProcessorsThatAreNotKnownAreNotJudged)
     }
 }
 
-TEST_F(Tune, ADaemonWithoutTheRightToRealTimeIsToldHowToGetIt)
+TEST_F(Tune, ADaemonWithoutTheRightToRealTimeIsReportedWithTheSteps)
 {
     on(test::tuned_pi, "/dev/ttyAMA0");
     serves(Baud::k9_6);
@@ -639,7 +639,7 @@ TEST_F(Tune, NoLineIsLongerThan80Columns)
     }
 }
 
-TEST_F(Tune, PrintsJsonInTheFormThatItsHelpTells)
+TEST_F(Tune, PrintsJsonInTheFormThatItsHelpShows)
 {
     on(test::stock_pc, "/dev/ttyS1");
     const Json json = tune_json(facts(), rates(), findings());

@@ -116,7 +116,7 @@ TEST_F(ConsoleTest, FailsWhenAConditionDoesNotComeInTime)
     EXPECT_THAT(text, HasSubstr("not in time, in 1 is 0"));
 }
 
-TEST_F(ConsoleTest, SaysThatNobodyAnswers)
+TEST_F(ConsoleTest, ReportsThatNoStationAnswers)
 {
     silent = true;
     run("start 1s");

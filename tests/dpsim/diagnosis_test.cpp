@@ -21,7 +21,7 @@ TEST(Diagnosis, OfAFreeSlaveSaysNotReadyAndParametersRequired)
     EXPECT_EQ(d->ident, 0x0533);
 }
 
-TEST(Diagnosis, TellsTheFaultsOfStartUpApart)
+TEST(Diagnosis, DistinguishesTheFaultsOfStartUp)
 {
     EXPECT_EQ(finding(*parse_diagnosis(wire("42 05 00 FF 05 33")), "prm-fault"), true);
     EXPECT_EQ(finding(*parse_diagnosis(wire("06 05 00 FF 05 33")), "cfg-fault"), true);
@@ -49,7 +49,7 @@ TEST(Diagnosis, ExplainsEveryKindOfExtendedBlock)
     EXPECT_THAT(lines, Contains(HasSubstr("identifier 12, channel 6: error 7")));
 }
 
-TEST(Diagnosis, OfATechnologyBoxTellsTripCodeAndExtDiagnostic)
+TEST(Diagnosis, OfATechnologyBoxShowsTripCodeAndExtDiagnostic)
 {
     const auto lines = explain(*parse_diagnosis(wire("00 0C 00 01 16 49 04 01 6A B5"))); // HA463561U002
     EXPECT_THAT(lines, Contains("device-related diagnosis: 01 6A B5"));

@@ -72,7 +72,7 @@ TEST_F(Drive, AnswersOnlyAfterTheTurnaround)
     EXPECT_EQ(line.take_reply(now + 2ms), wire(kReply55));
 }
 
-TEST_F(Drive, TakesAWriteAndTellsIt)
+TEST_F(Drive, TakesAWriteAndReportsIt)
 {
     EXPECT_EQ(hears(kWrite56), wire("06"));
     EXPECT_EQ(line.units()[0].find(56)->value.counts, 1250);
@@ -151,7 +151,7 @@ struct Refusal {
 
 class DriveRefusal : public Drive, public testing::WithParamInterface<Refusal> {};
 
-TEST_P(DriveRefusal, IsToldByEe)
+TEST_P(DriveRefusal, IsReportedByEe)
 {
     EXPECT_EQ(hears(GetParam().message), wire(GetParam().answer));
     EXPECT_EQ(hears(kPollEe), wire(error_reply(GetParam().error)));

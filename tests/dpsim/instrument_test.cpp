@@ -22,7 +22,7 @@ protected:
     }
 };
 
-TEST_F(InstrumentTest, TellsWhichInstrumentItIs)
+TEST_F(InstrumentTest, ReportsWhichInstrumentItIs)
 {
     EXPECT_EQ(word(122), 0x2480);
     EXPECT_EQ(instrument_ident("2404f"), 0x2440);
@@ -100,7 +100,7 @@ TEST_F(InstrumentTest, FollowsTheSelectedSetpoint)
     EXPECT_EQ(word(24), 1000);
 }
 
-TEST_F(InstrumentTest, ObeysTheOperatorWithinLimitsAndAccess)
+TEST_F(InstrumentTest, TakesAnOperatorsValueWithinLimitsAndAccess)
 {
     EXPECT_THAT(type("panel 24 123.4"), IsEmpty());
     EXPECT_EQ(word(24), 1234);

@@ -41,7 +41,7 @@ TEST_F(MasterTest, ReadsTheDiagnosisWhenTheAnswerIsOfHighPriority)
     EXPECT_EQ(master.counters().diagnosis_pending, 1U);
 }
 
-TEST_F(MasterTest, TellsAChangedDiagnosisOnce)
+TEST_F(MasterTest, ReportsAChangedDiagnosisOnce)
 {
     exchanging();
     const auto diagnoses = [&] {
@@ -189,7 +189,7 @@ TEST_F(MasterTest, ComplainsAboutInputsOfAnotherLength)
     EXPECT_THAT(losses(), HasSubstr("should bring 2 octets"));
 }
 
-TEST_F(MasterTest, ComplainsAboutOctetsThatNobodyAskedFor)
+TEST_F(MasterTest, ReportsOctetsWithoutARequest)
 {
     exchanging();
     master.on_bytes(wire("E5"), now);
@@ -215,7 +215,7 @@ TEST_F(MasterTest, PausesAtLeast37BitTimesBeforeTheNextRequest)
     EXPECT_EQ(master.next_deadline() - now, duration_of(Tbit{37}, Baud::k187_5));
 }
 
-TEST_F(MasterTest, ReportsAnOrderThatNobodyAnswers)
+TEST_F(MasterTest, ReportsAnOrderWithoutAnAnswer)
 {
     master.order({Service::slave_diag, {}});
     expect("68 05 05 68 85 82 6D 3C 3E EE 16", "");

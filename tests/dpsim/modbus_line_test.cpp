@@ -35,7 +35,7 @@ INSTANTIATE_TEST_SUITE_P(OfModbusRtu, Crc,
                                                  "02 10 00 A4 00 03 06 00 7B 00 96 00 FA", 0x20, 0x71}),
                          [](const auto& test) { return test.param.name; });
 
-TEST(RequestLength, IsToldByTheFunction)
+TEST(RequestLength, FollowsFromTheFunction)
 {
     EXPECT_EQ(request_length(wire("01")), 0U);
     EXPECT_EQ(request_length(wire("01 03")), 8U);
@@ -147,7 +147,7 @@ struct Refusal {
 
 class ModbusRefusal : public InstrumentBench, public testing::WithParamInterface<Refusal> {};
 
-TEST_P(ModbusRefusal, IsToldByAnException)
+TEST_P(ModbusRefusal, IsReportedByAnException)
 {
     EXPECT_EQ(asks(GetParam().request), GetParam().answer);
     EXPECT_EQ(line.instruments()[0].counters.writes, 0U);
@@ -276,7 +276,7 @@ TEST_F(ModbusSlave, HasAnAddressOfItsOwnFrom1To254)
     const auto tags = *parse_tags("tag\n1\n", "t.csv");
     EXPECT_TRUE(line.add({254, 0x2480, tags, 1}));
     EXPECT_FALSE(line.add({254, 0x2480, tags, 1})) << "taken";
-    EXPECT_FALSE(line.add({0, 0x2480, tags, 1})) << "that is everybody";
+    EXPECT_FALSE(line.add({0, 0x2480, tags, 1})) << "that is the broadcast address";
     EXPECT_FALSE(line.add({255, 0x2480, tags, 1}));
 }
 

@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(Flaws, BrokenTelegram,
                                          Broken{"MissingSap", "10 85 02 49 D0 16", "SAP"}),
                          [](const auto& test) { return test.param.name; });
 
-TEST(Telegram, NeedsFourOctetsOfAnSd2ToTellItsLength)
+TEST(Telegram, NeedsFourOctetsOfAnSd2ForItsLength)
 {
     EXPECT_EQ(*frame_length(wire("68 05 05")), 0U);
 }

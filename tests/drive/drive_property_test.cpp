@@ -140,7 +140,7 @@ private:
         master.image = {};
         poller_->set_outputs(unit, master.image);
         if (pick(2) == 0)
-            poller_->left_data_exchange(unit, {master.generation}); // it is told again and again
+            poller_->left_data_exchange(unit, {master.generation}); // it is called again and again
     }
 
     void change(std::size_t unit)
@@ -157,7 +157,7 @@ private:
         poller_->set_outputs(unit, master.image);
     }
 
-    /// Somebody at the instrument; only a compared output is overridden.
+    /// A change at the front panel; only a compared output is overridden.
     void turn_the_panel(std::size_t unit)
     {
         const std::size_t tag = pick(kTags.size());

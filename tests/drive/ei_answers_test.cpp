@@ -240,7 +240,7 @@ TEST_F(EiAnswers, ALateAckOfOneDriveIsNoAckOfAnother)
     a.turnaround = 250ms;
     ASSERT_EQ(write(kFirst, output, 1), AccessError::no_answer);
 
-    EXPECT_EQ(write(kMissing, output, 0), AccessError::no_answer) << "nobody is there";
+    EXPECT_EQ(write(kMissing, output, 0), AccessError::no_answer) << "no such drive";
 }
 
 TEST_F(EiAnswers, ADoubtfulAckIsProvenByReadingBack)

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 constexpr UnitAddress kDc{0, 0}; ///< a 590+
 constexpr UnitAddress kAc{0, 1}; ///< a 650V
-constexpr UnitAddress kNobody{1, 15};
+constexpr UnitAddress kAbsent{1, 15};
 
 Tag row(int number, TagType type, unsigned decimals = 0)
 {
@@ -65,7 +65,7 @@ protected:
     EiAsciiClient client{
         line,
         {.baud = 9600, .timeout = 200ms},
-        {{kDc, MnemonicRule::dc_590plus}, {kAc, MnemonicRule::ac}, {kNobody, MnemonicRule::ac}}};
+        {{kDc, MnemonicRule::dc_590plus}, {kAc, MnemonicRule::ac}, {kAbsent, MnemonicRule::ac}}};
     std::uint16_t word = 0;
     const Tag sequence = row(536, TagType::word);
     const Tag status = row(537, TagType::word);
@@ -142,7 +142,7 @@ TEST_F(EiClient, CallsAnEotAnInvalidTag)
     EXPECT_THAT(client.last_trouble(), HasSubstr("knows no tag 100"));
 }
 
-TEST_F(EiClient, TellsAWriteOnlyParameterFromAMissingOne)
+TEST_F(EiClient, DistinguishesAWriteOnlyParameterFromAMissingOne)
 {
     dc.parameters["a0"].write_only = true;
     EXPECT_EQ(read(kDc, row(0, TagType::word)), AccessError::unsupported_type);
@@ -201,7 +201,7 @@ TEST_F(EiClient, TakesARefusalByADriveWithoutEeForNotUnderstood)
 
 TEST_F(EiClient, WaitsOneTimeOutForASilentDriveAndNoLonger)
 {
-    const auto took = time_of([this] { EXPECT_EQ(read(kNobody, status), AccessError::no_answer); });
+    const auto took = time_of([this] { EXPECT_EQ(read(kAbsent, status), AccessError::no_answer); });
     EXPECT_GE(took, 200ms);
     EXPECT_LE(took, 200ms + 9 * line.character()) << "and the time of the request on the wire";
     EXPECT_EQ(client.last_trouble(), "no answer");
@@ -267,7 +267,7 @@ TEST_F(EiClient, ReturnsFromALineThatBabbles)
 {
     line.comes_by_itself(std::string(5000, 'U'));
     line.time += 1ms;
-    const auto took = time_of([this] { EXPECT_EQ(read(kNobody, status), AccessError::no_answer); });
+    const auto took = time_of([this] { EXPECT_EQ(read(kAbsent, status), AccessError::no_answer); });
     EXPECT_LT(took, 500ms);
 }
 
@@ -278,11 +278,11 @@ TEST_F(EiClient, ReturnsWithinItsDeadlineFromALineThatBabblesForEver)
     for (const char octet : {'U', '\xFF', '\x15', '\x02', '\x04'})
         for (const auto every : {std::chrono::nanoseconds{1ms}, std::chrono::nanoseconds{19ms}}) {
             line.babbles(octet, every);
-            const auto read_took = time_of([this] { (void)read(kNobody, status); });
+            const auto read_took = time_of([this] { (void)read(kAbsent, status); });
             EXPECT_LE(read_took, longest) << int{octet};
-            const auto probe_took = time_of([this] { (void)client.probe(kNobody); });
+            const auto probe_took = time_of([this] { (void)client.probe(kAbsent); });
             EXPECT_LE(probe_took, longest) << int{octet};
-            const auto write_took = time_of([this] { (void)write(kNobody, status, 1); });
+            const auto write_took = time_of([this] { (void)write(kAbsent, status, 1); });
             EXPECT_LE(write_took, 2 * longest) << int{octet} << ": a NAK, then EE";
         }
 }
@@ -291,7 +291,7 @@ TEST_F(EiClient, AnEotThatNoDriveStandsBehindIsNoiseAndNoVerdictOnTheTag)
 {
     line.comes_by_itself("\x04", 15ms);
 
-    EXPECT_EQ(read(kNobody, status), AccessError::no_answer);
+    EXPECT_EQ(read(kAbsent, status), AccessError::no_answer);
     EXPECT_EQ(client.last_trouble(), "an EOT, but no answer for EE behind it: noise");
 }
 
@@ -299,7 +299,7 @@ TEST_F(EiClient, GivesUpADriveThatTricklesAtItsDeadline)
 {
     line.comes_by_itself("\x02ox>", 15ms);
     line.babbles('0', 19ms, 30ms);
-    const auto took = time_of([this] { EXPECT_EQ(read(kNobody, status), AccessError::no_answer); });
+    const auto took = time_of([this] { EXPECT_EQ(read(kAbsent, status), AccessError::no_answer); });
     EXPECT_LE(took, 200ms + 8 * line.character() + 85 * line.character() + 21ms);
     EXPECT_EQ(client.last_trouble(), "an answer that does not end");
 }
@@ -482,7 +482,7 @@ TEST_F(EiClient, ProbesTheIdentityAndTakesAValueForProof)
     dc.faults = {Fault::bad_bcc};
     dc.parameters["II"].text = ">0650";
     EXPECT_FALSE(client.probe(kDc));
-    EXPECT_FALSE(client.probe(kNobody));
+    EXPECT_FALSE(client.probe(kAbsent));
 }
 
 } // namespace

@@ -153,7 +153,7 @@ TEST_F(Owed, AnAckIsTakenWhereNoOtherWriteOfTheLineIsOwed)
     EXPECT_TRUE(owed.owes_write(kB)) << "a doubtful one ends nothing";
 }
 
-TEST_F(Owed, WhatNobodyWasAskedForIsForeign)
+TEST_F(Owed, WhatWasNotRequestedIsForeign)
 {
     owed.asked(read(kA, kM), after(0s));
     EXPECT_EQ(owed.heard(kN, text("1"), after(10ms)), Verdict::foreign);

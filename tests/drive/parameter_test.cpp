@@ -221,7 +221,7 @@ TEST(Reading, OfALostDriveIsHeldUnlessTheTagIsExcluded)
     EXPECT_EQ(excluded.state, WordState::invalid_tag);
 }
 
-TEST(Reading, WithoutAScaleIsHeldByALossOnlyWhenTheTableTellsTheScaleByNow)
+TEST(Reading, WithoutAScaleIsHeldByALossOnlyWhenTheTableHasTheScaleByNow)
 {
     Reading unscaled;
     unscaled.unscaled = true;

@@ -223,7 +223,7 @@ TEST(TagTable, KeepsTheOrderOfItsRowsBesideThatOfTheNumbers)
     EXPECT_EQ(table.all().front().number, 55);
 }
 
-TEST(TagType, IsTheWordOfTheColumnAndTellsRealFromInt)
+TEST(TagType, IsTheWordOfTheColumnAndDistinguishesRealFromInt)
 {
     Tag tag = number_tag(1);
     EXPECT_EQ(type_name(tag), "INT");

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t kTransactions = DRIVE_LINE_TRANSACTIONS;
 
-constexpr int kMostFindings = 5; ///< that are told in full
+constexpr int kMostFindings = 5; ///< that are printed in full
 
 std::uint64_t number_of(const char* variable, std::uint64_t otherwise)
 {
@@ -31,7 +31,8 @@ std::string story(const RunResult& result)
     return text;
 }
 
-/// Runs one after the other until there were enough transactions; the first finding is told with its trace.
+/// Runs one after the other until there were enough transactions; the first finding is printed with its
+/// trace.
 template <class Run, class Make>
 void expect_truth(const Run& run, const Make& make)
 {
@@ -78,7 +79,7 @@ TEST(Judge, ConvictsAClientThatTakesTheFirstAnswerThatLooksRight)
     EXPECT_GE(convictions(run_modbus, naive_modbus, 40), 10);
 }
 
-/// Drives that die, deny tags and refuse writes are no excuse for anybody.
+/// Drives that die, deny tags and refuse writes excuse no violation.
 TEST(Judge, AcquitsEvenThatClientWhereNothingIsLateOrLost)
 {
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {

@@ -167,7 +167,8 @@ std::optional<Octets> EiLine::carry_out(std::size_t index, const SimulatedDrive:
 {
     const std::string text(question.octets.begin() + 5, question.octets.end());
     if (text[0] != static_cast<char>(kStx)) {
-        if (question.is_spoilt) return std::nullopt; // it has no checksum: parity tells, and nothing is said
+        if (question.is_spoilt)
+            return std::nullopt; // it has no checksum: parity shows it, and there is no answer
         if (text.size() != 3 || text[2] != static_cast<char>(kEnq)) return std::nullopt;
         return polled(index, text.substr(0, 2));
     }
@@ -218,7 +219,7 @@ bool EiLine::selected(std::size_t index, const std::string& mnemonic, const std:
 
 Octets EiLine::spoilt(Octets answer)
 {
-    if (answer.size() == 1) return one(0x00); // parity tells
+    if (answer.size() == 1) return one(0x00); // parity shows it
     Octets broken = answer;
     switch (chance().below(3)) {
         case 0: broken[chance().below(broken.size())] = 0x00; break;

@@ -56,7 +56,7 @@ std::optional<std::size_t> Judge::held(const SimulatedTag& tag, std::uint16_t wo
 
 // ---- what is wanted
 
-void Judge::told_outputs(std::size_t drive, const OutputImage& image)
+void Judge::set_outputs(std::size_t drive, const OutputImage& image)
 {
     DriveRecord& record = drives_[drive];
     if (image.layout.generation != record.image.layout.generation) record.was_shown = {};
@@ -133,7 +133,7 @@ void Judge::was_written(std::size_t drive, const SimulatedTag& tag, std::uint16_
     const bool was_wanted = std::any_of(record.wanted.begin(), record.wanted.end(),
                                         [word](const Wanted& one) { return one.word == word; });
     convict(fmt::format("{:04X} was written to tag {} of drive {}, {}", word, tag.number, drive,
-                        was_wanted ? "an older word after a newer one" : "and nobody wanted that"));
+                        was_wanted ? "an older word after a newer one" : "and it was never wanted"));
 }
 
 // ---- what is shown
@@ -269,7 +269,7 @@ void Judge::answered(std::size_t drive, const DemandAnswer& answer)
     const auto order = drives_[drive].orders.find(answer.number);
     if (order == drives_[drive].orders.end())
         return convict(
-            fmt::format("an answer to order {} of drive {}, which nobody gave", answer.number, drive));
+            fmt::format("an answer to order {} of drive {}, which was not given", answer.number, drive));
     judge_answer(order->second, answer.error, answer.value);
 }
 

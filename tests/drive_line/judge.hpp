@@ -24,7 +24,7 @@ public:
     explicit Judge(SimulatedLine& line);
 
     // What the master and the operator do.
-    void told_outputs(std::size_t drive, const OutputImage& image);
+    void set_outputs(std::size_t drive, const OutputImage& image);
     void left(std::size_t drive, bool goes_to_zero);
     void ordered(std::size_t drive, const DemandOrder& order);
     void operates(const drive::OperateOrder& order);
@@ -72,7 +72,7 @@ private:
     };
     struct DriveRecord {
         std::map<std::uint16_t, TagRecord> tags;
-        OutputImage image;                            ///< as told last
+        OutputImage image;                            ///< of the last set_outputs()
         std::array<bool, kMaxParameters> was_shown{}; ///< a word other than 0, in this layout
         std::map<std::uint32_t, Order> orders;
         bool in_doubt = false; ///< it has not answered the last transaction

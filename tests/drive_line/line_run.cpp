@@ -132,7 +132,7 @@ void LineRun::enter(std::size_t drive, const std::vector<Parameter>& parameters)
         master.image.layout.parameters[master.image.layout.count++] = parameter;
     line_.trace(fmt::format("the master of drive {} chooses layout {}", drive, generation_));
     poller_.set_outputs(drive, master.image);
-    judge_.told_outputs(drive, master.image);
+    judge_.set_outputs(drive, master.image);
 }
 
 void LineRun::change(std::size_t drive)
@@ -147,7 +147,7 @@ void LineRun::change(std::size_t drive)
             line_.trace(fmt::format("the master of drive {} wants {:04X} in tag {}", drive,
                                     master.image.words[i], master.image.layout.parameters[i].tag));
     }
-    judge_.told_outputs(drive, master.image);
+    judge_.set_outputs(drive, master.image);
     poller_.set_outputs(drive, master.image);
 }
 
@@ -160,11 +160,11 @@ void LineRun::leave(std::size_t drive)
     judge_.left(drive, goes_to_zero);
     poller_.left_data_exchange(drive, {master.image.layout.generation});
     master.image = {};
-    judge_.told_outputs(drive, master.image);
+    judge_.set_outputs(drive, master.image);
     poller_.set_outputs(drive, master.image);
 }
 
-/// Something that somebody wants, or that goes wrong with a drive.
+/// A request of the master or of the operator, or a fault of a drive.
 void LineRun::act()
 {
     Chance& chance = line_.chance();

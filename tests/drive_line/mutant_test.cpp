@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The client of the program with one rule taken out of its judgement (CMakeLists.txt says which): the judge
-/// of the line has to find that out. So a rule that nobody checks is seen.
+/// of the line has to find that out. So a rule without a check is seen.
 #include "random_runs.hpp"
 
 #include <gtest/gtest.h>

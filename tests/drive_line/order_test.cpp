@@ -207,8 +207,8 @@ TEST(DeadDrivesOfAModbusLine, AreProbedOnceInARoundOfTheLivingOnesAtMost)
 
 // ---- function 8
 
-/// Time-out 200 ms, and one answer in fifteen later than that; the profile says function 8, and nobody
-/// answers it.
+/// Time-out 200 ms, and one answer in fifteen later than that; the profile says function 8, and no
+/// drive answers it.
 template <class Make>
 std::string shown_without_function_8(const Make& make)
 {

@@ -42,12 +42,12 @@ RunResult run(std::uint64_t seed, const Make& make, bool is_modbus, RunOptions o
     if (options.late) conditions.make_late();
     Line line{conditions.line, chance};
     line.faults = conditions.faults;
-    std::deque<std::string> told;
+    std::deque<std::string> lines;
     if (options.traces) {
-        told.push_back(conditions.text());
-        line.on_trace = [&told](const std::string& text) {
-            told.push_back(text);
-            if (told.size() > kTraceLines) told.erase(told.begin() + 1);
+        lines.push_back(conditions.text());
+        line.on_trace = [&lines](const std::string& text) {
+            lines.push_back(text);
+            if (lines.size() > kTraceLines) lines.erase(lines.begin() + 1);
         };
     }
     add_drives(line, conditions, is_modbus);
@@ -64,7 +64,7 @@ RunResult run(std::uint64_t seed, const Make& make, bool is_modbus, RunOptions o
     LineRun run{line, *backend, tables, rules};
     run.live(options.transactions);
     run.settle(kSettles);
-    return {run.violation().value_or(""), run.transactions(), {told.begin(), told.end()}};
+    return {run.violation().value_or(""), run.transactions(), {lines.begin(), lines.end()}};
 }
 
 } // namespace

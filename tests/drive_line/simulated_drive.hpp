@@ -13,7 +13,7 @@
 
 namespace dpslave::drive_line {
 
-/// Words that no tag of a line held before: a word on the bus then tells where it came from, and when.
+/// Words that no tag of a line held before: a word on the bus then shows where it came from, and when.
 class NewWords {
 public:
     explicit NewWords(Chance& chance) : offset_(static_cast<std::uint16_t>(chance.next())) {}
@@ -57,7 +57,7 @@ struct SimulatedTag {
     bool refuses = false;        ///< writes, as a value out of range, for the time being
     std::vector<Held> history;   ///< never empty
     Instant changes_at = kNever; ///< by itself
-    /// Since when it may hold another word than it was told last: it lost its power, or refused.
+    /// Since when it may hold another word than was written last: it lost its power, or refused.
     Instant disturbed_at{};
 
     const Held& now() const { return history.back(); }

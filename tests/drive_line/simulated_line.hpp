@@ -45,7 +45,7 @@ public:
     Faults faults;
     Instant time{std::chrono::hours{1}};
     std::function<void(std::size_t drive, SimulatedTag& tag, std::uint16_t word, Instant at)> on_write;
-    std::function<void(const std::string&)> on_trace; ///< empty: nothing is told
+    std::function<void(const std::string&)> on_trace; ///< empty: no trace
 
     const LineRules& rules() const { return rules_; }
     NewWords& words() { return words_; }

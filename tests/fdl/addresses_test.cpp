@@ -161,7 +161,7 @@ TEST_F(Addresses, WatchdogsThatAreRetriggeredCostNoScanPerTelegram)
     EXPECT_LE(scans, 20u); // a user is asked twice in a scan, and there is about one scan in a watchdog time
 }
 
-TEST_F(Addresses, UserIsWokenAtItsDeadlineAndNobodyElse)
+TEST_F(Addresses, OnlyTheUserIsWokenAtItsDeadline)
 {
     attach(10, 20);
     bus.master_sends(sd2(15, kMaster, kSrdFirst, {1}));

@@ -291,7 +291,7 @@ TEST_F(Answers, OwnAddressAsSenderIsAConflictThatIsCountedAndNotAnswered)
 {
     bus.master_sends(sd1(kUs, kUs, kFdlStatus));
     EXPECT_FALSE(bus.reply());
-    bus.master_sends(octets("68 05 05 68 02 05 08 12 34 55 16")); // somebody else answers as slave 5
+    bus.master_sends(octets("68 05 05 68 02 05 08 12 34 55 16")); // another station answers as slave 5
 
     EXPECT_EQ(station.counters().own_address, 2u);
     EXPECT_TRUE(user.heards.empty());
@@ -304,7 +304,7 @@ TEST_F(Answers, MasterAt126IsAnswered)
     EXPECT_EQ(bus.reply(), octets("10 7E 05 00 83 16"));
 }
 
-TEST_F(Answers, WhatWasCalledIsToldToTheEdgeOnce)
+TEST_F(Answers, CalledUsersAreReportedToTheEdgeOnce)
 {
     bus.master_sends(sd1(kOther, kMaster, kFdlStatus));
     EXPECT_TRUE(station.take_touched().none());
@@ -314,7 +314,7 @@ TEST_F(Answers, WhatWasCalledIsToldToTheEdgeOnce)
     EXPECT_TRUE(station.take_touched().none());
 }
 
-TEST_F(Answers, CountersTellWhatHappened)
+TEST_F(Answers, CountersCountEachCause)
 {
     bus.master_sends(sd1(kUs, kMaster, kFdlStatus));
     ASSERT_TRUE(bus.reply());

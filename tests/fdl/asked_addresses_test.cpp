@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A master that asks for an address that is nobody's: which, and who asks.
+/// A master that asks for an address without a station: which address, which master.
 #include "bench.hpp"
 
 using namespace dpslave;
@@ -23,7 +23,7 @@ protected:
     Bus bus{station};
 };
 
-TEST_F(AskedAddresses, AreToldWithTheMasterThatAsksAndHowOften)
+TEST_F(AskedAddresses, AreReportedWithTheMasterThatAsksAndHowOften)
 {
     for (int i = 0; i < 3; ++i) bus.master_sends(sd2(7, 2, kSrdFirst, Saps{61, 62}, {0x88}));
     bus.master_sends(sd2(9, 1, kSrdFirst, Saps{60, 62}));
@@ -44,7 +44,7 @@ TEST_F(AskedAddresses, AreNotThoseThatAreOnlyAskedForTheirFdlStatus)
     EXPECT_TRUE(unanswered().empty());
 }
 
-TEST_F(AskedAddresses, AreNoLongerToldWhenSomebodyAnswersThere)
+TEST_F(AskedAddresses, AreNoLongerReportedWhenAStationAnswersThere)
 {
     bus.master_sends(sd2(7, 2, kSrdFirst, Saps{60, 62}));
     bus.breaks_in_after(duration_of(Tbit{40}, Baud::k187_5), sd2(2, 7, 0x08, Saps{62, 60}, {0, 0}));

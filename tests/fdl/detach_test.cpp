@@ -59,7 +59,7 @@ TEST_F(Detach, TheOthersGoOnInTheirFrameCountSequence)
     EXPECT_EQ(neighbour.srds.size(), 2u);
 }
 
-TEST_F(Detach, TwiceOrWhereNobodyLivesDoesNothing)
+TEST_F(Detach, TwiceOrAtAFreeAddressDoesNothing)
 {
     detach(kUs);
     detach(kUs);
@@ -153,7 +153,7 @@ TEST_F(Detach, NothingOfItIsLeftToBePublished)
     EXPECT_EQ(station.take_touched(), std::bitset<128>{}.set(kNeighbour));
 }
 
-TEST_F(Detach, SomebodyElseMayHaveTheAddressWithoutAConflict)
+TEST_F(Detach, AnotherStationMayHaveTheAddressWithoutAConflict)
 {
     bus.breaks_in_after(bus.bits(100), sd2(kMaster, kUs, 0x08, {1}));
     EXPECT_EQ(station.counters().own_address, 1u);

@@ -21,7 +21,7 @@ const Octets kRequest{0x68, 0x06, 0x06, 0x68, 0x05, 0x02, 0x5D, 0x00, 0x00, 0x00
 const Octets kShort{0xE5};
 
 constexpr Instant kStart{std::chrono::seconds{9}};
-constexpr Instant kQuiet = kStart + microseconds{330}; // until here nobody else may speak
+constexpr Instant kQuiet = kStart + microseconds{330}; // until here no other station may send
 constexpr Instant kUntil = kStart + microseconds{5000};
 
 struct Line {

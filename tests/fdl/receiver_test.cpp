@@ -116,7 +116,7 @@ TEST_F(Receiver, LooksForNoTelegramBehindAStumpThatIsGone)
         << "nothing but the end of the second one is waited for";
 }
 
-TEST_F(Receiver, TellsNothingOfWhatWasGivenUpAtAnotherRate)
+TEST_F(Receiver, ReportsNothingOfWhatWasGivenUpAtAnotherRate)
 {
     reads(Octets(first.begin(), first.begin() + 4));
     EXPECT_EQ(next(), "-");

@@ -141,7 +141,7 @@ TEST_F(Resynchronisation, UnfinishedTelegramIsThrownAwayAfterTheGapLimitAndAFull
     EXPECT_TRUE(user.srds.empty());
 }
 
-TEST_F(Resynchronisation, SilenceIsSeenEvenIfNobodyCalledMeanwhile)
+TEST_F(Resynchronisation, SilenceIsSeenEvenWithoutACallMeanwhile)
 {
     const auto gap_limit = bus.bits(33) + milliseconds{5};
     station.on_bytes(octets("68 20 20 68"), kRead);
@@ -246,7 +246,7 @@ TEST_P(HeldBack, By48CharactersATelegramIsStillWhole)
     any.attach(kUs, user, kClassMaxTsdr);
     const auto characters = [](std::uint32_t count) { return duration_of(Tbit{count * 11}, GetParam()); };
     any.on_bytes(Bytes{ask}.first(15), kRead);
-    any.on_time(kRead + characters(47)); // nobody knows of them yet
+    any.on_time(kRead + characters(47));                                            // they are not read yet
     any.on_bytes(Bytes{ask}.subspan(15), kRead + characters(48) + milliseconds{4}); // and the reader slept
 
     EXPECT_EQ(user.srds.size(), 1u);

@@ -35,7 +35,7 @@ TEST(Transmission, EndsAfterElevenBitTimesAnOctet)
     EXPECT_EQ(longest.ends_at() - kStart, nanoseconds{292187500}); // 292.188 ms
 }
 
-TEST(Transmission, IsOverWithTheLastStopBitWhereTheUartTellsNothing)
+TEST(Transmission, IsOverWithTheLastStopBitWhereTheUartReportsNothing)
 {
     Transmission reply;
     reply.begin(10, kStart, Baud::k500); // 220 us

@@ -93,7 +93,7 @@ TEST_F(ReplyWindow, IsOpenUntilMaxTsdr)
     EXPECT_EQ(s.counters().late, 0u);
 }
 
-TEST_F(ReplyWindow, OfTheReplyHandedOutIsToldAfterwards)
+TEST_F(ReplyWindow, OfTheReplyHandedOutIsKnownAfterwards)
 {
     fdl::Layer2& s = station_with(100_tbit);
     s.on_time(kRead + bits(20));

@@ -111,7 +111,7 @@ TEST_P(MadeGsd, HasAModuleForEachIdentifierOfTheProfileAndNoOther)
 
 TEST_P(MadeGsd, IsLikedByAStrictReader)
 {
-    EXPECT_THAT(test::told(test::made(profile_, {}), gsd::Reading::strict), testing::IsEmpty());
+    EXPECT_THAT(test::findings_of(test::made(profile_, {}), gsd::Reading::strict), testing::IsEmpty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Modular, MadeGsd,

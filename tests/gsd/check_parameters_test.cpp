@@ -8,7 +8,7 @@
 namespace dpslave {
 namespace {
 
-using test::told;
+using test::findings_of;
 using test::with;
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -61,23 +61,23 @@ Ext_User_Prm_Data_Ref(0) = 4
 EndModule
 )";
 
-std::vector<std::string> told_of(const std::string& text)
+std::vector<std::string> strict_findings(const std::string& text)
 {
     std::string out;
     for (const char each : text) out += each == '\n' ? std::string{"\r\n"} : std::string{each};
-    return told(out, gsd::Reading::strict);
+    return findings_of(out, gsd::Reading::strict);
 }
 
 TEST(GsdParameters, OfTheReferenceAreGood)
 {
-    EXPECT_THAT(told_of(kGood), IsEmpty());
+    EXPECT_THAT(strict_findings(kGood), IsEmpty());
 }
 
 struct Bad {
     const char* name;
     const char* from;
     const char* to;
-    const char* told;
+    const char* finding;
 };
 void PrintTo(const Bad& bad, std::ostream* out)
 {
@@ -86,10 +86,10 @@ void PrintTo(const Bad& bad, std::ostream* out)
 
 class BadParameter : public testing::TestWithParam<Bad> {};
 
-TEST_P(BadParameter, IsToldWithItsLine)
+TEST_P(BadParameter, IsReportedWithItsLine)
 {
-    EXPECT_THAT(told_of(with(kGood, GetParam().from, GetParam().to)),
-                ElementsAre(StartsWith(GetParam().told)));
+    EXPECT_THAT(strict_findings(with(kGood, GetParam().from, GetParam().to)),
+                ElementsAre(StartsWith(GetParam().finding)));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -130,7 +130,7 @@ TEST(GsdParameters, ThatOverlapOrLackTheirLengthAreAWarningInFilesOfOthers)
     const auto tolerant = [](const std::string& text) {
         std::string out;
         for (const char each : text) out += each == '\n' ? std::string{"\r\n"} : std::string{each};
-        return told(out, gsd::Reading::tolerant);
+        return findings_of(out, gsd::Reading::tolerant);
     };
     EXPECT_THAT(tolerant(with(kGood, "Ext_User_Prm_Data_Ref(1) = 2", "Ext_User_Prm_Data_Ref(0) = 2")),
                 ElementsAre(StartsWith("38: warning: this parameter lies on bits")));
@@ -141,9 +141,9 @@ TEST(GsdParameters, ThatOverlapOrLackTheirLengthAreAWarningInFilesOfOthers)
 TEST(GsdParameters, MustBeDefinedBeforeTheyAreUsed)
 {
     const std::string late = "ExtUserPrmData=2 \"Limit\"\nUnsigned16 100 0-1000\nEndExtUserPrmData\n";
-    EXPECT_THAT(told_of(with(kGood, late, "") + late),
+    EXPECT_THAT(strict_findings(with(kGood, late, "") + late),
                 ElementsAre(StartsWith("35: error: there is no ExtUserPrmData 2 before this line")));
-    EXPECT_THAT(told_of(with(kGood, late, "")),
+    EXPECT_THAT(strict_findings(with(kGood, late, "")),
                 ElementsAre(StartsWith("35: error: there is no ExtUserPrmData 2 before this line")));
 }
 

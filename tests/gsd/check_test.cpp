@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is wrong in a file is told with its line and what to do (B-092, C-047; wire reference 9.2, 9.4).
+// What is wrong in a file is reported with its line and what to do (B-092, C-047; wire reference 9.2, 9.4).
 #include "second_hand.hpp"
 
 #include <gmock/gmock.h>
@@ -8,7 +8,7 @@ namespace dpslave {
 namespace {
 
 using gsd::Reading;
-using test::told;
+using test::findings_of;
 using test::with;
 using testing::Contains;
 using testing::ElementsAre;
@@ -67,20 +67,20 @@ std::string file(const std::string& from = "Fail_Safe = 0", const std::string& t
 
 TEST(GsdCheck, FindsNothingInAGoodFile)
 {
-    EXPECT_THAT(told(file(), Reading::strict, "EXMP4711.GSD"), IsEmpty());
+    EXPECT_THAT(findings_of(file(), Reading::strict, "EXMP4711.GSD"), IsEmpty());
 }
 
 TEST(GsdCheck, TakesTheDecimalAndTheHexadecimalFormForTheSame)
 {
-    EXPECT_THAT(told(file("Max_Input_Len = 8", "Max_Input_Len = 0x08"), Reading::strict), IsEmpty());
+    EXPECT_THAT(findings_of(file("Max_Input_Len = 8", "Max_Input_Len = 0x08"), Reading::strict), IsEmpty());
 }
 
-/// A change of the good file, and what a tolerant reader then tells.
+/// A change of the good file, and what a tolerant reader then reports.
 struct Bad {
     const char* name;
     const char* from;
     const char* to;
-    const char* told; ///< begins so
+    const char* finding; ///< begins so
 };
 void PrintTo(const Bad& bad, std::ostream* out)
 {
@@ -89,9 +89,10 @@ void PrintTo(const Bad& bad, std::ostream* out)
 
 class BadGsd : public testing::TestWithParam<Bad> {};
 
-TEST_P(BadGsd, IsToldWithItsLineAndWhatToDo)
+TEST_P(BadGsd, IsReportedWithItsLineAndWhatToDo)
 {
-    EXPECT_THAT(told(file(GetParam().from, GetParam().to)), ElementsAre(StartsWith(GetParam().told)));
+    EXPECT_THAT(findings_of(file(GetParam().from, GetParam().to)),
+                ElementsAre(StartsWith(GetParam().finding)));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -192,23 +193,23 @@ INSTANTIATE_TEST_SUITE_P(
             "33: error: the text of Channel_Diag has 33 characters"}),
     [](const auto& one) { return std::string{one.param.name}; });
 
-TEST(GsdCheck, TellsWhenMorePresetModulesThanAllowedAreThere)
+TEST(GsdCheck, ReportsMorePresetModulesThanAllowed)
 {
     std::string text =
         with(with(kGood, "Max_Module = 2", "Max_Module = 1"), "0x50\n1", "0x50\n1\nPreset = 1");
     text = with(text, "0x73\n2", "0x73\n2\nPreset = 1");
-    EXPECT_THAT(told(crlf(text)),
+    EXPECT_THAT(findings_of(crlf(text)),
                 ElementsAre(StartsWith("32: error: more modules are preset than Max_Module allows"),
                             StartsWith("32: error: the preset modules have 10 input and 8 output octets")));
 }
 
-TEST(GsdCheck, TellsWhenThereIsNoModuleAndNoRate)
+TEST(GsdCheck, ReportsThatThereIsNoModuleAndNoRate)
 {
     std::string text = kGood.substr(0, kGood.find("Module = \"a word"));
     for (const char* line : {"9.6_supp = 1\n", "500_supp = 1\n", "MaxTsdr_9.6 = 60\n", "MaxTsdr_500 = 100\n"})
         text = with(text, line, "");
-    EXPECT_THAT(told(crlf(text)), ElementsAre(StartsWith("0: error: no rate is supported"),
-                                              StartsWith("0: error: there is no module")));
+    EXPECT_THAT(findings_of(crlf(text)), ElementsAre(StartsWith("0: error: no rate is supported"),
+                                                     StartsWith("0: error: there is no module")));
 }
 
 /// Misspellings that files in the field have, and what the standard spells.
@@ -223,7 +224,7 @@ TEST(GsdCheck, NamesTheKeywordThatWasMeant)
         {"1,5M_supp = 1", "1.5M_supp"},
     };
     for (const auto& [line, meant] : pairs)
-        EXPECT_THAT(told(file("Fail_Safe = 0", line)),
+        EXPECT_THAT(findings_of(file("Fail_Safe = 0", line)),
                     Contains(HasSubstr("the standard spells it \"" + std::string{meant} + "\"")))
             << line;
 }
@@ -231,14 +232,15 @@ TEST(GsdCheck, NamesTheKeywordThatWasMeant)
 TEST(GsdCheck, WarnsWhereAStrictReaderRefuses)
 {
     const std::string text = file("Fail_Safe = 0", "Colour = 5");
-    EXPECT_THAT(told(text, Reading::tolerant), ElementsAre(StartsWith("16: warning: unknown keyword")));
-    EXPECT_THAT(told(text, Reading::strict), ElementsAre(StartsWith("0: error: Fail_Safe is missing"),
-                                                         StartsWith("16: error: unknown keyword")));
+    EXPECT_THAT(findings_of(text, Reading::tolerant),
+                ElementsAre(StartsWith("16: warning: unknown keyword")));
+    EXPECT_THAT(findings_of(text, Reading::strict), ElementsAre(StartsWith("0: error: Fail_Safe is missing"),
+                                                                StartsWith("16: error: unknown keyword")));
 }
 
 TEST(GsdCheck, LetsAFileWithoutRevisionPassWithAWarning)
 {
-    EXPECT_THAT(told(file("GSD_Revision = 3\n", "")),
+    EXPECT_THAT(findings_of(file("GSD_Revision = 3\n", "")),
                 ElementsAre(StartsWith("0: warning: GSD_Revision is missing")));
 }
 
@@ -247,33 +249,33 @@ TEST(GsdCheck, PutsFindingsInTheOrderOfTheirLines)
     std::string text = with(kGood, "\"EXAMPLE\"", "EXAMPLE");
     text = with(text, "Fail_Safe = 0", "Colour = 5");
     text = with(text, "Module = \"a word in\" 0x50\n1\nEndModule", "Module = \"a word in\" 0x50\n1");
-    EXPECT_THAT(told(crlf(text)), ElementsAre(StartsWith("3:"), StartsWith("16:"), StartsWith("28:")));
+    EXPECT_THAT(findings_of(crlf(text)), ElementsAre(StartsWith("3:"), StartsWith("16:"), StartsWith("28:")));
 }
 
 TEST(GsdCheck, DoesNotAskAMasterForWhatASlaveNeeds)
 {
     std::string text = with(kGood, "Station_Type = 0", "Station_Type = 1");
     text = text.substr(0, text.find("Slave_Family"));
-    EXPECT_THAT(told(crlf(text)), IsEmpty());
+    EXPECT_THAT(findings_of(crlf(text)), IsEmpty());
 }
 
 TEST(GsdCheck, SaysOnlyThatThereIsNoSectionWhereThereIsNone)
 {
-    EXPECT_THAT(told("MZ this is a program\r\n"),
+    EXPECT_THAT(findings_of("MZ this is a program\r\n"),
                 ElementsAre(StartsWith("0: error: there is no line #Profibus_DP"),
                             StartsWith("1: warning: text before")));
 }
 
 TEST(GsdCheck, ComparesTheFilesNameWithTheIdent)
 {
-    EXPECT_THAT(told(file(), Reading::tolerant, "exmp4711.gsd"), IsEmpty());
-    EXPECT_THAT(told(file(), Reading::tolerant, "EXMP4711.GSG"), IsEmpty());
-    EXPECT_THAT(told(file(), Reading::tolerant, "EURO0533.GSD"),
+    EXPECT_THAT(findings_of(file(), Reading::tolerant, "exmp4711.gsd"), IsEmpty());
+    EXPECT_THAT(findings_of(file(), Reading::tolerant, "EXMP4711.GSG"), IsEmpty());
+    EXPECT_THAT(findings_of(file(), Reading::tolerant, "EURO0533.GSD"),
                 ElementsAre(StartsWith("6: warning: the file's name \"EURO0533.GSD\" does not end in 4711")));
     EXPECT_THAT(
-        told(file(), Reading::tolerant, "drive.gsd"),
+        findings_of(file(), Reading::tolerant, "drive.gsd"),
         ElementsAre(StartsWith("0: warning: the file's name \"drive.gsd\" is not of the form VVVVIIII.GSD")));
-    EXPECT_THAT(told(file(), Reading::tolerant, "EXMP4711.txt"),
+    EXPECT_THAT(findings_of(file(), Reading::tolerant, "EXMP4711.txt"),
                 ElementsAre(StartsWith("0: warning: the file's name \"EXMP4711.txt\" does not end in .GSD")));
 }
 

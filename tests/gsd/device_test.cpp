@@ -199,10 +199,10 @@ TEST(GsdMake, NamesTheParametersInComments)
 TEST(GsdMake, RefusesWhereNoIdentIsKnownAndSaysWhereToFindIt)
 {
     for (const char* name : {"584sv", "590plus", "690plus", "2408f", "2404f"}) {
-        const auto told = refusals(name, {});
-        ASSERT_THAT(told, SizeIs(1)) << name;
-        EXPECT_THAT(told[0], testing::AllOf(HasSubstr("has no Ident_Number"), HasSubstr("--ident"),
-                                            HasSubstr("octets 5 and 6")));
+        const auto reasons = refusals(name, {});
+        ASSERT_THAT(reasons, SizeIs(1)) << name;
+        EXPECT_THAT(reasons[0], testing::AllOf(HasSubstr("has no Ident_Number"), HasSubstr("--ident"),
+                                               HasSubstr("octets 5 and 6")));
     }
 }
 
@@ -277,7 +277,7 @@ TEST(GsdMake, RefusesAMaxTsdrThatChangesNothing)
     EXPECT_THAT(refusals("590", {.max_tsdr = 70000}), ElementsAre(HasSubstr("room for 65535")));
 }
 
-TEST(GsdMake, TellsEveryReasonAtOnce)
+TEST(GsdMake, ReportsEveryReasonAtOnce)
 {
     EXPECT_THAT(refusals("2408f", {.in = {1, 1}, .out = {199}, .model = std::string(40, 'm')}), SizeIs(4));
 }

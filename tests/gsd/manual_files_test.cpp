@@ -8,8 +8,8 @@
 namespace dpslave {
 namespace {
 
+using test::findings_of;
 using test::kSource;
-using test::told;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
@@ -142,14 +142,14 @@ TEST(ManualGsd, OfThe620IsTheSecondListingOfAppendixA)
 
 TEST(ManualGsd, OfThe584SAnd590IsReadByTheMastersTools)
 {
-    EXPECT_THAT(told(shipped("584s-590"), gsd::Reading::tolerant, "EURO0533.GSD"),
+    EXPECT_THAT(findings_of(shipped("584s-590"), gsd::Reading::tolerant, "EURO0533.GSD"),
                 ElementsAre(StartsWith("0: warning: GSD_Revision is missing")));
 }
 
 TEST(ManualGsd, OfThe620LacksMaxDiagDataLenWhereMinSlaveIntervallIsRepeated)
 {
     EXPECT_THAT(
-        told(shipped("620"), gsd::Reading::tolerant, "EURO0533.GSD"),
+        findings_of(shipped("620"), gsd::Reading::tolerant, "EURO0533.GSD"),
         ElementsAre(
             StartsWith("0: warning: GSD_Revision is missing"),
             StartsWith("0: warning: Max_Diag_Data_Len is missing: add Max_Diag_Data_Len = 6"),
@@ -157,17 +157,17 @@ TEST(ManualGsd, OfThe620LacksMaxDiagDataLenWhereMinSlaveIntervallIsRepeated)
             "last one. Remove one of them."));
 }
 
-TEST(ManualGsd, SpellsUserPrmDataLenAsNoStandardDoesWhichStrictReadingTells)
+TEST(ManualGsd, SpellsUserPrmDataLenAsNoStandardDoesWhichStrictReadingReports)
 {
     EXPECT_THAT(
-        told(shipped("584s-590"), gsd::Reading::strict, "EURO0533.GSD"),
+        findings_of(shipped("584s-590"), gsd::Reading::strict, "EURO0533.GSD"),
         testing::Contains("32: error: \"User_Prm_data_Len\": the standard spells it \"User_Prm_Data_Len\"."));
 }
 
 TEST(ManualGsd, LongestDataOf40AndOf64AreBothAccepted)
 {
     for (const char* folder : {"584s-590", "620"})
-        EXPECT_THAT(told(shipped(folder), gsd::Reading::strict),
+        EXPECT_THAT(findings_of(shipped(folder), gsd::Reading::strict),
                     Not(testing::Contains(HasSubstr("Max_Data_Len"))))
             << folder;
 }

@@ -116,7 +116,7 @@ TEST(GsdParser, ClosesAModuleThatLacksEndModuleBeforeTheNextOneAndBeforeKeywords
                     "line 4."));
 }
 
-TEST(GsdParser, TellsOfAnEndWithoutItsBeginning)
+TEST(GsdParser, ReportsAnEndWithoutItsBeginning)
 {
     EXPECT_THAT(remarks(section("EndModule\r\nPrmText=1\r\nEndModule\r\nEndPrmText\r\n")),
                 ElementsAre(StartsWith("2: error: EndModule without a Module"),
@@ -149,7 +149,7 @@ TEST(GsdParser, CountsTheModuleOfACompactStationAndThePresetOnesOfAModularAsPlug
     EXPECT_EQ(modular.plugged()[0]->name, "b");
 }
 
-/// What is odd about the text itself, and the remarks that tell of it.
+/// What is odd about the text itself, and the remarks on it.
 struct Odd {
     const char* name;
     std::string lines; ///< from line 2 on
@@ -162,11 +162,11 @@ void PrintTo(const Odd& odd, std::ostream* out)
 
 class OddText : public testing::TestWithParam<Odd> {};
 
-TEST_P(OddText, IsToldWithItsLine)
+TEST_P(OddText, IsReportedWithItsLine)
 {
-    const auto told = remarks(section(GetParam().lines));
-    ASSERT_THAT(told, SizeIs(GetParam().remarks.size())) << testing::PrintToString(told);
-    for (std::size_t i = 0; i < told.size(); ++i) EXPECT_THAT(told[i], StartsWith(GetParam().remarks[i]));
+    const auto seen = remarks(section(GetParam().lines));
+    ASSERT_THAT(seen, SizeIs(GetParam().remarks.size())) << testing::PrintToString(seen);
+    for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_THAT(seen[i], StartsWith(GetParam().remarks[i]));
 }
 
 const std::string kLong80 = "Vendor_Name = \"a\" ;" + std::string(61, 'x') + "\r\n";
@@ -202,7 +202,7 @@ INSTANTIATE_TEST_SUITE_P(
             "Vendor_Name = \"Gr\xC3\xBC\xC3\x9F"
             "e\"\r\nModel_Name = \"\xC2\xB0\"\r\n",
             {"2: warning: a character is coded in UTF-8"}},
-        Odd{"Utf8InACommentHarmsNobody",
+        Odd{"Utf8InACommentIsHarmless",
             "; Gr\xC3\xBC\xC3\x9F"
             "e\r\n",
             {}},
@@ -247,7 +247,7 @@ INSTANTIATE_TEST_SUITE_P(
             {"2: error: Module \"a\" 0x50 has no EndModule: write EndModule before the end of the section"}}),
     [](const auto& one) { return std::string{one.param.name}; });
 
-TEST(GsdParser, TellsOfAByteOrderMarkAndReadsOn)
+TEST(GsdParser, ReportsAByteOrderMarkAndReadsOn)
 {
     const Document document = parse("\xEF\xBB\xBF#Profibus_DP\r\nMax_Module = 1\r\n");
     EXPECT_EQ(document.number("Max_Module"), 1U);
@@ -255,7 +255,7 @@ TEST(GsdParser, TellsOfAByteOrderMarkAndReadsOn)
                 ElementsAre(StartsWith("1: error: the file begins with a UTF-8 byte order mark")));
 }
 
-TEST(GsdParser, TellsOfWhatStandsBeforeTheSection)
+TEST(GsdParser, ReportsWhatStandsBeforeTheSection)
 {
     EXPECT_THAT(remarks(parse("; comment\r\n\r\nFile of the 590\r\nMax_Module = 1\r\n#Profibus_DP\r\n")),
                 ElementsAre(StartsWith("3: warning: text before #Profibus_DP that is no comment"),

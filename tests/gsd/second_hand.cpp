@@ -91,7 +91,7 @@ std::string made(const profile::Profile& profile, profile::Selection selection)
     return device ? gsd::write(device->device) : "";
 }
 
-std::vector<std::string> told(const gsd::Findings& findings)
+std::vector<std::string> findings_of(const gsd::Findings& findings)
 {
     std::vector<std::string> out;
     for (const gsd::Finding& finding : findings)
@@ -101,9 +101,10 @@ std::vector<std::string> told(const gsd::Findings& findings)
     return out;
 }
 
-std::vector<std::string> told(const std::string& content, gsd::Reading reading, const std::string& file_name)
+std::vector<std::string> findings_of(const std::string& content, gsd::Reading reading,
+                                     const std::string& file_name)
 {
-    return told(gsd::check(gsd::parse(content), reading, file_name));
+    return findings_of(gsd::check(gsd::parse(content), reading, file_name));
 }
 
 } // namespace dpslave::test

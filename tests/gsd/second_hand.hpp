@@ -51,9 +51,10 @@ profile::Profile load(const std::string& name);
 std::string made(const profile::Profile& profile, profile::Selection selection);
 
 /// "12: error: sentence" for each finding.
-std::vector<std::string> told(const gsd::Findings& findings);
+std::vector<std::string> findings_of(const gsd::Findings& findings);
 /// The same for a file's content.
-std::vector<std::string> told(const std::string& content, gsd::Reading reading = gsd::Reading::tolerant,
-                              const std::string& file_name = {});
+std::vector<std::string> findings_of(const std::string& content,
+                                     gsd::Reading reading = gsd::Reading::tolerant,
+                                     const std::string& file_name = {});
 
 } // namespace dpslave::test

@@ -31,7 +31,7 @@ TEST_P(ShippedGsd, IsWhatTheCommandMakes)
 
 TEST_P(ShippedGsd, IsLikedByAStrictReaderWithItsName)
 {
-    EXPECT_THAT(test::told(content_, gsd::Reading::strict, profile_.gsd.file), IsEmpty());
+    EXPECT_THAT(test::findings_of(content_, gsd::Reading::strict, profile_.gsd.file), IsEmpty());
 }
 
 TEST_P(ShippedGsd, IsPlainAsciiWithCrLfAndANameThatDosCanHold)

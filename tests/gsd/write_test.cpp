@@ -10,7 +10,7 @@ namespace dpslave {
 namespace {
 
 using gsd::Device;
-using test::told;
+using test::findings_of;
 using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -56,7 +56,7 @@ TEST(GsdWriter, PutsTheSectionFirstBecauseTheOldestToolsWantItThere)
 
 TEST(GsdWriter, WritesWhatAStrictReaderLikes)
 {
-    EXPECT_THAT(told(gsd::write(small()), gsd::Reading::strict, "EXMP4711.GSD"), IsEmpty());
+    EXPECT_THAT(findings_of(gsd::write(small()), gsd::Reading::strict, "EXMP4711.GSD"), IsEmpty());
 }
 
 TEST(GsdWriter, WritesTheSameOctetsForTheSameDevice)

@@ -146,7 +146,7 @@ TEST_F(ByGpio, AChipPulledWhileSendingIsNotedByTheEdgeThatFailsAndTheLineIsLowWh
 
     EXPECT_EQ(driver.set(false, kNow + 1ms), std::errc::no_such_device);
     EXPECT_FALSE(driver.works());
-    EXPECT_TRUE(driver.active_since()) << "nobody knows better";
+    EXPECT_TRUE(driver.active_since()) << "the level is not known";
 
     chip.come_back();
     chip.leave(kLine, true);
@@ -329,7 +329,7 @@ TEST_F(OnAPty, KernelAndRtsAreRefusedWithWhatThePortCanDo)
     EXPECT_THAT(*attach(Direction::rts), HasSubstr("no RTS"));
 }
 
-TEST_F(OnAPty, NoneIsFineAndNobodyIsSwitched)
+TEST_F(OnAPty, NoneIsFineAndSwitchesNothing)
 {
     auto driver = DriverEnable::open({.direction = Direction::none});
     ASSERT_TRUE(driver);
@@ -354,7 +354,7 @@ TEST_F(OnAPty, RtsWithoutAPortIsAnErrorOfTheEdge)
     EXPECT_FALSE(driver->ready(kNow));
 }
 
-TEST(Release, OfWhatNobodyNeedsToReleaseTouchesNothing)
+TEST(Release, OfADriverEnableThatNeedsNoReleaseTouchesNothing)
 {
     for (const Direction direction : {Direction::none, Direction::kernel, Direction::rts})
         EXPECT_FALSE(DriverEnable::release({.direction = direction}, "/dev/not-there"));

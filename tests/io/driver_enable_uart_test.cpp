@@ -149,7 +149,7 @@ TEST_F(OnAUart, TheGuardDropsRtsToo)
     EXPECT_FALSE(uart.rts);
 }
 
-TEST_F(OnAUart, TheSelfCheckOfRtsTellsWhatItDisturbsAndWhatWouldBeBetter)
+TEST_F(OnAUart, TheSelfCheckOfRtsReportsWhatItDisturbsAndWhatWouldBeBetter)
 {
     uart.takes_rs485 = true;
     DriverEnable driver = opened(Direction::rts);
@@ -174,7 +174,7 @@ TEST_F(OnAUart, TheDriverOfTheUartSwitchesWithRtsOnSendAndNoDelays)
     EXPECT_EQ(uart.rs485.delay_rts_after_send, 0);
     EXPECT_FALSE(driver.by_hand());
     EXPECT_FALSE(driver.set(true, kNow));
-    EXPECT_THAT(uart.edges, ElementsAre()) << "nobody else touches RTS";
+    EXPECT_THAT(uart.edges, ElementsAre()) << "only the kernel switches RTS";
     ASSERT_EQ(driver.self_check(), std::nullopt);
     EXPECT_THAT(driver.in_words(),
                 AllOf(HasSubstr("TIOCSRS485, read back"), HasSubstr("asserted while sending")));

@@ -128,7 +128,7 @@ TEST_F(Gpio, SomethingElseThanAChipIsRefused)
     EXPECT_THAT(refused({.chip = "/dev/null", .consumer = "the test"}), HasSubstr("is no GPIO chip"));
 }
 
-TEST_F(Gpio, AUserWithoutRightsIsToldOfTheGroup)
+TEST_F(Gpio, AUserWithoutRightsGetsTheNameOfTheGroup)
 {
     const GpioRequest request{.chip = "/dev/gpiochip0", .line = 17};
 

@@ -125,7 +125,7 @@ TEST_F(LedSinks, APinThatIsExportedIsNotAskedForAgain)
     EXPECT_EQ(get("class/gpio/export"), "");
 }
 
-TEST_F(LedSinks, AMachineWithoutSysfsGpioIsToldSo)
+TEST_F(LedSinks, AMachineWithoutSysfsGpioIsReported)
 {
     const auto lamp = open_led_sink("gpio:23", sysfs);
 

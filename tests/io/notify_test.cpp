@@ -107,7 +107,7 @@ TEST_F(ServiceManager, SaysHowOftenItWantsToHearTheWatchdog)
     EXPECT_EQ(notifier.watchdog_interval(), 3s);
 }
 
-TEST_F(ServiceManager, WatchesNobodyUnlessAsked)
+TEST_F(ServiceManager, HasNoWatchdogUnlessConfigured)
 {
     EXPECT_EQ(notifier.watchdog_interval(), std::nullopt);
 

@@ -69,7 +69,7 @@ TEST(ParityMarks, FfFfThenZeroIsNoMark)
     EXPECT_EQ(undone({{0xFF, 0xFF, 0x00, 0x41}}), (Characters{0xFF, 0x00, 0x41}));
 }
 
-TEST(ParityMarks, ACharacterWithAnErrorIsToldAndDropped)
+TEST(ParityMarks, ACharacterWithAnErrorIsReportedAndDropped)
 {
     EXPECT_EQ(undone({{0x41, 0xFF, 0x00, 0x43, 0x44}}), (Characters{0x41, kBad, 0x44}));
 }

@@ -156,20 +156,20 @@ TEST(TtyOpen, ASecondOpenerDoesNotDisturbTheFirst)
 }
 
 /// Opens `path` as an ordinary user, in a child process; gives the child's sentence.
-std::string refusal_for_nobody(const std::string& path)
+std::string refusal_for_unprivileged(const std::string& path)
 {
     int channel[2];
     if (::pipe(channel) != 0) return "pipe";
     const pid_t child = ::fork();
     if (child == 0) {
-        constexpr unsigned kNobody = 65534;
+        constexpr unsigned kUnprivileged = 65534;
         std::string sentence = "no way to become an ordinary user";
-        if (::setgid(kNobody) == 0 && ::setuid(kNobody) == 0) {
+        if (::setgid(kUnprivileged) == 0 && ::setuid(kUnprivileged) == 0) {
             const auto tty = Tty::open(path, kBus);
             sentence = tty ? "opened" : tty.error();
         }
-        const bool told = ::write(channel[1], sentence.data(), sentence.size()) > 0;
-        ::_exit(told ? 0 : 1);
+        const bool is_written = ::write(channel[1], sentence.data(), sentence.size()) > 0;
+        ::_exit(is_written ? 0 : 1);
     }
     ::close(channel[1]);
     char text[512] = {};
@@ -181,13 +181,13 @@ std::string refusal_for_nobody(const std::string& path)
     return got > 0 ? text : "";
 }
 
-TEST(TtyOpen, TellsAUserWithoutRightsWhichGroupHelps)
+TEST(TtyOpen, NamesTheGroupThatAUserWithoutRightsNeeds)
 {
     if (::geteuid() != 0) GTEST_SKIP() << "needs root to become another user";
     Pty cable;
     ASSERT_EQ(::chmod(cable.path().c_str(), 0600), 0);
 
-    EXPECT_THAT(refusal_for_nobody(cable.path()),
+    EXPECT_THAT(refusal_for_unprivileged(cable.path()),
                 AllOf(StartsWith(cable.path()), HasSubstr("group"), HasSubstr("dialout")));
 }
 
@@ -323,7 +323,7 @@ TEST(TtyWrite, AnEndThatTakesNothingIsGivenUpAfterABoundedTime)
     const std::vector<std::uint8_t> telegram(255, 0x55);
 
     std::error_code error;
-    for (int i = 0; i < 1000 && !error; ++i) error = tty.write(telegram); // nobody reads: the buffers fill up
+    for (int i = 0; i < 1000 && !error; ++i) error = tty.write(telegram); // not read: the buffers fill up
 
     EXPECT_EQ(error, std::errc::timed_out);
 }
@@ -348,7 +348,7 @@ TEST(TtySend, ATelegramThatDoesNotFitIsThrownAwayWholeAndWithoutWaiting)
     const std::vector<std::uint8_t> telegram(255, 0x55);
 
     std::error_code error;
-    for (int i = 0; i < 1000 && !error; ++i) error = tty.send(telegram); // nobody reads: the buffers fill up
+    for (int i = 0; i < 1000 && !error; ++i) error = tty.send(telegram); // not read: the buffers fill up
 
     EXPECT_EQ(error, std::errc::no_buffer_space);
 }
@@ -376,7 +376,7 @@ TEST(TtyBaud, IsChangedAndWhatCameBeforeIsThrownAway)
     EXPECT_THAT(copy(*chunk), ElementsAre(9));
 }
 
-TEST(TtyBaud, ChangeDoesNotWaitForOctetsThatNobodyTakes)
+TEST(TtyBaud, ChangeDoesNotWaitForOctetsThatAreNotTaken)
 {
     Pty cable;
     Tty tty = opened(cable.path(), kBus);
@@ -415,7 +415,7 @@ TEST(TtyBaud, APtyCanDoThemAllAndStaysAtItsOwn)
     EXPECT_FALSE(tty.wait_readable(0s)) << "what came while it tried is noise";
 }
 
-TEST(TtyTransmitter, ADriverThatDoesNotTellIsNotAskedAgain)
+TEST(TtyTransmitter, ADriverThatCannotReportItIsNotAskedAgain)
 {
     Pty cable;
     const Tty tty = opened(cable.path(), kBus);

@@ -111,7 +111,7 @@ TEST(UartRate, OfADriverWithADivisorOfItsOwnIsNotCalculated)
         EXPECT_EQ(rate_on_the_wire(uart_of(PORT_16550A, 115'200, driver), 93'750), std::nullopt) << driver;
     EXPECT_EQ(rate_on_the_wire(uart_of(32 /* PORT_AMBA */, 115'200, ""), 93'750), std::nullopt);
     EXPECT_EQ(rate_on_the_wire(uart_of(PORT_16550A, 0, "serial"), 93'750), std::nullopt)
-        << "no clock is told";
+        << "no clock is known";
     EXPECT_EQ(rate_on_the_wire(kUnknown, 93'750), std::nullopt);
 }
 
@@ -150,8 +150,7 @@ public:
     {
         std::ofstream{folder_ / attribute} << text;
     }
-    /// A number that nobody can change, and is not 1, as a user without the right to it has it; gives it
-    /// back.
+    /// A number other than 1 that cannot be changed, as for a user without the right to it. Returns it.
     std::string freeze(const std::string& attribute) const
     {
         fs::create_symlink("/proc/sys/kernel/random/poolsize", folder_ / attribute);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Shared by the machine tests, on the side of the host: where images are cached, how progress is told, what is kept on
+# Shared by the machine tests, on the side of the host: where images are cached, how progress is printed, what is kept on
 # failure. The side of the guest is guest.sh.
 #
 # tests/machine/STEP/run sources this file. tools/check-machine starts it as `run NAME` (NAME is the step as the user
@@ -63,7 +63,7 @@ dependencies_of() {
 
 # A folder of the cache, made once: cached NAME MAKER ARGUMENTS... runs `MAKER FOLDER ARGUMENTS...` when there is no
 # NAME yet, and prints the path. Two runs at the same time make it once; what was broken off is made again. Folders of
-# the same kind (the part of NAME before its first dot) that nobody has used for two weeks are removed.
+# the same kind (the part of NAME before its first dot) that were not used for two weeks are removed.
 cached() {
     local name=$1 maker=$2 path=$machine_cache/$1
     shift 2

@@ -144,7 +144,7 @@ TEST_F(ModbusAnswers, AnAnswerThatIs1300MsLateIsNotTakenForAnotherRegister)
     line.answers("01 03 02 11 11", 1300ms);
     ASSERT_EQ(read(1), AccessError::no_answer);
 
-    EXPECT_EQ(read(2), AccessError::deferred) << "its answer could not be told from the late one";
+    EXPECT_EQ(read(2), AccessError::deferred) << "its answer would look like the late one";
     EXPECT_EQ(line.asked.size(), 1u);
 
     line.time += 700ms;
@@ -282,7 +282,7 @@ TEST_F(ModbusAnswers, AUnitIsBackOnAnyFrameOfItsOwn)
 
 TEST_F(ModbusEcho, IsNotTakenForTheAnswerToAWrite)
 {
-    EXPECT_EQ(write(1, 5), AccessError::no_answer) << "nobody is there";
+    EXPECT_EQ(write(1, 5), AccessError::no_answer) << "only the echo came";
     line.time += 10s;
     line.answers("01 06 00 01 00 05");
     EXPECT_EQ(write(1, 5), AccessError::none) << "the second copy is the answer";

@@ -68,7 +68,7 @@ TEST_P(ModbusException, OfAWriteIsJudgedByTheTable)
     EXPECT_EQ(line.drive().last_trouble(), GetParam().words);
 }
 
-TEST_P(ModbusException, OfAWrittenBlockDoesNotTellWhichTagItWas)
+TEST_P(ModbusException, OfAWrittenBlockDoesNotSayWhichTagItWas)
 {
     line.slave().answers(answer("90"));
     const std::array<std::uint16_t, 2> words{1, 2};

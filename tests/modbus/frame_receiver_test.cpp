@@ -67,7 +67,7 @@ TEST_F(ModbusFrameReceiver, GivesNoFrameWithAParityFaultInIt)
     EXPECT_THAT(hears({good.begin() + 3, good.end()}), ElementsAre());
     EXPECT_THAT(hears(good), ElementsAre()) << "nothing counts until the line was silent";
 
-    EXPECT_EQ(receiver.silence(), Found::nothing) << "it was told already";
+    EXPECT_EQ(receiver.silence(), Found::nothing) << "it was reported already";
     EXPECT_THAT(hears(good), ElementsAre(Found::frame));
 }
 

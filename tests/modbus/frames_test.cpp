@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What goes over the line, octet by octet. The frames of the 2000 series handbook (HA026230) are told apart
+/// What goes over the line, octet by octet. The frames of the 2000 series handbook (HA026230) are known
 /// by their printed check sums; the others were computed by another program.
 #include "scripted_slave.hpp"
 
@@ -189,7 +189,7 @@ TEST(ModbusProbe, ReadsRegister1)
     EXPECT_THAT(line.slave().requested(), ElementsAre("01 03 00 01 00 01 D5 CA"));
 }
 
-TEST(ModbusProbe, FindsNobodyOnASilentLine)
+TEST(ModbusProbe, FindsNoDriveOnASilentLine)
 {
     Bench line{20ms};
 

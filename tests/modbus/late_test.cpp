@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Answers that come too late, octets that nobody asked for, and the silence between two telegrams. Where a
+/// Answers that come too late, octets without a request, and the silence between two telegrams. Where a
 /// time is looked at, it is one that must at least have passed.
 #include "scripted_slave.hpp"
 
@@ -42,8 +42,7 @@ TEST(ModbusLateAnswer, IsNotTakenForTheAnswerToAWriteEither)
     line.slave().is_silent();
     ASSERT_EQ(line.write(number(1), 5), AccessError::no_answer);
 
-    EXPECT_EQ(line.write(number(2), 5), AccessError::deferred)
-        << "its answer could not be told from a late one";
+    EXPECT_EQ(line.write(number(2), 5), AccessError::deferred) << "its answer would look like a late one";
     EXPECT_THAT(line.slave().requests(), SizeIs(1));
 }
 

@@ -37,7 +37,7 @@ public:
     void answers(const std::string& without_check_sum) { says(framed(without_check_sum)); }
     void says(Octets exactly);
     void is_silent() { says({}); }
-    /// Without being asked, `after` this call; spoke_at() waits for it and tells when that was.
+    /// Without being asked, `after` this call; spoke_at() waits for it and returns its time.
     void says_by_itself(Octets exactly, std::chrono::milliseconds after);
     Clock::time_point spoke_at() const;
 

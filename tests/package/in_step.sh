@@ -9,7 +9,7 @@ name=$(basename "$program")
 page=$(echo "docs/man/$name".[18].scd)
 # shellcheck source=/dev/null
 source "config/completion/$name.bash"
-compopt() { :; } # only to be had while somebody types
+compopt() { :; } # exists only during interactive completion
 faults=0
 fault() {
     echo "$*"

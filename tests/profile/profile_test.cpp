@@ -276,7 +276,7 @@ TEST_F(OwnProfile, may_answer_the_extended_commands_as_the_worked_example_does)
 
 TEST_F(OwnProfile, of_a_new_device_is_a_file_and_a_table_and_no_code)
 {
-    // A pump that nobody here has heard of: two identifiers of its own, ten parameters, a status word,
+    // A pump that no shipped profile describes: two identifiers of its own, ten parameters, a status word,
     // Modbus.
     std::string text = shipped("2408f");
     for (const auto& [from, to] : std::initializer_list<std::pair<const char*, const char*>>{
@@ -363,7 +363,7 @@ TEST_F(OwnProfile, needs_one_rate_at_least)
     EXPECT_THAT(test::short_forms(profile.error()), ElementsAre(HasSubstr("[max_tsdr] names no rate")));
 }
 
-TEST_F(OwnProfile, faults_of_the_profile_and_of_its_table_are_told_in_one_run)
+TEST_F(OwnProfile, faults_of_the_profile_and_of_its_table_are_reported_in_one_run)
 {
     folder_.write("tags/empty.csv", "tag,type\n55,FLOAT\n");
 

@@ -244,7 +244,7 @@ TEST(ShippedProfiles, of_the_technology_box_have_the_order_codes_and_firmware_of
     EXPECT_THAT(p690.device, HasSubstr("B to K")) << "X-37";
 }
 
-TEST(ShippedProfiles, of_the_technology_box_tell_the_trip_code_where_the_drive_knows_it)
+TEST(ShippedProfiles, of_the_technology_box_report_the_trip_code_where_the_drive_has_it)
 {
     for (const char* name : {"584sv", "605", "690plus"})
         EXPECT_EQ(load(name).diagnosis, DiagForm::trip_code) << name;

@@ -103,7 +103,7 @@ TEST(SurveyTable, what_was_denied_or_silent_gets_no_row)
     EXPECT_THAT(table.contradictions, IsEmpty());
 }
 
-TEST(SurveyTable, what_no_row_can_hold_is_told)
+TEST(SurveyTable, what_no_row_can_hold_is_reported)
 {
     for (const auto& [answers, why] : std::initializer_list<std::pair<Sighting, const char*>>{
              {saw({"1.", ">1"}), "more than one form"},
@@ -182,7 +182,7 @@ TEST(SurveyTable, a_value_beyond_the_limits_of_a_confirmed_row_contradicts_it)
                             "tag 56, line 3: the drive answered 400, its row allows 327.67 at most"));
 }
 
-TEST(SurveyTable, a_number_row_without_decimals_is_told_how_many_were_seen)
+TEST(SurveyTable, a_number_row_without_decimals_is_reported_with_the_decimals_seen)
 {
     const SurveyedTable table =
         merged("tag,name,type,decimals\n64,MOTOR CURRENT,REAL,\n", {{64, saw({"1.5"})}});

@@ -294,7 +294,7 @@ TEST(SurveyTags, what_is_no_such_list_is_refused)
     EXPECT_THAT(parse_tag_spans("1, 3").error(), HasSubstr("without blanks"));
 }
 
-TEST(SurveyTags, are_told_as_spans)
+TEST(SurveyTags, are_printed_as_spans)
 {
     const std::vector<std::uint16_t> tags{1, 2, 3, 7, 9, 10, 65535};
     EXPECT_EQ(spans_text(tags), "1-3, 7, 9, 10, 65535");

@@ -48,7 +48,7 @@ TEST_F(TagTable, of_iso_8859_1_or_utf_8_names_what_its_author_wrote)
     EXPECT_EQ(good("tag,name\n1,Z\u00FCrich\n").find(1)->name, "Z\u00FCrich");
 }
 
-TEST_F(TagTable, with_thousands_of_faults_tells_the_first_ones_and_that_there_are_more)
+TEST_F(TagTable, with_thousands_of_faults_reports_the_first_ones_and_that_there_are_more)
 {
     std::string content = "tag,name,type\n";
     for (int i = 0; i < 12'000; ++i) content += std::to_string(i) + ",a name,NOTYPE\n";
@@ -61,7 +61,7 @@ TEST_F(TagTable, with_thousands_of_faults_tells_the_first_ones_and_that_there_ar
     EXPECT_THAT(faults.back().what, HasSubstr("more faults"));
 }
 
-TEST_F(TagTable, with_thousands_of_rows_of_wrong_form_tells_the_first_ones_and_that_there_are_more)
+TEST_F(TagTable, with_thousands_of_rows_of_wrong_form_reports_the_first_ones_and_that_there_are_more)
 {
     std::string content = "tag,name\n";
     for (int i = 0; i < 12'000; ++i) content += std::to_string(i) + ",a\x07\n";
@@ -294,7 +294,7 @@ TEST_F(TagTable, keeps_the_order_of_its_rows)
     EXPECT_THAT(order, ElementsAre(273, 2, 1, 5)) << "each where its own row stands";
 }
 
-TEST_F(TagTable, tells_floating_values_from_whole_numbers)
+TEST_F(TagTable, distinguishes_floating_values_from_whole_numbers)
 {
     const auto tags = good("tag,type,decimals,register\n1,INT,2,\n2,REAL,0,32772\n3,INT,display,32774\n"
                            "4,ENUM,,32776\n5,WORD,,32778\n6,BOOL,,32780\n");
@@ -421,7 +421,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadTable{"tag,max\n1,5\n1,6\n", "3:3: ", "another max"},
         BadTable{"tag,type,values\n1,ENUM,0=a\n1,ENUM,0=b\n", "3:8: ", "another values"}));
 
-TEST_F(TagTable, all_faults_of_a_table_are_told_in_one_run_in_the_order_of_the_lines)
+TEST_F(TagTable, all_faults_of_a_table_are_reported_in_one_run_in_the_order_of_the_lines)
 {
     const Faults faults = bad("tag,type,access,min\nx,INT,ro,\n2,FLOAT,maybe,\n3,\"INT,ro,1\n");
 

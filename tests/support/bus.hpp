@@ -75,7 +75,7 @@ public:
 
     dpslave::Instant now() const { return now_; }
     void advance(duration by);
-    /// Nobody talks for `silence`, counted from the end of what goes on now.
+    /// No station sends for `silence`, counted from the end of the octets on the line now.
     void line_is_idle_for(duration silence);
     /// From now on the edge wakes up this much later than the station asks for.
     void edge_is_late_by(duration latency) { edge_latency_ = latency; }
@@ -107,7 +107,7 @@ private:
     dpslave::fdl::Layer2& station_;
     BusSettings settings_;
     dpslave::Instant now_{std::chrono::seconds{1000}};
-    dpslave::Instant busy_until_ = now_;  ///< end of the last octet of anybody
+    dpslave::Instant busy_until_ = now_;  ///< end of the last octet of any station
     dpslave::Instant request_end_ = now_; ///< end of the last octet of a master
     Octets asked_;                        ///< what masters said since the last reply
     bool in_cycle_ = false;               ///< a request may still be answered

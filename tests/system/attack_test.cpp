@@ -42,10 +42,10 @@ TEST_F(Attack, FromAnyUserKeepsTheMainThreadNeitherFromItsWatchdogNorFromTheLog)
     ASSERT_TRUE(attacker.says("attacking"));
 
     for (int i = 0; i < 12; ++i) EXPECT_TRUE(manager.hears("WATCHDOG=1"));
-    gateway.drive().tell("silence");
+    gateway.drive().send_line("silence");
     EXPECT_TRUE(gateway.daemon().says("the drive does not answer"));
     EXPECT_TRUE(manager.hears("drive silent"));
-    gateway.drive().tell("ok");
+    gateway.drive().send_line("ok");
 
     EXPECT_LT(manager.longest_silence(), std::chrono::seconds{5}) << "WatchdogSec of the service";
     EXPECT_TRUE(master.does("wait 30s for state data-exchange"));

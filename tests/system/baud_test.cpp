@@ -56,7 +56,7 @@ TEST_P(SearchedRate, IsFoundInItsTimeAndThenDataAreExchanged)
 {
     GatewayAt gateway{GetParam(), "\"auto\""};
     Master master{gateway, kPatientMaster};
-    master.tell("start 50s");
+    master.send_line("start 50s");
     const auto before = steady_clock::now();
     gateway.start_daemon();
     const auto begin = steady_clock::now();
@@ -83,7 +83,7 @@ TEST_P(SearchedRate, IsFoundInItsTimeAndThenDataAreExchanged)
     ASSERT_TRUE(master.does("wait 30s for state data-exchange"));
     EXPECT_EQ(gateway.bus_status().at("baud"), GetParam());
     EXPECT_TRUE(eventually([&] { return gateway.bus_status().at("baud_state") == "DP_Control"; }));
-    gateway.drive().tell("set 55 12.50");
+    gateway.drive().send_line("set 55 12.50");
     EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
     EXPECT_TRUE(master.does("out 1 = -300"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written -3.00"));
@@ -106,11 +106,11 @@ TEST(SearchedRateOfTheMaster, ThatChangesIsFoundAgain)
     EXPECT_TRUE(gateway.drive().says("tag 56 written 0.00")) << "the watchdog comes first";
     EXPECT_TRUE(eventually([&] { return gateway.is_searching(); }));
 
-    gateway.bus().tell("baud 93750");
+    gateway.bus().send_line("baud 93750");
     Process other{{DPSIM_PROGRAM, "master", "--port", gateway.bus_end(), "--baud", "93750", "--slave", "5",
                    "--watchdog", "5000", "--tags", "55,56w", "--retries", "15", "--slot-ms", "100"}};
-    other.tell("start 50s");
-    other.tell("out 1 = 600");
+    other.send_line("start 50s");
+    other.send_line("out 1 = 600");
     EXPECT_TRUE(gateway.drive().says("tag 56 written 6.00", 2 * kLimit));
     EXPECT_EQ(gateway.bus_status().at("baud"), 93'750);
 }
@@ -132,7 +132,7 @@ TEST(FixedRate, ThatIsNotTheMastersHearsGarbage)
     GatewayAt gateway{187'500, "500000"};
     gateway.start_daemon();
     Master master{gateway, {"--tags", "55,56w"}};
-    master.tell("start 1s");
+    master.send_line("start 1s");
 
     EXPECT_TRUE(eventually([&] { return gateway.counter("bus", "octets") > 100; }));
     EXPECT_EQ(gateway.counter("bus", "telegrams"), 0U);

@@ -77,7 +77,7 @@ TEST(DoctorOfTheBus, NamesSilenceACutCableAndAPortThatVanishes)
     ASSERT_TRUE(master.does("start 30s"));
     EXPECT_TRUE(first_cause_is(gateway, "well"));
 
-    gateway.bus().tell("cut");
+    gateway.bus().send_line("cut");
     EXPECT_TRUE(first_cause_is(gateway, "bus.silent")) << "the cable is cut";
     EXPECT_THAT(evidence(gateway), HasSubstr("the last octet from the bus was received"));
 
@@ -91,7 +91,7 @@ TEST(DoctorOfTheBus, NamesAFixedRateThatIsNotThatOfTheBus)
     Misconfigured wrong{"baud = 187500\n", "baud = 500000\n"};
     Gateway& gateway = *wrong;
     Master master{gateway, {"--tags", "55", "--slot-ms", "50"}};
-    master.tell("start 100s");
+    master.send_line("start 100s");
 
     EXPECT_TRUE(first_cause_is(gateway, "bus.rate"));
     EXPECT_THAT(evidence(gateway), HasSubstr("fixed at 500 kbit/s"));
@@ -116,7 +116,7 @@ TEST(DoctorOfTheBus, NamesAnAddressThatIsUsedTwice)
 {
     Gateway gateway;
     Master other{gateway, {"--master", "5", "--tags", "55", "--slot-ms", "50"}, 9};
-    other.tell("start 100s");
+    other.send_line("start 100s");
 
     EXPECT_TRUE(first_cause_is(gateway, "bus.double_address"));
 }
@@ -126,7 +126,7 @@ TEST(DoctorOfTheBus, NamesNoiseAndForgetsItWhenItIsOver)
     Gateway gateway;
     Master master{gateway, {"--tags", "55,56w", "--retries", "15"}};
     ASSERT_TRUE(master.does("start 30s"));
-    gateway.bus().tell("errors 0.0005");
+    gateway.bus().send_line("errors 0.0005");
 
     EXPECT_TRUE(first_cause_is(gateway, "bus.flaws"));
     EXPECT_THAT(evidence(gateway), HasSubstr("damaged telegrams"));
@@ -144,12 +144,12 @@ TEST(DoctorOfTheMaster, NamesWhatIsWrongWithItsProject)
     }
     {
         Master other_device{gateway, {"--tags", "55", "--ident", "0x1234"}};
-        other_device.tell("start 100s");
+        other_device.send_line("start 100s");
         EXPECT_TRUE(first_cause_is(gateway, "station.prm_refused"));
         EXPECT_THAT(evidence(gateway), HasSubstr("Ident_Number 0x0533, got 0x1234"));
     }
     Master other_modules{gateway, {"--tags", "55,56w", "--cfg", "7350"}};
-    other_modules.tell("start 100s");
+    other_modules.send_line("start 100s");
     EXPECT_TRUE(first_cause_is(gateway, "station.cfg_refused"));
 }
 
@@ -198,7 +198,7 @@ TEST(DoctorOfTheMaster, NamesAWatchdogThatIsShorterThanItsCycle)
 {
     Gateway gateway;
     Master master{gateway, {"--tags", "55,56w", "--watchdog", "100", "--cycle", "400"}};
-    for (int i = 0; i < 20; ++i) master.tell("try start 5s"); // the slave drops its parameters each time
+    for (int i = 0; i < 20; ++i) master.send_line("try start 5s"); // the slave drops its parameters each time
 
     EXPECT_TRUE(first_cause_is(gateway, "station.watchdog"));
 }
@@ -268,7 +268,7 @@ protected:
 TEST_F(SickDrive, WithNoiseOnItsCableIsNamedWithCounts)
 {
     begins();
-    gateway->drive_line().tell("errors 0.0005");
+    gateway->drive_line().send_line("errors 0.0005");
 
     EXPECT_TRUE(is("drive.damaged"));
     EXPECT_THAT(evidence(), ContainsRegex("[0-9]+ answers could not be read in the last minute, .*"
@@ -279,7 +279,7 @@ TEST_F(SickDrive, WithNoiseOnItsCableIsNamedWithCounts)
 TEST_F(SickDrive, ThatAnswersGarbageIsNotCalledSilent)
 {
     begins();
-    gateway->drive().tell("garbage");
+    gateway->drive().send_line("garbage");
 
     EXPECT_TRUE(is("drive.unreadable"));
     EXPECT_THAT(evidence(), AllOf(HasSubstr("could not be read"), HasSubstr("it answered well before"),
@@ -287,10 +287,10 @@ TEST_F(SickDrive, ThatAnswersGarbageIsNotCalledSilent)
     EXPECT_THAT(steps(), AllOf(HasSubstr("rate and format"), HasSubstr("--probe")));
 }
 
-TEST_F(SickDrive, ThatAnswersWithAWrongChecksumIsToldApartFromGarbage)
+TEST_F(SickDrive, ThatAnswersWithAWrongChecksumIsDistinguishedFromGarbage)
 {
     begins();
-    gateway->drive().tell("bad-bcc");
+    gateway->drive().send_line("bad-bcc");
 
     EXPECT_TRUE(is("drive.unreadable"));
     EXPECT_THAT(evidence(), HasSubstr("all of them only for a wrong checksum"));
@@ -301,7 +301,7 @@ TEST_F(SickDrive, ThatWasNeverReadableIsNotSaidToHaveNeverAnswered)
     gateway.emplace(Wiring{.drive = {"--fault", "bad-bcc"}});
 
     master.emplace(*gateway, Arguments{"--tags", "55"});
-    master->tell("start 30s");
+    master->send_line("start 30s");
     EXPECT_TRUE(is("drive.unreadable"));
     EXPECT_THAT(evidence(), HasSubstr("none was ever good"));
 }
@@ -309,7 +309,7 @@ TEST_F(SickDrive, ThatWasNeverReadableIsNotSaidToHaveNeverAnswered)
 TEST_F(SickDrive, WhoseLineHearsItselfIsNotBlamed)
 {
     begins();
-    gateway->drive().tell("echo on");
+    gateway->drive().send_line("echo on");
 
     EXPECT_TRUE(is("drive.echo"));
     EXPECT_THAT(evidence(), HasSubstr("hears what it sends, and [[line]] echo is off"));
@@ -324,10 +324,10 @@ int timeout_asked_for(const std::string& said)
     return at == std::string::npos ? 0 : std::stoi(said.substr(at + words.size()));
 }
 
-TEST_F(SickDrive, ThatIsAlwaysLateIsToldTheTimeoutThatItReallyNeeds)
+TEST_F(SickDrive, ThatIsAlwaysLateIsReportedWithTheTimeoutThatItNeeds)
 {
     begins();
-    gateway->drive().tell("slow 300");
+    gateway->drive().send_line("slow 300");
 
     EXPECT_TRUE(is("drive.late"));
     EXPECT_TRUE(eventually([&] { return timeout_asked_for(evidence()) != 0; }));
@@ -344,17 +344,17 @@ TEST_F(SickDrive, ThatIsAlwaysLateIsToldTheTimeoutThatItReallyNeeds)
 TEST_F(SickDrive, ThatRefusesOurChecksumHasThatAsItsOwnCause)
 {
     begins();
-    gateway->drive().tell("nak 02C2");
+    gateway->drive().send_line("nak 02C2");
 
     EXPECT_TRUE(is("drive.not_accepted"));
     EXPECT_THAT(evidence(), HasSubstr("wrong checksum (EE 02)"));
     EXPECT_THAT(steps(), HasSubstr("from the gateway to the drive"));
 }
 
-TEST_F(SickDrive, ThatRefusesTheFormOfARequestIsToldApartFromAChecksum)
+TEST_F(SickDrive, ThatRefusesTheFormOfARequestIsDistinguishedFromAChecksum)
 {
     begins();
-    gateway->drive().tell("nak 07C7");
+    gateway->drive().send_line("nak 07C7");
 
     EXPECT_TRUE(is("drive.not_understood"));
 }
@@ -376,7 +376,7 @@ TEST_F(SickDrive, WhosePortVanishesIsNamedAndWellAgainWhenItReturns)
 TEST_F(SickDrive, WithALoosePlugComesAndGoes)
 {
     begins();
-    gateway->drive().tell("lose 1/2");
+    gateway->drive().send_line("lose 1/2");
 
     EXPECT_TRUE(is("drive.unsteady"));
     EXPECT_THAT(steps(), HasSubstr("plugs at both ends"));
@@ -412,7 +412,7 @@ TEST(DoctorOfTheDrive, NamesOneThatFellSilent)
     ASSERT_TRUE(master.does("start 30s"));
     EXPECT_TRUE(first_cause_is(gateway, "well"));
 
-    gateway.drive().tell("silence");
+    gateway.drive().send_line("silence");
     EXPECT_TRUE(first_cause_is(gateway, "drive.silent"));
 }
 
@@ -421,7 +421,7 @@ TEST(DoctorOfTheDrive, FindsAUnitThatIsAnotherOne)
     Misconfigured wrong{"unit = \"03\"", "unit = \"05\"", {.units = {"03"}}};
     Gateway& gateway = *wrong;
     Master master{gateway, {"--tags", "55"}};
-    master.tell("start 100s");
+    master.send_line("start 100s");
     EXPECT_TRUE(first_cause_is(gateway, "drive.never"));
     EXPECT_THAT(evidence(gateway), HasSubstr("unit 05"));
 
@@ -439,8 +439,8 @@ TEST(DoctorOfTheDrive, LooksForItUntilThePersonHasEnoughAndThenTheLineGoesOn)
     wiring.units = {"00", "01"};
     wiring.present = {"00"};
     Gateway gateway{wiring};
-    gateway.drive().tell("unit 00");
-    gateway.drive().tell("set 55 12.50");
+    gateway.drive().send_line("unit 00");
+    gateway.drive().send_line("set 55 12.50");
     EXPECT_TRUE(eventually([&] { return gateway.station(1).at("drive").at("link") == "silent"; }));
 
     const Outcome which = gateway.dpctl({"doctor", "--probe"});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Drive lines under stress: late answers, spoilt frames, noise, an echo, drives that are not there. Each tag
-// holds a word of its own, so every word that the master sees tells whose it is.
+// holds a word of its own, so every word that the master sees shows its tag.
 #include "gateway.hpp"
 
 #include <fmt/format.h>
@@ -75,7 +75,7 @@ protected:
 TEST_F(InstrumentLine, WithAnAnswerThatIsLateNowAndThenNeverShowsTheWordOfAnotherTag)
 {
     begins(four_registers());
-    gateway->drive().tell("late 1300 every 3s");
+    gateway->drive().send_line("late 1300 every 3s");
     EXPECT_TRUE(master->does(fmt::format("wait {}", kWatched)));
     shows_only_its_own_words();
 }
@@ -83,8 +83,8 @@ TEST_F(InstrumentLine, WithAnAnswerThatIsLateNowAndThenNeverShowsTheWordOfAnothe
 TEST_F(InstrumentLine, WithALateExceptionNeverShowsZeroForATagThatIsThere)
 {
     begins(four_registers());
-    gateway->drive().tell("late 1300 tag 1500");
-    gateway->drive().tell("late 1300 1/40 tag 1200");
+    gateway->drive().send_line("late 1300 tag 1500");
+    gateway->drive().send_line("late 1300 1/40 tag 1200");
     EXPECT_TRUE(master->does("wait 14s")); // what was denied is asked every 10 s
     shows_only_its_own_words();
 }
@@ -92,8 +92,8 @@ TEST_F(InstrumentLine, WithALateExceptionNeverShowsZeroForATagThatIsThere)
 TEST_F(InstrumentLine, WithoutFunction8SettlesLateAnswersAsWell)
 {
     begins(four_registers("timeout_ms = 200\n"));
-    gateway->drive().tell("no-loopback");
-    gateway->drive().tell("late 500 1/15");
+    gateway->drive().send_line("no-loopback");
+    gateway->drive().send_line("late 500 1/15");
     EXPECT_TRUE(master->does(fmt::format("wait {}", kWatched)));
     shows_only_its_own_words();
 }
@@ -101,12 +101,12 @@ TEST_F(InstrumentLine, WithoutFunction8SettlesLateAnswersAsWell)
 TEST_F(InstrumentLine, WithASpoiltFrameBeforeAnAnswerDoesNotTakeThatAnswerForTheNext)
 {
     begins(four_registers());
-    gateway->drive().tell("spoil 1/15");
-    gateway->drive().tell("late 40 1/15");
+    gateway->drive().send_line("spoil 1/15");
+    gateway->drive().send_line("late 40 1/15");
     EXPECT_TRUE(master->does("wait 5s"));
     shows_only_its_own_words();
-    gateway->drive().tell("ok");
-    gateway->drive().tell("set 1000 1112");
+    gateway->drive().send_line("ok");
+    gateway->drive().send_line("set 1000 1112");
     EXPECT_TRUE(master->does("wait 30s for in 1 = 1112"));
 }
 
@@ -146,7 +146,7 @@ protected:
         Process& drive = gateway->drive();
         for (const char* const command :
              {"unit 00", "set 55 10.01", "set 57 10.02", "unit 01", "set 55 20.01", "set 57 20.02"})
-            drive.tell(command);
+            drive.send_line(command);
         {
             Master first{*gateway, {"--tags", "55,57,56w", "--no-watchdog"}, 5}; // the slave goes on alone
             ASSERT_TRUE(first.does("start 30s"));
@@ -168,8 +168,8 @@ protected:
 TEST_F(TwoDrives, WithTheSameMnemonicsAreNeverTakenForEachOtherWhereOneIsALittleTooLate)
 {
     begins({.units = {"00", "01"}, .drive = {"--turnaround", "5"}});
-    gateway->drive().tell("unit 00");
-    gateway->drive().tell("late 210-230 1/2");
+    gateway->drive().send_line("unit 00");
+    gateway->drive().send_line("late 210-230 1/2");
     EXPECT_TRUE(master->does(fmt::format("wait {}", kWatched)));
     EXPECT_THAT(seen(*master, 1), ElementsAre(2001));
     EXPECT_THAT(seen(*master, 2), ElementsAre(2002));
@@ -178,10 +178,10 @@ TEST_F(TwoDrives, WithTheSameMnemonicsAreNeverTakenForEachOtherWhereOneIsALittle
 TEST_F(TwoDrives, AreNeverTakenForEachOtherWhereOneIsLateNowAndThen)
 {
     begins({.units = {"00", "01"}, .drive = {"--turnaround", "5"}});
-    gateway->drive().tell("unit 00");
-    gateway->drive().tell("late 900 1/20");
+    gateway->drive().send_line("unit 00");
+    gateway->drive().send_line("late 900 1/20");
     for (int i = 1; i <= 8; ++i) {
-        gateway->drive().tell(fmt::format("set 55 {}", 10 + i)); // of the other one
+        gateway->drive().send_line(fmt::format("set 55 {}", 10 + i)); // of the other one
         EXPECT_TRUE(master->does("wait 1s"));
     }
     EXPECT_THAT(seen(*master, 1), ElementsAre(2001));
@@ -194,30 +194,30 @@ TEST_F(TwoDrives, DoNotTakeALateAcknowledgementOfOneForThatOfTheOther)
     Process& drive = gateway->drive();
     ASSERT_TRUE(master->does("out 1 = 700"));
     ASSERT_TRUE(drive.says("unit 01: tag 56 written 7.00"));
-    drive.tell("unit 00");
-    drive.tell("late 300 tag 56");
-    drive.tell("unit 01");
-    drive.tell("silence");
+    drive.send_line("unit 00");
+    drive.send_line("late 300 tag 56");
+    drive.send_line("unit 01");
+    drive.send_line("silence");
     ASSERT_TRUE(master->does("unlock")); // the zero cannot reach it
     EXPECT_TRUE(gateway->daemon().says("rewinder: the drive does not answer"));
-    drive.tell("unit 00");
-    drive.tell("ok");
+    drive.send_line("unit 00");
+    drive.send_line("ok");
     drive.skip();
-    drive.tell("unit 01");
-    drive.tell("ok");
+    drive.send_line("unit 01");
+    drive.send_line("ok");
     EXPECT_TRUE(drive.says("unit 01: tag 56 written 0.00"));
 }
 
 TEST(EiAsciiLine, WithAStrayEotDoesNotDenyATag)
 {
     Gateway gateway;
-    gateway.drive().tell("set 55 12.50");
+    gateway.drive().send_line("set 55 12.50");
     Master master{gateway, {"--tags", "55,57,56w"}};
     ASSERT_TRUE(master.does("start 30s"));
     ASSERT_TRUE(master.does("wait 30s for in 1 = 1250"));
     ASSERT_TRUE(master.does("follow on"));
     for (int i = 0; i < 5; ++i) {
-        gateway.drive().tell("instead 04 once tag 55");
+        gateway.drive().send_line("instead 04 once tag 55");
         EXPECT_TRUE(master.does("wait 500ms"));
     }
     EXPECT_THAT(seen(master, 1), ElementsAre(1250));
@@ -226,9 +226,9 @@ TEST(EiAsciiLine, WithAStrayEotDoesNotDenyATag)
 TEST(EiAsciiLine, WithMoreDecimalsThanTheTableSaysIsNotReadWithFewer)
 {
     Gateway gateway;
-    gateway.drive().tell("text 61 12.34"); // the table says one decimal
+    gateway.drive().send_line("text 61 12.34"); // the table says one decimal
     EXPECT_THAT(gateway.dpctl({"read", "61"}).out, Not(HasSubstr("12")));
-    gateway.drive().tell("text 61 12.5");
+    gateway.drive().send_line("text 61 12.5");
     const Outcome outcome = gateway.dpctl({"read", "61"});
     EXPECT_NE(outcome.status, 0) << outcome.out;
 }
@@ -257,7 +257,7 @@ TEST(EchoOfALine, IsNotTakenForAnAnswerOfTheDriveThatIsThere)
     Gateway gateway{{.drive = {"--fault", "echo on"}, .line_keys = "echo = \"on\"\n"}};
     Master master{gateway, {"--tags", "55,56w"}};
     ASSERT_TRUE(master.does("start 30s"));
-    gateway.drive().tell("set 55 12.50");
+    gateway.drive().send_line("set 55 12.50");
     EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
     EXPECT_TRUE(master.does("out 1 = 500"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 5.00"));

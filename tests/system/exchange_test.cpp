@@ -14,9 +14,9 @@ TEST(Exchange, ValuesGoFromTheDriveToTheMasterAndFromTheMasterToTheDrive)
     Master master{gateway, {"--tags", "55,56w,288"}};
 
     ASSERT_TRUE(master.does("start 30s"));
-    gateway.drive().tell("set 55 12.50");
+    gateway.drive().send_line("set 55 12.50");
     EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
-    gateway.drive().tell("set 55 -0.01");
+    gateway.drive().send_line("set 55 -0.01");
     EXPECT_TRUE(master.does("wait 30s for in 1 = -1"));
     EXPECT_TRUE(master.does("expect in 2 = 0x1C00"));
 
@@ -48,7 +48,7 @@ TEST(Exchange, TwelveParametersWithoutDemandDataStartAtTheFirstOctet)
                    "50 60 50 60 50 60 50 60 50 60 50 60"}};
 
     ASSERT_TRUE(master.does("start 30s"));
-    gateway.drive().tell("set 90 1480");
+    gateway.drive().send_line("set 90 1480");
     EXPECT_TRUE(master.does("wait 30s for in 1 = 1480"));
     EXPECT_TRUE(master.does("wait 30s for in 4 = 40000"));
     EXPECT_TRUE(master.does("wait 30s for in 6 = 850"));
@@ -70,7 +70,7 @@ TEST_P(EachProfile, ExchangesWithItsDrive)
     Master master{gateway, {"--tags", "55,56w"}};
 
     ASSERT_TRUE(master.does("start 30s"));
-    gateway.drive().tell("set 55 100.00");
+    gateway.drive().send_line("set 55 100.00");
     EXPECT_TRUE(master.does("wait 30s for in 1 = 10000"));
     EXPECT_TRUE(master.does("out 1 = 2500"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 25.00"));
@@ -93,7 +93,7 @@ TEST_P(EachRate, ExchangesWithinTheTimesOfTheGsdSd3TelegramsIncluded)
     };
     Master variable{gateway, with({"--tags", "55,56w"})};
     ASSERT_TRUE(variable.does("start 30s"));
-    gateway.drive().tell("set 55 12.50");
+    gateway.drive().send_line("set 55 12.50");
     EXPECT_TRUE(variable.does("wait 30s for in 1 = 1250"));
     EXPECT_TRUE(variable.does("out 1 = -300"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written -3.00"));
@@ -143,7 +143,7 @@ TEST(DemandData, ReadsWritesAndSaysWithZeroOneAndTwoWhyNot)
     EXPECT_TRUE(master.does("demand none"));
     EXPECT_TRUE(master.does("expect demand none"));
 
-    gateway.drive().tell("get 62");
+    gateway.drive().send_line("get 62");
     EXPECT_TRUE(gateway.drive().says("tag 62 = 95.5"));
 }
 
@@ -154,7 +154,7 @@ TEST(DemandData, AStandingReadIsRefreshedAndAStandingWriteIsMadeOnce)
     ASSERT_TRUE(master.does("start 30s"));
 
     EXPECT_TRUE(master.does("demand read 61"));
-    gateway.drive().tell("set 61 77.7");
+    gateway.drive().send_line("set 61 77.7");
     EXPECT_TRUE(master.does("wait 30s for demand = 777"));
 
     EXPECT_TRUE(master.does("demand write 62 955"));
@@ -206,7 +206,7 @@ TEST(GlobalControl, FreezeHoldsTheInputsUntilTheNextFreezeOrUnfreeze)
     Gateway gateway;
     Master master{gateway, {"--tags", "55,56w"}};
     ASSERT_TRUE(master.does("start 30s"));
-    gateway.drive().tell("set 55 10.00");
+    gateway.drive().send_line("set 55 10.00");
     EXPECT_TRUE(master.does("wait 30s for in 1 = 1000"));
     // Read by hand again and again: after each of them comes a cyclic transaction, and there are two in a
     // round.
@@ -222,18 +222,18 @@ TEST(GlobalControl, FreezeHoldsTheInputsUntilTheNextFreezeOrUnfreeze)
     EXPECT_TRUE(master.does("freeze"));
     EXPECT_TRUE(master.does("diag"));
     EXPECT_TRUE(master.does("expect diag freeze"));
-    gateway.drive().tell("set 55 20.00");
+    gateway.drive().send_line("set 55 20.00");
     EXPECT_TRUE(eventually([&] { return gateway_knows("20.00"); }));
     EXPECT_TRUE(master.does("expect in 1 = 1000"));
 
     EXPECT_TRUE(master.does("freeze"));
     EXPECT_TRUE(master.does("wait 30s for in 1 = 2000"));
-    gateway.drive().tell("set 55 30.00");
+    gateway.drive().send_line("set 55 30.00");
     EXPECT_TRUE(eventually([&] { return gateway_knows("30.00"); }));
     EXPECT_TRUE(master.does("expect in 1 = 2000"));
     EXPECT_TRUE(master.does("unfreeze"));
     EXPECT_TRUE(master.does("wait 30s for in 1 = 3000"));
-    gateway.drive().tell("set 55 40.00");
+    gateway.drive().send_line("set 55 40.00");
     EXPECT_TRUE(master.does("wait 30s for in 1 = 4000"));
 }
 

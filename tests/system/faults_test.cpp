@@ -17,13 +17,13 @@ TEST(DriveLoss, HoldsTheInputsAndWritesWhatTheMasterChangedMeanwhileAfterTheRetu
     Gateway gateway;
     Master master{gateway, {"--tags", "55,56w"}};
     ASSERT_TRUE(master.does("start 30s"));
-    gateway.drive().tell("set 55 12.50");
+    gateway.drive().send_line("set 55 12.50");
     EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
     EXPECT_TRUE(master.does("out 1 = 500"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 5.00"));
     EXPECT_TRUE(eventually([&] { return gateway.diagnosis().at("hex") == kHealthy; }));
 
-    gateway.drive().tell("silence");
+    gateway.drive().send_line("silence");
     EXPECT_TRUE(gateway.daemon().says("unwinder: the drive does not answer"));
     EXPECT_TRUE(master.does("out 1 = 700"));
     EXPECT_TRUE(master.does("expect in 1 = 1250"));
@@ -38,8 +38,8 @@ TEST(DriveLoss, HoldsTheInputsAndWritesWhatTheMasterChangedMeanwhileAfterTheRetu
     EXPECT_THAT(gateway.dpctl({"io"}).out, HasSubstr("stale"));
 
     gateway.drive().skip();
-    gateway.drive().tell("set 55 20.00");
-    gateway.drive().tell("ok");
+    gateway.drive().send_line("set 55 20.00");
+    gateway.drive().send_line("ok");
     EXPECT_TRUE(gateway.drive().says("tag 56 written 7.00"));
     EXPECT_TRUE(master.does("wait 30s for in 1 = 2000"));
     EXPECT_TRUE(eventually([&] { return gateway.word(55).at("state") == "good"; }));
@@ -63,12 +63,12 @@ TEST(DriveLoss, OfOneStationLeavesTheOtherOnTheSameLineAtWork)
     ASSERT_TRUE(second.does("start 30s"));
     EXPECT_TRUE(gateway.exchange_ends_with(0)) << "both are";
 
-    drive.tell("unit 00");
-    drive.tell("silence");
+    drive.send_line("unit 00");
+    drive.send_line("silence");
     EXPECT_TRUE(gateway.daemon().says("unwinder: the drive does not answer"));
-    drive.tell("unit 01");
+    drive.send_line("unit 01");
     for (const char* const value : {"11", "12", "13", "14", "15"}) {
-        drive.tell(std::string{"set 55 "} + value);
+        drive.send_line(std::string{"set 55 "} + value);
         EXPECT_TRUE(second.does(std::string{"wait 30s for in 1 = "} + value + "00"));
         EXPECT_TRUE(second.does(std::string{"out 1 = "} + value + "00"));
         EXPECT_TRUE(drive.says(std::string{"unit 01: tag 56 written "} + value + ".00"));
@@ -79,8 +79,8 @@ TEST(DriveLoss, OfOneStationLeavesTheOtherOnTheSameLineAtWork)
     EXPECT_EQ(gateway.station(1).at("drive").at("losses"), 0);
 
     drive.skip();
-    drive.tell("unit 00");
-    drive.tell("ok");
+    drive.send_line("unit 00");
+    drive.send_line("ok");
     EXPECT_TRUE(drive.says("unit 00: tag 56 written 5.00"));
 }
 
@@ -88,9 +88,9 @@ TEST(Drive, ThatIsSlowIsWaitedFor)
 {
     Gateway gateway;
     Master master{gateway, {"--tags", "55,56w"}};
-    gateway.drive().tell("slow 50");
+    gateway.drive().send_line("slow 50");
     ASSERT_TRUE(master.does("start 30s"));
-    gateway.drive().tell("set 55 12.50");
+    gateway.drive().send_line("set 55 12.50");
     EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
     EXPECT_TRUE(master.does("out 1 = 500"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 5.00"));
@@ -121,7 +121,7 @@ TEST(MasterLoss, ByACutCableZeroesTheOutputsOnceAndTheMasterStartsUpAgain)
     EXPECT_TRUE(master.does("out 1 = 500"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 5.00"));
 
-    gateway.bus().tell("cut");
+    gateway.bus().send_line("cut");
     EXPECT_TRUE(gateway.daemon().says("the watchdog expired: the master is silent"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 0.00"));
     EXPECT_TRUE(master.does("wait 30s for state not data-exchange"));
@@ -131,7 +131,7 @@ TEST(MasterLoss, ByACutCableZeroesTheOutputsOnceAndTheMasterStartsUpAgain)
     EXPECT_TRUE(gateway.exchange_ends_with(1));
     EXPECT_EQ(gateway.station().at("left_because"), "the watchdog expired: the master is silent");
 
-    gateway.bus().tell("restore");
+    gateway.bus().send_line("restore");
     EXPECT_TRUE(master.does("wait 30s for state data-exchange"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 5.00"));
     EXPECT_TRUE(gateway.exchange_ends_with(0));
@@ -146,7 +146,7 @@ TEST(MasterLoss, WithoutWatchdogIsNoneTheOutputsHold)
     EXPECT_TRUE(master.does("out 1 = 500"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 5.00"));
 
-    gateway.bus().tell("cut");
+    gateway.bus().send_line("cut");
     EXPECT_TRUE(master.does("wait 30s for state not data-exchange"));
     EXPECT_TRUE(eventually([&] {
         const Json age = gateway.json({"status"}).at("bus").at("last_telegram_age_ms");

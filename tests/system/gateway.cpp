@@ -310,7 +310,7 @@ std::uint64_t Gateway::flaws() const
 std::string Gateway::spoken_on_the_bus()
 {
     const std::size_t before = bus_->transcript().size();
-    bus_->tell("stats");
+    bus_->send_line("stats");
     const auto found = bus_->transcript().await("b to a: ", before, kLimit);
     if (!found) return "the line gives no answer";
     const std::string line = bus_->transcript().lines(*found).front();
@@ -346,14 +346,14 @@ Master::Master(const Gateway& gateway, Arguments settings, unsigned slave)
 ::testing::AssertionResult Master::does(const std::string& command)
 {
     const std::string done = fmt::format("# done {}", ++commands_);
-    tell(command);
-    tell(done);
+    send_line(command);
+    send_line(done);
     return says("> " + done, 2 * kLimit);
 }
 
 ::testing::AssertionResult Master::leaves()
 {
-    tell("quit");
+    send_line("quit");
     const auto status = wait();
     if (status == 0) return ::testing::AssertionSuccess();
     return ::testing::AssertionFailure() << "the master ends with status " << status.value_or(-1);

@@ -121,7 +121,7 @@ private:
     std::unique_ptr<Process> bus_, line_, drive_, daemon_;
 };
 
-/// A dpsim master in front of which somebody sits.
+/// A dpsim master that takes commands.
 class Master : public Process {
 public:
     /// `settings`: options of dpsim master beside port, rate and slave. The watchdog is a long one unless

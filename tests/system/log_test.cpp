@@ -65,9 +65,9 @@ TEST(TheLog, HasOneLineForADriveThatComesAndGoes)
     };
     for (int i = 0; i < 3; ++i) {
         ASSERT_TRUE(link_becomes("answers"));
-        gateway.drive().tell("silence");
+        gateway.drive().send_line("silence");
         ASSERT_TRUE(link_becomes("silent"));
-        gateway.drive().tell("ok");
+        gateway.drive().send_line("ok");
     }
     EXPECT_TRUE(gateway.daemon().says("unwinder: the drive does not answer"));
     EXPECT_TRUE(gateway.daemon().says("unwinder: the drive does not answer"));

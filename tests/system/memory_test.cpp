@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the daemon keeps in memory, which is locked and taken from everybody else.
+// How much memory the daemon has. It is locked: no other process can use it.
 #include "gateway.hpp"
 
 #include <fmt/format.h>

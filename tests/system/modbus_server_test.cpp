@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Modbus server that nobody here wrote (pymodbus) as the instrument: register = tag.
+// A Modbus server of another project (pymodbus) as the instrument: register = tag.
 #include "gateway.hpp"
 
 #include <gmock/gmock.h>
@@ -59,7 +59,7 @@ TEST_F(Pymodbus, IsReadInBlocksAndWritten)
     EXPECT_TRUE(master.does("out 2 = 401"));
     EXPECT_TRUE(instrument->says("25 = 401"));
 
-    instrument->tell("set 1 -5");
+    instrument->send_line("set 1 -5");
     EXPECT_TRUE(instrument->says("done"));
     EXPECT_TRUE(master.does("demand read-ext 8329"));
     EXPECT_TRUE(master.does("expect demand = 50"));
@@ -68,7 +68,7 @@ TEST_F(Pymodbus, IsReadInBlocksAndWritten)
 
 TEST_F(Pymodbus, HasATagMissingInTheMiddleAndTheOthersGoOn)
 {
-    instrument->tell("drop 3");
+    instrument->send_line("drop 3");
     ASSERT_TRUE(instrument->says("done"));
     Master master{*gateway, with("1,2,3,4,5")};
     ASSERT_TRUE(master.does("start 30s"));
@@ -77,7 +77,7 @@ TEST_F(Pymodbus, HasATagMissingInTheMiddleAndTheOthersGoOn)
     EXPECT_TRUE(master.does("expect in 3 = 0")) << "exception 2";
     EXPECT_TRUE(gateway->word_becomes(3, "state", "invalid_tag"));
     EXPECT_EQ(gateway->word(4).at("state"), "good");
-    instrument->tell("set 5 300");
+    instrument->send_line("set 5 300");
     EXPECT_TRUE(master.does("wait 30s for in 5 = 300"));
     EXPECT_TRUE(master.does("demand read 3"));
     EXPECT_TRUE(master.does("expect demand reject 0"));

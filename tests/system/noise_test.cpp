@@ -48,7 +48,7 @@ Octets spoilt_telegrams(std::size_t count, unsigned seed)
     return all;
 }
 
-/// Somebody else at the bus, without manners.
+/// Another station at the bus, which breaks its rules.
 class Intruder {
 public:
     explicit Intruder(const Gateway& gateway)
@@ -80,14 +80,14 @@ TEST(BusNoise, OfBitErrorsIsCountedAndTheExchangeGoesOn)
     ASSERT_TRUE(master.does("start 30s"));
     const auto cycles = gateway.cycles();
 
-    gateway.bus().tell("errors 0.0005");
+    gateway.bus().send_line("errors 0.0005");
     EXPECT_TRUE(eventually([&] { return gateway.flaws() >= 10; }));
     for (const char* const value : {"1", "2", "3"}) {
-        gateway.drive().tell(std::string{"set 55 "} + value);
+        gateway.drive().send_line(std::string{"set 55 "} + value);
         EXPECT_TRUE(master.does(std::string{"wait 30s for in 1 = "} + value + "00"));
     }
     EXPECT_TRUE(eventually([&] { return gateway.cycles() > cycles + 100; }));
-    gateway.bus().tell("errors 0");
+    gateway.bus().send_line("errors 0");
     EXPECT_TRUE(master.does("out 1 = 500"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 5.00"));
     EXPECT_EQ(gateway.station().at("left_count"), 0);
@@ -122,16 +122,16 @@ TEST_P(DriveNoise, IsADriveThatDoesNotAnswerUntilTheLineIsGoodAgain)
     Gateway gateway;
     Master master{gateway, {"--tags", "55,56w"}};
     ASSERT_TRUE(master.does("start 30s"));
-    gateway.drive().tell("set 55 12.50");
+    gateway.drive().send_line("set 55 12.50");
     EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
 
-    gateway.drive().tell(GetParam());
-    gateway.drive().tell("set 55 99.00");
+    gateway.drive().send_line(GetParam());
+    gateway.drive().send_line("set 55 99.00");
     EXPECT_TRUE(gateway.daemon().says("unwinder: the drive does not answer"));
     EXPECT_TRUE(master.does("expect in 1 = 1250"));
     EXPECT_TRUE(master.does("out 1 = 700"));
     gateway.drive().skip();
-    gateway.drive().tell("ok");
+    gateway.drive().send_line("ok");
     EXPECT_TRUE(gateway.drive().says("tag 56 written 7.00"));
     EXPECT_TRUE(master.does("wait 30s for in 1 = 9900"));
     EXPECT_TRUE(eventually([&] { return gateway.station().at("drive").at("link") == "answers"; }));

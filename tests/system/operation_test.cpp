@@ -10,7 +10,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-TEST(Dpctl, TellsScriptsWithItsExitCodeWhetherDataIsExchanged)
+TEST(Dpctl, ReportsWithItsExitCodeWhetherDataIsExchanged)
 {
     Gateway gateway;
     EXPECT_TRUE(gateway.exchange_ends_with(1));
@@ -74,13 +74,13 @@ TEST(Dpctl, ReadsAndWritesATagOfTheDriveInItsOwnUnits)
     EXPECT_EQ(gateway.dpctl({"write", "55", "1"}).status, 1) << "read only";
     EXPECT_EQ(gateway.dpctl({"read", "1999"}).status, 1) << "no such tag";
     EXPECT_EQ(gateway.dpctl({"read", "130"}).status, 1) << "text is not transported";
-    gateway.drive().tell("silence");
+    gateway.drive().send_line("silence");
     const Outcome silent = gateway.dpctl({"read", "62"});
     EXPECT_EQ(silent.status, 1);
     EXPECT_THAT(silent.err, HasSubstr("does not answer"));
 }
 
-TEST(Dpctl, EachWriteIsALineOfTheLogThatTellsWhoAndTheValueBefore)
+TEST(Dpctl, EachWriteIsALineOfTheLogWithTheUserAndTheValueBefore)
 {
     Gateway gateway;
     const std::string by = " by uid " + std::to_string(::geteuid()) + ", pid ";
@@ -96,7 +96,7 @@ TEST(Dpctl, EachWriteIsALineOfTheLogThatTellsWhoAndTheValueBefore)
     EXPECT_TRUE(gateway.daemon().says("set to 80.0" + by));
     EXPECT_TRUE(gateway.daemon().ever_said(", before 95.5: done"));
 
-    gateway.drive().tell("silence");
+    gateway.drive().send_line("silence");
     EXPECT_EQ(gateway.dpctl({"write", "62", "70.0"}).status, 1);
     EXPECT_TRUE(gateway.daemon().says("set to 70.0" + by));
     EXPECT_TRUE(gateway.daemon().ever_said(": no answer") || gateway.daemon().ever_said("does not answer"));
@@ -110,7 +110,7 @@ TEST(Dpctl, FollowShowsChangesAsTheyCome)
     Master master{gateway, {"--tags", "55,56w"}};
     ASSERT_TRUE(master.does("start 30s"));
     EXPECT_TRUE(watch.says("Data_Exch"));
-    gateway.drive().tell("set 55 12.34");
+    gateway.drive().send_line("set 55 12.34");
     EXPECT_TRUE(watch.says("12.34"));
     EXPECT_EQ(gateway.daemon().end(), 0);
     EXPECT_TRUE(watch.wait().has_value()) << "without a daemon there is nothing to watch";
@@ -192,12 +192,12 @@ TEST_F(Lamps, SpeakTheLanguageOfTheOptionBoard)
     EXPECT_EQ(pattern("red"), "off");
     EXPECT_EQ(pattern("green"), "flashing 2 Hz");
 
-    gateway.drive().tell("silence");
+    gateway.drive().send_line("silence");
     EXPECT_TRUE(shows(red, "1")) << "internal fault: the drive does not answer";
     EXPECT_TRUE(flashes(green));
     EXPECT_EQ(pattern("green"), "flashing 2 Hz");
 
-    gateway.drive().tell("ok");
+    gateway.drive().send_line("ok");
     EXPECT_TRUE(shows(red, "0"));
 }
 
@@ -209,7 +209,7 @@ protected:
 TEST_F(LampsOf620, FlashBothForAnInternalFault)
 {
     EXPECT_TRUE(shows(red, "1"));
-    gateway.drive().tell("silence");
+    gateway.drive().send_line("silence");
     EXPECT_TRUE(flashes(red));
     EXPECT_EQ(pattern("red"), "flashing 2 Hz");
     EXPECT_EQ(pattern("green"), "flashing 2 Hz");

@@ -46,7 +46,7 @@ std::vector<char*> pointers(std::vector<std::string>& strings)
     return result;
 }
 
-/// The test's own, without what a service manager may have told the test, and with `more`.
+/// The test's own, without the variables of a service manager, and with `more`.
 std::vector<std::string> environment_with(const Environment& more)
 {
     Environment all;
@@ -155,7 +155,7 @@ std::size_t Reader::how_often(std::string_view text) const
 
 Process::Process(std::vector<std::string> command, const Environment& environment)
 {
-    std::signal(SIGPIPE, SIG_IGN); // who talks to a program that has ended is told so by write()
+    std::signal(SIGPIPE, SIG_IGN); // a write to a program that has ended fails instead
     for (const std::string& word : command) name_ += (name_.empty() ? "" : " ") + word;
     const Pipe in, out, err;
     const auto arguments = pointers(command);
@@ -188,7 +188,7 @@ void Process::listen(int out, int err)
 {
     std::array<pollfd, 2> ends{{{out, POLLIN, 0}, {err, POLLIN, 0}}};
     std::array<std::string*, 2> all{&out_, &err_};
-    std::array<std::size_t, 2> told{};
+    std::array<std::size_t, 2> done{};
     while (ends[0].fd >= 0 || ends[1].fd >= 0) {
         ::poll(ends.data(), ends.size(), -1);
         for (std::size_t i = 0; i < ends.size(); ++i) {
@@ -197,23 +197,23 @@ void Process::listen(int out, int err)
             const ssize_t got = ::read(ends[i].fd, part.data(), part.size());
             if (got < 0 && errno == EINTR) continue;
             if (got <= 0) {
-                if (told[i] < all[i]->size()) transcript_.add(all[i]->substr(told[i]));
+                if (done[i] < all[i]->size()) transcript_.add(all[i]->substr(done[i]));
                 ::close(ends[i].fd);
                 ends[i].fd = -1;
                 continue;
             }
             all[i]->append(part.data(), static_cast<std::size_t>(got));
-            for (auto end = all[i]->find('\n', told[i]); end != std::string::npos;
-                 end = all[i]->find('\n', told[i])) {
-                transcript_.add(all[i]->substr(told[i], end - told[i]));
-                told[i] = end + 1;
+            for (auto end = all[i]->find('\n', done[i]); end != std::string::npos;
+                 end = all[i]->find('\n', done[i])) {
+                transcript_.add(all[i]->substr(done[i], end - done[i]));
+                done[i] = end + 1;
             }
         }
     }
     transcript_.close();
 }
 
-void Process::tell(std::string_view line)
+void Process::send_line(std::string_view line)
 {
     std::string octets{line};
     octets += '\n';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Programs as a person at a terminal has them: started, told lines, read line by line, ended.
+/// Programs as on a terminal: started, given lines, read line by line, ended.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ namespace dpslave::test {
 /// How long something may take that normally takes a moment: the machine may be slow and loaded.
 inline constexpr std::chrono::seconds kLimit{30};
 
-/// What somebody says, line by line; written by one thread, awaited by another.
+/// The output of a program, line by line; written by one thread, awaited by another.
 class Transcript {
 public:
     void add(std::string line);
@@ -44,15 +44,15 @@ private:
     bool closed_ = false;
 };
 
-/// A transcript with a finger in it: each expectation goes on behind the last one.
+/// A position in a transcript: each expectation goes on behind the last one.
 class Reader {
 public:
     explicit Reader(const Transcript& transcript) : transcript_(transcript) {}
 
-    /// Waits for the next line that holds `text` and puts the finger behind it.
+    /// Waits for the next line that holds `text`; the position is then behind it.
     ::testing::AssertionResult says(std::string_view text, std::chrono::nanoseconds limit = kLimit);
-    void skip() { at_ = transcript_.size(); } ///< the finger goes behind all that was said until now
-    std::size_t how_often(std::string_view text) const; ///< behind the finger, until now
+    void skip() { at_ = transcript_.size(); }           ///< the position goes behind all output until now
+    std::size_t how_often(std::string_view text) const; ///< behind the position, until now
 
 private:
     const Transcript& transcript_;
@@ -72,7 +72,7 @@ public:
     Process(const Process&) = delete;
     Process& operator=(const Process&) = delete;
 
-    void tell(std::string_view line); ///< on its standard input; nothing happens if it is gone
+    void send_line(std::string_view line); ///< on its standard input; nothing happens if it is gone
 
     ::testing::AssertionResult says(std::string_view text, std::chrono::nanoseconds limit = kLimit)
     {
@@ -112,7 +112,7 @@ struct Outcome {
     int status = -1; ///< -1: it did not end in time
     std::string out, err;
 };
-/// Runs a program that needs nobody to end.
+/// Runs a program that ends by itself.
 Outcome run(std::vector<std::string> command, const Environment& environment = {});
 
 /// For what gives no sign when it happens: asks again and again until it holds.

@@ -5,7 +5,7 @@
     pymodbus_instrument.py PORT [--baud 9600] [--parity N] [--unit 1] [--value TAG=WORD ...]
 
 Says "ready" once it listens, and "TAG = WORD" for each word that the line writes. On standard input "set TAG WORD" is
-somebody at its front panel, "drop TAG" takes the register away, "quit" (or SIGTERM) ends it. A tag that it does not
+a change at its front panel, "drop TAG" takes the register away, "quit" (or SIGTERM) ends it. A tag that it does not
 have is answered with exception 2, another unit with silence. Runs with pymodbus 3.0 (Debian 12) and later.
 """
 import argparse
@@ -115,7 +115,7 @@ async def serve(options):
 
     try:
         loop.add_reader(sys.stdin, on_input)
-    except PermissionError:  # a file: nobody at the panel
+    except PermissionError:  # a file: no commands come
         pass
     say("ready")
     await end.wait()

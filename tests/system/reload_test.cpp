@@ -23,7 +23,7 @@ std::string changed(std::string text, const std::string& behind, const std::stri
 }
 
 /// What dpctl printed, without the warnings: the bus of these tests has a max_tsdr that is one.
-std::string told(const Outcome& outcome)
+std::string changes_in(const Outcome& outcome)
 {
     std::istringstream lines{outcome.out};
     std::string all;
@@ -64,8 +64,8 @@ class ReloadInService : public Reload {
 protected:
     explicit ReloadInService(Wiring wiring = {.units = {"00", "01"}}) : Reload{std::move(wiring)}
     {
-        gateway.drive().tell("unit 00");
-        gateway.drive().tell("set 55 12.50");
+        gateway.drive().send_line("unit 00");
+        gateway.drive().send_line("set 55 12.50");
         EXPECT_TRUE(master.does("start 30s"));
         EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
         EXPECT_TRUE(master.does("out 1 = 700"));
@@ -83,8 +83,8 @@ protected:
         EXPECT_EQ(gateway.station(0).at("name"), "unwinder");
         EXPECT_EQ(gateway.station(0).at("left_count"), 0);
         EXPECT_EQ(gateway.drive().how_often("unit 00: tag 56 written 0.00"), 0U);
-        gateway.drive().tell("unit 00");
-        gateway.drive().tell("set 55 13.00");
+        gateway.drive().send_line("unit 00");
+        gateway.drive().send_line("set 55 13.00");
         EXPECT_TRUE(master.does("wait 30s for in 1 = 1300")) << "and its drive is served";
         EXPECT_TRUE(master.does("out 1 = 800"));
         EXPECT_TRUE(gateway.drive().says("unit 00: tag 56 written 8.00"));
@@ -98,7 +98,7 @@ TEST_F(Reload, ZeroesTheOutputsOfAStationThatIsRemoved)
     rewinder_exchanges();
     const Outcome outcome = reload(without_rewinder());
     EXPECT_EQ(outcome.status, 0) << outcome.err;
-    EXPECT_EQ(told(outcome), "station rewinder removed\n");
+    EXPECT_EQ(changes_in(outcome), "station rewinder removed\n");
     EXPECT_TRUE(gateway.drive().says("unit 01: tag 56 written 0.00"));
     EXPECT_EQ(gateway.json({"status"}).at("stations").size(), 1U);
     Master master{gateway, {"--tags", "55"}, 6};
@@ -111,9 +111,9 @@ TEST_F(Reload, RemovesTheRightStationAlsoAfterTheirOrderWasAnother)
     const auto first = text.find("[[station]]"), second = text.rfind("[[station]]");
     const std::string turned =
         text.substr(0, first) + text.substr(second) + "\n" + text.substr(first, second - first);
-    EXPECT_EQ(told(reload(turned)), "lines or stations stand in another order\n");
+    EXPECT_EQ(changes_in(reload(turned)), "lines or stations stand in another order\n");
 
-    EXPECT_EQ(told(reload(without_rewinder())), "station rewinder removed\n");
+    EXPECT_EQ(changes_in(reload(without_rewinder())), "station rewinder removed\n");
     EXPECT_EQ(gateway.station().at("name"), "unwinder");
     Master master{gateway, {"--tags", "55"}};
     EXPECT_TRUE(master.does("start 30s"));
@@ -125,8 +125,9 @@ TEST_F(Reload, ZeroesTheOutputsOfAStationThatIsChangedAndStartsItAnew)
     const Outcome outcome =
         reload(changed(text, "rewinder", "output_refresh_s", "demand.error_base = 1\noutput_refresh_s"));
     EXPECT_EQ(outcome.status, 0) << outcome.err;
-    EXPECT_EQ(told(outcome), "station rewinder changed: it leaves the bus and starts anew at address 6 (its "
-                             "Demand Data or other abilities)\n");
+    EXPECT_EQ(changes_in(outcome),
+              "station rewinder changed: it leaves the bus and starts anew at address 6 (its "
+              "Demand Data or other abilities)\n");
     EXPECT_TRUE(gateway.drive().says("unit 01: tag 56 written 0.00"));
     Master master{gateway, {"--tags", "55,56w"}, 6};
     EXPECT_TRUE(master.does("start 30s"));
@@ -138,7 +139,7 @@ TEST_F(Reload, ZeroesTheOutputsOfAStationThatIsChangedAndStartsItAnew)
 
 TEST_F(ReloadInService, OfOtherStationsOnTheSameLineIsNotNoticed)
 {
-    master.tell("try wait 5s for in 1 = 0");
+    master.send_line("try wait 5s for in 1 = 0");
     const std::string other =
         changed(text, "rewinder", "output_refresh_s", "demand.error_base = 1\noutput_refresh_s");
     EXPECT_THAT(reload(other).out, HasSubstr("rewinder changed"));
@@ -156,7 +157,7 @@ TEST_F(ReloadInService, ThatAddsAndRemovesALineIsNotNoticed)
                    "--baud", "38400", "--log", "--table",
                    std::string{DPSLAVE_SOURCE_DIR} + "/config/tags/example.csv", "--unit", "00"}};
     ASSERT_TRUE(drive.says("ready"));
-    master.tell("try wait 5s for in 1 = 0");
+    master.send_line("try wait 5s for in 1 = 0");
 
     std::string more = text;
     more += fmt::format(
@@ -180,7 +181,7 @@ TEST_F(ReloadInService, ThatAddsAndRemovesALineIsNotNoticed)
 
 TEST_F(ReloadInService, ThatSetsTheLineInAnotherWayKeepsItsStationsInDataExchange)
 {
-    master.tell("try wait 5s for in 1 = 0");
+    master.send_line("try wait 5s for in 1 = 0");
     const Outcome outcome = reload(changed(text, "[[line]]", "protocol", "timeout_ms = 250\nprotocol"));
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_THAT(outcome.out, HasSubstr("line p3 changed"));
@@ -189,7 +190,7 @@ TEST_F(ReloadInService, ThatSetsTheLineInAnotherWayKeepsItsStationsInDataExchang
 
 TEST_F(ReloadInService, WithFaultsNamesThemAllAndTheOldConfigurationRunsOn)
 {
-    master.tell("try wait 2s for in 1 = 0");
+    master.send_line("try wait 2s for in 1 = 0");
     std::string faulty = changed(without_rewinder(), "unwinder", "\"590\"", "\"591\"");
     faulty += "adress = 7\n";
     const Outcome outcome = reload(faulty);
@@ -204,7 +205,7 @@ TEST_F(ReloadInService, WithFaultsNamesThemAllAndTheOldConfigurationRunsOn)
 
 TEST_F(ReloadInService, WithALineThatCannotBeOpenedIsRefusedWhole)
 {
-    master.tell("try wait 2s for in 1 = 0");
+    master.send_line("try wait 2s for in 1 = 0");
     const Outcome outcome = reload(
         without_rewinder() + "[[line]]\nname = \"p4\"\nport = \"/dev/not-there\"\nprotocol = \"ei-ascii\"\n");
     EXPECT_EQ(outcome.status, 1);
@@ -215,7 +216,7 @@ TEST_F(ReloadInService, WithALineThatCannotBeOpenedIsRefusedWhole)
 
 TEST_F(ReloadInService, OfTheBusIsRefusedByTheNameOfTheKeys)
 {
-    master.tell("try wait 2s for in 1 = 0");
+    master.send_line("try wait 2s for in 1 = 0");
     const Outcome outcome = reload(changed(text, "[bus]", "baud = 187500", "baud = 93750"));
     EXPECT_EQ(outcome.status, 1);
     EXPECT_THAT(outcome.err, HasSubstr("[bus] baud cannot change while the bus is served"));
@@ -225,8 +226,8 @@ TEST_F(ReloadInService, OfTheBusIsRefusedByTheNameOfTheKeys)
 
 TEST_F(ReloadInService, OfTheSameFileDoesNothingAlsoBySignal)
 {
-    master.tell("try wait 2s for in 1 = 0");
-    EXPECT_EQ(told(reload("# a comment\n" + text)), "Nothing has changed.\n");
+    master.send_line("try wait 2s for in 1 = 0");
+    EXPECT_EQ(changes_in(reload("# a comment\n" + text)), "Nothing has changed.\n");
     gateway.daemon().skip();
     gateway.daemon().send(SIGHUP);
     EXPECT_TRUE(gateway.daemon().says("nothing has changed"));
@@ -245,7 +246,7 @@ TEST_F(ReloadInService, OfAnotherAddressOfAnOptionBoardIsPendingUntilTheNextStar
     EXPECT_TRUE(master.does("wait 30s for state data-exchange"));
     EXPECT_EQ(gateway.station(0).at("left_count"), 0);
 
-    EXPECT_EQ(told(reload(text)), "Nothing has changed.\n") << "taken back";
+    EXPECT_EQ(changes_in(reload(text)), "Nothing has changed.\n") << "taken back";
     EXPECT_TRUE(
         gateway.json({"show", "unwinder"}).at("stations").at(0).at("info").at("address_pending").is_null());
 }
@@ -267,7 +268,7 @@ TEST_F(Reload, BySeveralAtOnceIsAnsweredToEach)
     EXPECT_EQ(gateway.json({"status"}).at("stations").size(), 1U);
 }
 
-TEST_F(Reload, TellsAWatcherThatHisStationHasGone)
+TEST_F(Reload, ReportsARemovedStationToItsWatcher)
 {
     Process watch{gateway.dpctl_command({"status", "rewinder", "--follow"})};
     Process all{gateway.dpctl_command({"status", "--follow", "--json"})};
@@ -305,8 +306,8 @@ constexpr const char* kReadOfRewinder =
 
 TEST_F(Reload, RefusesAReadThatWaitsForADriveWhoseStationLeaves)
 {
-    gateway.drive().tell("unit 01");
-    gateway.drive().tell("slow 2000"); // beyond the time-out: repeated, and slow in being given up
+    gateway.drive().send_line("unit 01");
+    gateway.drive().send_line("slow 2000"); // beyond the time-out: repeated, and slow in being given up
     Process caller{caller_of(gateway, {kReadOfRewinder})};
     ASSERT_TRUE(caller.says("sent"));
     ASSERT_TRUE(eventually([this] { return gateway.json({"status"}).contains("pid"); })); // and it was heard
@@ -319,8 +320,8 @@ TEST_F(Reload, RefusesAReadThatWaitsForADriveWhoseStationLeaves)
 /// Three calls in one go: the first is answered in the middle of the reload, and the others right behind it.
 TEST_F(Reload, AnswersCallsBehindOneWhoseStationHasGoneOutOfTheNewConfiguration)
 {
-    gateway.drive().tell("unit 01");
-    gateway.drive().tell("slow 2000");
+    gateway.drive().send_line("unit 01");
+    gateway.drive().send_line("slow 2000");
     Process caller{caller_of(gateway, {kReadOfRewinder, R"({"method":"org.dpslaved.Control.GetLeds"})",
                                        R"({"method":"org.dpslaved.Control.GetInfo"})"})};
     ASSERT_TRUE(caller.says("sent"));
@@ -337,7 +338,7 @@ TEST_F(Reload, TakesOverOtherLamps)
 {
     const std::string lamp = gateway.make_led("other");
     const Outcome outcome = reload(text + "[station.leds]\nred = \"led:other\"\n");
-    EXPECT_EQ(told(outcome), "station rewinder: other lamps\n");
+    EXPECT_EQ(changes_in(outcome), "station rewinder: other lamps\n");
     EXPECT_TRUE(eventually([&] { return content(lamp) == "1"; })) << "external fault: there is no master";
     EXPECT_EQ(reload(text).status, 0);
     EXPECT_TRUE(eventually([&] { return content(lamp) == "0"; }));
@@ -361,13 +362,13 @@ protected:
 
 TEST_F(ReloadOfATable, ThatRenamesATagAndAddsARowIsNotNoticed)
 {
-    master.tell("try wait 3s for in 1 = 0");
+    master.send_line("try wait 3s for in 1 = 0");
     std::string rows = kRows;
     rows.replace(rows.find("SPEED"), 5, "LINE SPEED");
     const Outcome outcome = reload_rows(rows + "57,CURRENT,REAL,1,,,\n");
     EXPECT_EQ(outcome.status, 0) << outcome.err;
-    EXPECT_EQ(told(outcome), "station unwinder: 2 rows of its tag table\n"
-                             "station rewinder: 2 rows of its tag table\n");
+    EXPECT_EQ(changes_in(outcome), "station unwinder: 2 rows of its tag table\n"
+                                   "station rewinder: 2 rows of its tag table\n");
     EXPECT_TRUE(gateway.word_becomes(55, "name", "LINE SPEED"));
     EXPECT_EQ(gateway.dpctl({"read", "57", "--station", "unwinder"}).status, 1)
         << "the drive has no such tag";
@@ -376,7 +377,7 @@ TEST_F(ReloadOfATable, ThatRenamesATagAndAddsARowIsNotNoticed)
 
 TEST_F(ReloadOfATable, SaysInADryRunWhoWouldLeaveTheBusAndDoesNothing)
 {
-    master.tell("try wait 3s for in 1 = 0");
+    master.send_line("try wait 3s for in 1 = 0");
     std::string rows = kRows;
     rows.replace(rows.find("SPEED,REAL,2"), 12, "SPEED,REAL,1");
     write_file(gateway.folder("tags.csv"), rows);
@@ -387,13 +388,13 @@ TEST_F(ReloadOfATable, SaysInADryRunWhoWouldLeaveTheBusAndDoesNothing)
     EXPECT_THAT(outcome.out, Not(HasSubstr("leaves the bus: rewinder"))) << "no master uses it";
     EXPECT_THAT(outcome.out, HasSubstr("Nothing was done"));
     write_file(gateway.folder("tags.csv"), kRows);
-    EXPECT_EQ(told(gateway.dpctl({"reload"})), "Nothing has changed.\n");
+    EXPECT_EQ(changes_in(gateway.dpctl({"reload"})), "Nothing has changed.\n");
     unwinder_noticed_nothing();
 }
 
 TEST_F(ReloadOfATable, IsDoneTwoHundredTimesWithoutALossOfTheExchange)
 {
-    master.tell("try wait 60s for in 1 = 0");
+    master.send_line("try wait 60s for in 1 = 0");
     for (int i = 0; i < 200; ++i) {
         write_file(gateway.folder("tags.csv"),
                    kRows + std::string{"57,CURRENT,REAL,"} + (i % 2 == 0 ? "1" : "2") + ",,,\n");
@@ -411,7 +412,7 @@ class ReloadOfPorts : public Reload {
 protected:
     ReloadOfPorts() : Reload{{.units = {"00"}}}
     {
-        gateway.drive().tell("set 55 12.50");
+        gateway.drive().send_line("set 55 12.50");
         EXPECT_TRUE(master.does("start 30s"));
         EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
         EXPECT_TRUE(master.does("out 1 = 700"));
@@ -419,7 +420,7 @@ protected:
         gateway.drive().skip();
         EXPECT_TRUE(is_joined);
         EXPECT_TRUE(drive.says("ready"));
-        drive.tell("set 55 33.00");
+        drive.send_line("set 55 33.00");
     }
     std::string port(const std::string& name) const { return gateway.folder(name).string(); }
     void no_fault_was_logged()
@@ -460,7 +461,7 @@ TEST_F(ReloadOfPorts, ToOneThatIsNotThereIsRefusedByADryRunInTheWordsOfTheReload
     EXPECT_EQ(real.status, 1);
     EXPECT_THAT(real.err, HasSubstr("no-such-port is not there"));
     EXPECT_EQ(dry.out + dry.err, real.out + real.err);
-    gateway.drive().tell("set 55 21.00");
+    gateway.drive().send_line("set 55 21.00");
     EXPECT_TRUE(master.does("wait 30s for in 1 = 2100"));
 }
 
@@ -499,7 +500,7 @@ TEST_F(ReloadOfBoxes, AppliesAnotherAddressAtOnceAndKeepsWhatWasSetByHandWhereNo
     EXPECT_EQ(gateway.dpctl({"tec", "set", "EXT DIAGNOSTIC", "0x6AB5", "--station", "unwinder"}).status, 0);
     EXPECT_EQ(gateway.dpctl({"tec", "set", "ADDRESS", "20", "--station", "unwinder"}).status, 0);
     const Outcome outcome = reload(changed(text, "rewinder", "address = 6", "address = 8"));
-    EXPECT_EQ(told(outcome),
+    EXPECT_EQ(changes_in(outcome),
               "station rewinder changed: it leaves the bus and starts anew at address 8 (address)\n");
     EXPECT_EQ(gateway.station(0).at("address"), 20);
     EXPECT_EQ(gateway.station(1).at("address"), 8);

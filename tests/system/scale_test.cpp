@@ -30,12 +30,12 @@ protected:
     }
     ::testing::AssertionResult diag_says(const std::string& words) const
     {
-        std::string told;
+        std::string shown;
         for (int i = 0; i < 100; ++i) {
-            told = gateway.dpctl({"diag"}).out;
-            if (told.find(words) != std::string::npos) return ::testing::AssertionSuccess();
+            shown = gateway.dpctl({"diag"}).out;
+            if (shown.find(words) != std::string::npos) return ::testing::AssertionSuccess();
         }
-        return ::testing::AssertionFailure() << told;
+        return ::testing::AssertionFailure() << shown;
     }
 
     Gateway gateway{{.started = false}};
@@ -43,8 +43,8 @@ protected:
 
 TEST_F(UnknownScale, OfAnInputHoldsTheStartUntilAReloadBringsItsRow)
 {
-    gateway.drive().tell("unit 00");
-    gateway.drive().tell("set 55 12.50");
+    gateway.drive().send_line("unit 00");
+    gateway.drive().send_line("set 55 12.50");
     Master master{gateway, {"--tags", "55,56w"}};
 
     EXPECT_TRUE(master.does("try start 3s"));
@@ -84,8 +84,8 @@ TEST_F(UnknownScale, WithOneScaleForAllUnlistedTagsTheExchangeBegins)
 {
     write_file(gateway.config(), with_own_table() + "unlisted_decimals = 2\n");
     EXPECT_EQ(gateway.dpctl({"reload"}).status, 0);
-    gateway.drive().tell("unit 00");
-    gateway.drive().tell("set 55 12.50");
+    gateway.drive().send_line("unit 00");
+    gateway.drive().send_line("set 55 12.50");
     Master master{gateway, {"--tags", "55,56w"}};
 
     EXPECT_TRUE(master.does("start 30s"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The service manager of a test: what the daemon tells it, and how long it is silent.
+/// The service manager of a test: what the daemon reports to it, and how long it is silent.
 #pragma once
 
 #include "process.hpp"

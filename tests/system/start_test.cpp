@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the daemon starts, does not start, and ends; what it tells the service manager.
+// How the daemon starts, does not start, and ends; what it reports to the service manager.
 #include "gateway.hpp"
 #include "service_manager.hpp"
 
@@ -30,7 +30,7 @@ TEST(End, BySigtermZeroesTheOutputsRemovesTheSocketAndIsASuccess)
     EXPECT_TRUE(gateway.drive().says("tag 56 written 5.00"));
 }
 
-TEST(Notify, TellsReadinessStatesTheWatchdogAndTheEnd)
+TEST(Notify, ReportsReadinessStatesTheWatchdogAndTheEnd)
 {
     const Folder folder;
     ServiceManager manager{folder / "notify"};
@@ -41,13 +41,13 @@ TEST(Notify, TellsReadinessStatesTheWatchdogAndTheEnd)
     ASSERT_TRUE(master.does("start 30s"));
     EXPECT_TRUE(manager.hears("STATUS=1 of 1 in Data_Exch; unwinder: Data_Exch with master 2"));
     for (int i = 0; i < 5; ++i) EXPECT_TRUE(manager.hears("WATCHDOG=1"));
-    gateway.drive().tell("silence");
+    gateway.drive().send_line("silence");
     EXPECT_TRUE(manager.hears("drive silent"));
     EXPECT_EQ(gateway.daemon().end(), 0);
     EXPECT_TRUE(manager.hears("STOPPING=1"));
 }
 
-TEST(Notify, TellsThatAReloadBeginsAndIsOverAlsoWhenItIsRefused)
+TEST(Notify, ReportsThatAReloadBeginsAndIsOverAlsoWhenItIsRefused)
 {
     const Folder folder;
     ServiceManager manager{folder / "notify"};
@@ -62,7 +62,7 @@ TEST(Notify, TellsThatAReloadBeginsAndIsOverAlsoWhenItIsRefused)
     }
 }
 
-TEST(Log, ShowsTextOfOthersWithoutWhatATerminalObeys)
+TEST(Log, ShowsForeignTextWithoutWhatATerminalExecutes)
 {
     Gateway gateway{{.started = false}};
     const auto file = gateway.folder("Z\u00FCrich\x1B[2J\u202E.toml");

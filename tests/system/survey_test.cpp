@@ -52,8 +52,8 @@ protected:
 
 TEST_F(BareDrive, IsSurveyedInterruptedResumedConfirmedAndExchanged)
 {
-    gateway.drive().tell("set 55 12.34");
-    gateway.drive().tell("set 56 -7.5");
+    gateway.drive().send_line("set 55 12.34");
+    gateway.drive().send_line("set 56 -7.5");
     {
         Process first{gateway.dpctl_command(survey({"--tags", "50-145"}))};
         ASSERT_TRUE(first.says("96 tags to ask"));
@@ -104,11 +104,11 @@ TEST_F(BareDrive, IsSurveyedInterruptedResumedConfirmedAndExchanged)
 
 TEST_F(BareDrive, ThatIsSwitchedOffIsWaitedForAndNotHeldForADriveWithoutTags)
 {
-    gateway.drive().tell("silence");
+    gateway.drive().send_line("silence");
     ASSERT_TRUE(gateway.daemon().says("does not answer"));
     Process running{gateway.dpctl_command(survey({"--tags", "55-57"}))};
     ASSERT_TRUE(running.says("3 tags to ask"));
-    gateway.drive().tell("ok");
+    gateway.drive().send_line("ok");
 
     EXPECT_EQ(running.wait(), 0);
 

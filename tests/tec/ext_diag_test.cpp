@@ -32,8 +32,8 @@ TEST(TecExtDiag, TheCodeIsTheLowOctetOfTheTripWord)
 TEST(TecExtDiag, Bits5To7AreZeroAndNoTripIsHiddenByThat)
 {
     for (unsigned code = 0; code <= 255; ++code) {
-        const std::uint8_t told = ext_diag(TripForm::code, static_cast<std::uint16_t>(code), 0)[1];
-        EXPECT_EQ(told, code <= 31 ? code : 31u);
+        const std::uint8_t trip = ext_diag(TripForm::code, static_cast<std::uint16_t>(code), 0)[1];
+        EXPECT_EQ(trip, code <= 31 ? code : 31u);
     }
 }
 

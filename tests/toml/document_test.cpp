@@ -84,7 +84,7 @@ TEST_F(TomlDocument, with_dots_and_brackets_in_texts_and_comments_is_not_nested)
     EXPECT_THAT(document.faults(), IsEmpty());
 }
 
-TEST_F(TomlDocument, with_thousands_of_faults_tells_the_first_ones_and_that_there_are_more)
+TEST_F(TomlDocument, with_thousands_of_faults_reports_the_first_ones_and_that_there_are_more)
 {
     std::string content;
     for (int i = 0; i < 12'000; ++i) content += "wrong" + std::to_string(i) + " = 1\n";
@@ -116,7 +116,7 @@ TEST_F(TomlDocument, of_iso_8859_1_cannot_bring_a_control_character_to_a_termina
     EXPECT_THAT(document.faults()[0].what, HasSubstr("control character"));
 }
 
-TEST_F(TomlDocument, faults_show_the_text_of_others_without_what_a_terminal_obeys)
+TEST_F(TomlDocument, faults_show_foreign_text_without_what_a_terminal_executes)
 {
     Document& document = read("\"\\u001b[2J\\u009b\\u202e\\u000aforged\" = 1\nname = \"Z\u00FCrich\"\n");
     document.root().integer("name", 0, 1);
@@ -136,7 +136,7 @@ TEST_F(TomlDocument, a_fault_with_a_value_of_a_whole_file_is_a_sentence_that_can
     EXPECT_LT(to_string(document.faults().at(0)).size(), 1200u);
 }
 
-TEST_F(TomlDocument, a_key_nobody_asked_for_is_a_fault_that_names_the_nearest)
+TEST_F(TomlDocument, an_unknown_key_is_a_fault_that_names_the_nearest)
 {
     Document& document = read("[bus]\nprot = \"x\"\nzzzzzzzz = 1\n");
     Table root = document.root();
@@ -202,7 +202,7 @@ TEST_F(TomlDocument, tables_with_single_brackets_where_double_ones_are_wanted_ar
     EXPECT_THAT(short_forms(document.faults()), ElementsAre(HasSubstr("[[line]] in double brackets")));
 }
 
-TEST_F(TomlDocument, a_missing_key_is_told_at_its_table_with_a_line_to_add)
+TEST_F(TomlDocument, a_missing_key_is_reported_at_its_table_with_a_line_to_add)
 {
     Document& document = read("x = 1\n\n[[line]]\nname = \"a\"\n");
     Table root = document.root();

@@ -183,7 +183,7 @@ TEST_F(Controller, RefusesASetPrmThatAsksForSyncOrFreeze)
     }
 }
 
-TEST_F(Controller, IgnoresSyncAndFreezeButObeysTheClearDataBesideThem)
+TEST_F(Controller, IgnoresSyncAndFreezeButExecutesTheClearDataBesideThem)
 {
     start_up(tags_from_1(2), "60 50");
     inputs_are({0, 1});

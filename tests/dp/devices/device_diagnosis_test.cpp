@@ -111,10 +111,10 @@ TEST_F(ControllerDiagnosis, ExampleOfTheHandbook)
     exchanges();
     slave.set_ext_diag(octets("03 40 30"), false); // manual, sensor break, IP1 fault
 
-    const std::string told = at_36.slave_diag();
+    const std::string diagnosis = at_36.slave_diag();
 
-    EXPECT_EQ(told, "DL 00 0C 00 24 24 08 03 40 30");
-    const std::string from_the_second_octet = told.substr(6); // as printed: XX XX 24 XX XX 03 40 30
+    EXPECT_EQ(diagnosis, "DL 00 0C 00 24 24 08 03 40 30");
+    const std::string from_the_second_octet = diagnosis.substr(6); // as printed: XX XX 24 XX XX 03 40 30
     EXPECT_EQ(from_the_second_octet.substr(6, 2), "24");
     EXPECT_EQ(from_the_second_octet.substr(15), "03 40 30");
 }

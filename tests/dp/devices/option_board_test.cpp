@@ -215,7 +215,7 @@ TEST_F(OptionBoard, AFirstOctetFrom00To07IsTheHighOctetOfATag)
     EXPECT_EQ(seen().layout.parameters[0], input(0x0700));
 }
 
-TEST_F(OptionBoard, GetCfgTellsTheAcceptedIdentifiers)
+TEST_F(OptionBoard, GetCfgReturnsTheAcceptedIdentifiers)
 {
     start_up(board_prm({55, 56, 288}), "73 50 60 50");
 

@@ -42,14 +42,14 @@ protected:
         std::iota(all.begin(), all.end(), first);
         return all;
     }
-    /// Output words tag + `offset`, all told at once.
+    /// Output words tag + `offset`, all set at once.
     void master_writes_all(int offset)
     {
         OutputImage& image = bench.images[0];
         image.may_write = true;
         for (std::size_t i = 0; i < image.layout.count; ++i)
             image.words[i] = static_cast<std::uint16_t>(image.layout.parameters[i].tag + offset);
-        bench.tell(0);
+        bench.send_outputs(0);
     }
     /// "10+4 20": the writes of the log, first tag and count; a refused or silent one with a mark.
     std::string writes()
@@ -104,7 +104,7 @@ TEST_F(PollerBlockWrites, TakeOnlyWhatIsDue)
     bench.master_writes(0, 12, 5);
     bench.run(1s);
     EXPECT_EQ(writes(), "12");
-    drive().words[11] = drive().words[12] = drive().words[14] = 0; // somebody at the panel
+    drive().words[11] = drive().words[12] = drive().words[14] = 0; // changed at the panel
     bench.run(1s);
     EXPECT_EQ(writes(), "11+2 14");
 }
@@ -123,7 +123,7 @@ TEST_F(PollerBlockWrites, LeaveOutATagWithARegisterOfItsOwn)
     EXPECT_EQ(drive().words[31], 131);
 }
 
-TEST_F(PollerBlockWrites, LeaveOutAWriteOnlyTagForNobodyCanProveIt)
+TEST_F(PollerBlockWrites, LeaveOutAWriteOnlyTagThatCannotBeReadBack)
 {
     bench.layout(0, 1, {1}, from_to(40, 42));
     master_writes_all(100);
@@ -172,7 +172,7 @@ TEST_F(PollerBlockWrites, WhatTheDriveDropsInSilenceIsFoundByTheReadAndWrittenAl
     drive().not_kept.clear();
     drive().write_errors[12] = AccessError::not_config_mode;
     bench.run(500ms);
-    EXPECT_EQ(writes(), "12! 13") << "they adjoin, but only a single write tells";
+    EXPECT_EQ(writes(), "12! 13") << "they adjoin, but only a single write proves it";
     EXPECT_EQ(drive().words[13], 113);
     EXPECT_EQ(seen().errors[3], AccessError::not_config_mode);
     EXPECT_EQ(seen().errors[2], AccessError::none);

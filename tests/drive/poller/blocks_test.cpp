@@ -84,7 +84,7 @@ TEST_F(PollerBlocks, AreNoLongerThanTheRule)
     EXPECT_TRUE(inputs.every_input_tried);
 }
 
-TEST_F(PollerBlocks, AreSplitAtAHoleThatNobodyAskedFor)
+TEST_F(PollerBlocks, AreSplitAtAHoleBetweenTheRequestedTags)
 {
     drive().words.erase(13);
     bench.layout(0, 1, {10, 11, 14, 15});
@@ -126,7 +126,7 @@ TEST_F(PollerBlocks, AreCutAtTheirHoleOnlyAndNotOnTheWayToIt)
     drive().words.erase(20);
     asked.erase(std::remove(asked.begin(), asked.end(), 20), asked.end());
     bench.layout(0, 2, asked);
-    EXPECT_EQ(round(), "10+2 13+7 21+5") << "two holes that nobody asked for";
+    EXPECT_EQ(round(), "10+2 13+7 21+5") << "two holes between the requested tags";
     bench.log.clear();
     bench.run(60s);
     EXPECT_EQ(bench.count([](const test::Done& d) { return d.error != AccessError::none; }), 0u);

@@ -71,7 +71,7 @@ TEST_F(PollerCompare, ABusThatFlapsCostsNoWriteWhereTheDriveHoldsTheWord)
         bench.images[0].may_write = true;
         bench.images[0].words[2] = 5;
         bench.images[0].words[3] = 6;
-        bench.tell(0);
+        bench.send_outputs(0);
         bench.run(1s);
         bench.master_leaves(0);
     }
@@ -114,7 +114,7 @@ TEST_F(PollerCompare, AWordIsWrittenOnEachChangeOfTheMaster)
     EXPECT_EQ(bench.writes_of(10), 5u);
 }
 
-TEST_F(PollerCompare, ThePanelIsOverriddenOnceForEachTimeThatSomebodyTurnsIt)
+TEST_F(PollerCompare, ThePanelIsOverriddenOnceForEachChangeMadeThere)
 {
     exchanges(10, 5);
     for (int turn = 1; turn <= 5; ++turn) {
@@ -358,7 +358,7 @@ TEST_F(PollerCompare, AfterTheReturnOfTheDriveOnlyWhatItLostIsWritten)
     bench.run(10s);
     EXPECT_EQ(bench.writes_of(10), 0u) << "its memory held";
     EXPECT_EQ(bench.writes_of(40), 1u);
-    EXPECT_EQ(bench.writes_of(91), 1u) << "nobody can look";
+    EXPECT_EQ(bench.writes_of(91), 1u) << "it cannot be read back";
     EXPECT_EQ(drive().words[40], 40);
     for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(seen().states[i], WordState::good) << i;
 }
@@ -381,7 +381,7 @@ TEST_F(PollerCompare, OfTwoOutputsWithOneTagTheLastIsWritten)
     bench.images[0].may_write = true;
     bench.images[0].words[1] = 5;
     bench.images[0].words[2] = 6;
-    bench.tell(0);
+    bench.send_outputs(0);
     bench.run(60s);
     EXPECT_EQ(bench.writes_of(10), 1u) << "they are not written over each other for ever";
     EXPECT_EQ(drive().words[10], 6);

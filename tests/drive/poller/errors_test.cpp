@@ -95,7 +95,7 @@ TEST_F(PollerErrors, OfAWriteAreThoseOfTheLastAccess)
 }
 
 /// B-053: a drive says EE 05 or 08 for them too, an instrument exception 2 or 3; the table knows more.
-TEST_F(PollerErrors, OfAWriteThatTheDriveTakesInOneStateOnlyTellTheState)
+TEST_F(PollerErrors, OfAWriteThatTheDriveTakesInOneStateOnlyNameTheState)
 {
     struct Case {
         int tag, word;

@@ -125,7 +125,7 @@ TEST_F(PollerLoss, ADriveThatWasNeverThereIsKnownToBeLost)
     const auto inputs = bench.poller.take_inputs(0);
     ASSERT_TRUE(inputs);
     EXPECT_FALSE(bench.poller.snapshot(0).answers);
-    EXPECT_TRUE(inputs->every_input_tried) << "with the result that nobody answers";
+    EXPECT_TRUE(inputs->every_input_tried) << "with the result that no drive answers";
     EXPECT_EQ(seen().states[0], WordState::stale);
 }
 
@@ -180,7 +180,7 @@ TEST_F(PollerLoss, EveryOutputIsWritten0OnceWhenTheMasterLeaves)
     EXPECT_EQ(bench.log[1].purpose, Purpose::safe_state);
 }
 
-TEST_F(PollerLoss, LeavingIsToldTwiceAndCountsOnce)
+TEST_F(PollerLoss, LeavingIsReportedTwiceAndCountsOnce)
 {
     exchanges();
     bench.master_leaves(0);

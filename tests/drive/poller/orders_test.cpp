@@ -335,7 +335,7 @@ TEST_F(PollerOrders, OrdersEndWithTheirLayout)
     (void)answers();
     bench.poller.left_data_exchange(0, {1});
     bench.log.clear();
-    order(Kind::read, 51); // told late, of the layout that has ended
+    order(Kind::read, 51); // it comes late, of the layout that has ended
     bench.run(1s);
     EXPECT_EQ(bench.reads_of(50) + bench.reads_of(51), 0u);
     bench.poller.set_demand(0, {Kind::read, 52, 0, 99, 2}); // the order may come before the layout
@@ -379,7 +379,7 @@ TEST_F(PollerOrders, DpctlComesAfterDemandData)
     EXPECT_EQ(all.substr(0, 5), "didic") << "the write is read back";
 }
 
-TEST_F(PollerOrders, DpctlIsToldAboutErrorsAndASilentDrive)
+TEST_F(PollerOrders, DpctlGetsErrorsAndTheSilenceOfADrive)
 {
     bench.drives[0].words.erase(60);
     EXPECT_TRUE(bench.poller.operate({.number = 1, .unit = 0, .tag = 60}));
@@ -396,7 +396,7 @@ TEST_F(PollerOrders, DpctlIsToldAboutErrorsAndASilentDrive)
         << "known to be lost: at once";
 }
 
-TEST_F(PollerOrders, DpctlIsToldThatTheDriveDidNotUnderstandAfterTheRetries)
+TEST_F(PollerOrders, DpctlGetsThatTheDriveDidNotUnderstandAfterTheRetries)
 {
     bench.drives[0].write_errors[50] = AccessError::not_understood;
     EXPECT_TRUE(bench.poller.operate({.number = 1, .unit = 0, .is_write = true, .tag = 50, .word = 1}));

@@ -66,21 +66,21 @@ public:
         image.layout.generation = generation;
         for (const int tag : reads) add(image, tag, true, false);
         for (const int tag : writes) add(image, tag, false, true);
-        tell(unit);
+        send_outputs(unit);
     }
-    void tell(std::size_t unit) { poller.set_outputs(unit, images[unit]); }
+    void send_outputs(std::size_t unit) { poller.set_outputs(unit, images[unit]); }
     void master_writes(std::size_t unit, int tag, int word)
     {
         OutputImage& image = images[unit];
         image.may_write = true;
         for (std::size_t i = 0; i < image.layout.count; ++i)
             if (image.layout.parameters[i].tag == tag) image.words[i] = static_cast<std::uint16_t>(word);
-        tell(unit);
+        send_outputs(unit);
     }
     void master_leaves(std::size_t unit)
     {
         images[unit].may_write = false;
-        tell(unit);
+        send_outputs(unit);
         poller.left_data_exchange(unit, {images[unit].layout.generation});
     }
 

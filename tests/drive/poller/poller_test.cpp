@@ -128,7 +128,7 @@ TEST_F(PollerOfOne, WritesAStandingOutputAgainAfterTheRefreshTime)
     EXPECT_EQ(bench.writes_of(10), 11u) << "at 0 s and at 1 to 10 s";
 }
 
-TEST_F(PollerOfOne, RepairsAValueThatSomebodyElseChangedByItsRefresh)
+TEST_F(PollerOfOne, RepairsAForeignChangeOfAValueByItsRefresh)
 {
     bench.layout(0, 1, {5}, {10});
     bench.master_writes(0, 10, 1);

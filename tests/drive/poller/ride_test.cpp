@@ -255,7 +255,7 @@ TEST_F(PollerRide, CountsFromALossWhileTheDriveIsLostToo)
     bench.run(9s); // the probes are far apart by now
     const Instant loss = bench.now;
     bench.master_leaves(0);
-    EXPECT_LE(bench.poller.next_deadline(), loss) << "the time is to be told now, not with the next probe";
+    EXPECT_LE(bench.poller.next_deadline(), loss) << "the time is set now, not with the next probe";
     bench.run(5s);
     drive().alive = true;
     while (!bench.poller.snapshot(0).answers) bench.run(10ms);

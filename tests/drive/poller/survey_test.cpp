@@ -169,7 +169,7 @@ std::optional<Transaction> survey_read(PollerBench& bench)
     return std::nullopt;
 }
 
-TEST_F(PollerSurvey, a_value_is_told_as_the_drive_wrote_it_whatever_the_table_makes_of_it)
+TEST_F(PollerSurvey, a_value_is_reported_as_the_drive_wrote_it_whatever_the_table_makes_of_it)
 {
     bench.poller.survey(0, 1, 55);
     ASSERT_TRUE(survey_read(bench));
@@ -181,7 +181,7 @@ TEST_F(PollerSurvey, a_value_is_told_as_the_drive_wrote_it_whatever_the_table_ma
     EXPECT_STREQ(answer->said.data(), "-12.34");
 }
 
-TEST_F(PollerSurvey, a_denial_is_told_with_its_reason)
+TEST_F(PollerSurvey, a_denial_is_reported_with_its_reason)
 {
     bench.poller.survey(0, 1, 55);
     ASSERT_TRUE(survey_read(bench));

@@ -38,7 +38,7 @@ std::vector<Baud> rates_in(BaudSearch& search, std::size_t dwells)
     return rates;
 }
 
-TEST(BaudSearch, WantsToBeToldTheTimeAtOnce)
+TEST(BaudSearch, HasItsFirstDeadlineAtOnce)
 {
     const BaudSearch search{BaudSearchSettings{}, Baud::k1500};
 
@@ -158,7 +158,7 @@ TEST(BaudSearch, BadCharactersAreCountedAnewAtEachRate)
     EXPECT_EQ(search.baud(), Baud::k500);
 }
 
-TEST(BaudSearch, OneErrorFreeTelegramOfAnybodyIsEvidence)
+TEST(BaudSearch, OneErrorFreeTelegramOfAnyStationIsEvidence)
 {
     BaudSearch search{BaudSearchSettings{}, Baud::k187_5};
     search.on_telegram(false, kStart);
@@ -196,7 +196,7 @@ TEST(BaudSearch, BaudControlWithoutEvidenceFor320MsListensAtItsRateBeforeItIsLef
     EXPECT_FALSE(search.in_doubt());
 }
 
-TEST(BaudSearch, InDoubtATelegramOfAnybodyIsEvidence)
+TEST(BaudSearch, InDoubtATelegramOfAnyStationIsEvidence)
 {
     BaudSearch search{BaudSearchSettings{}, Baud::k187_5};
     search.on_supervision(true, false, kStart);
@@ -240,7 +240,7 @@ TEST(BaudSearch, TelegramsToUsRetriggerBaudControl)
     EXPECT_EQ(search.next_deadline(), kStart + milliseconds{620});
 }
 
-TEST(BaudSearch, TelegramsToOthersRetriggerBaudControlWhileNobodyIsOwned)
+TEST(BaudSearch, TelegramsToOthersRetriggerBaudControlWhileNoStationHasAnOwner)
 {
     BaudSearch search{BaudSearchSettings{}, Baud::k187_5};
     search.on_telegram(false, kStart);

@@ -224,7 +224,7 @@ TEST_F(Searching, LossOfTheMasterLeadsBackToTheSearchAndTheFrameCountIsForgotten
     ASSERT_TRUE(bus.reply());
     bus.line_is_idle_for(milliseconds{2400});
     EXPECT_EQ(station.baud_state(), BaudState::baud_search);
-    EXPECT_TRUE(user.times.empty()); // DP is not told
+    EXPECT_TRUE(user.times.empty()); // DP does not get it
 
     poll_until_found(seconds{30});
     bus.master_sends(sd2(kUs, kMaster, kSrdFcb1, {1}));

@@ -2,7 +2,7 @@
 # A virtual machine that has the packages installed and runs one script, /host/run. Sourced by the steps amd64 and arm64:
 #   architecture=amd64 flavour=rt-amd64
 #   make_machine FOLDER...         its disk: Debian, the packages of DEBS, and the files of the named folders on top
-#   run_machine QEMU ARGUMENT...   boots it, tells what its script says, and ends with its status
+#   run_machine QEMU ARGUMENT...   boots it, prints what its script prints, and ends with its status
 # What lies in $shared is /host in the machine. Needs root and Debian's package mirror, but no hardware
 # virtualisation: qemu translates (TCG).
 # shellcheck shell=bash
@@ -79,10 +79,10 @@ run_machine() { # QEMU ARGUMENT...
         -device virtio-9p-pci,fsdev=host,mount_tag=host >"$folder/qemu.log" 2>&1 &
     qemu=$!
     follow "$shared/results.log" "$qemu" &
-    local teller=$!
+    local tail_pid=$!
     wait "$qemu" || true
     qemu=
-    wait "$teller" || true
+    wait "$tail_pid" || true
     status=$(cat "$shared/status" 2>/dev/null || echo none)
     step "machine ended, its tests with status $status"
     [ "$status" != none ] || {

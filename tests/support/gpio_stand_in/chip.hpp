@@ -25,9 +25,9 @@ public:
     unsigned requests(unsigned line) const { return chip_->line.at(line).requests; }
     std::string consumer(unsigned line) const { return chip_->line.at(line).consumer.data(); }
     bool is_taken(unsigned line) const;
-    /// As it was left by somebody who died.
+    /// As a process that died left it.
     void leave(unsigned line, bool high) { chip_->line.at(line).level.high = high ? 1 : 0; }
-    /// Somebody else takes the line, until the end of this object.
+    /// Another process takes the line, until the end of this object.
     void occupy(unsigned line, const std::string& consumer);
     void remove();    ///< the chip is pulled: what was taken is dead
     void come_back(); ///< another chip of this name is there, its lines low

@@ -6,7 +6,7 @@
 
 namespace dpslave::stand_in {
 
-/// A chip that was opened. Errors are told by errno, with the values that the kernel uses.
+/// A chip that was opened. Errors are reported by errno, with the values that the kernel uses.
 class Handle {
 public:
     /// Nothing: errno says why.

@@ -78,7 +78,7 @@ TEST_P(MadeGsd, IsAcceptedByTheGatewayAsItStands)
                   {"--family", is_controller ? "controller" : "option-board", "--ident", gsd.ident, "--prm",
                    gsd.prm, "--cfg", gsd.cfg, "--no-sync-freeze"}};
     ASSERT_TRUE(master.does("start 30s")) << gsd.ident << ' ' << gsd.prm << ' ' << gsd.cfg;
-    gateway.drive().tell(is_controller ? "set 1 12.5" : "set 55 12.50");
+    gateway.drive().send_line(is_controller ? "set 1 12.5" : "set 55 12.50");
     EXPECT_TRUE(master.does(is_controller ? "wait 30s for in 1 = 125" : "wait 30s for in 1 = 1250"));
     EXPECT_TRUE(master.does("out 1 = 300"));
     EXPECT_TRUE(gateway.drive().says(is_controller ? "tag 24 written 30.0" : "tag 56 written 3.00"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A device type that nobody here has heard of: a profile, a tag table and a GSD in a folder of the site. No
+// A device type that is not shipped: a profile, a tag table and a GSD in a folder of the site. No
 // line of C++ is written for it, and no program is built.
 #include "system/gateway.hpp"
 
@@ -107,7 +107,7 @@ TEST_F(NewDevice, NeedsAProfileATagTableAndAGsdOnly)
                   {"--family", "technology-box", "--ident", "0x0C0D", "--tags", "301,302w", "--no-demand",
                    "--no-sync-freeze"}};
     ASSERT_TRUE(master.does("start 30s"));
-    gateway.drive().tell("set 301 12.5");
+    gateway.drive().send_line("set 301 12.5");
     EXPECT_TRUE(master.does("wait 30s for in 1 = 125"));
     EXPECT_TRUE(master.does("out 1 = -300"));
     EXPECT_TRUE(gateway.drive().says("tag 302 written -30.0"));

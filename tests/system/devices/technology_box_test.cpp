@@ -52,14 +52,14 @@ bool becomes(const Gateway& gateway, const char* row, int value)
     return eventually([&] { return gateway.tec(row) == value; });
 }
 
-TEST(TechnologyBox, TellsTripAndExtDiagnosticInTheGoldenDiagnosisTelegram)
+TEST(TechnologyBox, ReportsTripAndExtDiagnosticInTheGoldenDiagnosisTelegram)
 {
     Gateway gateway{box()};
     Master master{gateway, for_box({"--tags", "55,56w"})};
     ASSERT_TRUE(master.does("start 30s"));
     EXPECT_TRUE(master.does("wait 30s for diag 000C0001164904000000")) << "the block is always sent";
 
-    gateway.drive().tell("set 4 0001");
+    gateway.drive().send_line("set 4 0001");
     EXPECT_TRUE(master.does("wait 30s for diag 000C0001164904010000")) << "a change is an event of its own";
     EXPECT_EQ(gateway.dpctl({"tec", "set", "EXT DIAGNOSTIC", "0x6AB5"}).status, 0);
     EXPECT_TRUE(master.does("wait 30s for diag 000C00011649 04016AB5"));
@@ -70,17 +70,17 @@ TEST(TechnologyBox, TellsTripAndExtDiagnosticInTheGoldenDiagnosisTelegram)
     EXPECT_THAT(gateway.dpctl({"show"}).out, HasSubstr("1: LINK OVERVOLTS"));
     EXPECT_TRUE(gateway.daemon().says("trip of the drive: 1: LINK OVERVOLTS"));
 
-    gateway.drive().tell("set 4 0000");
+    gateway.drive().send_line("set 4 0000");
     EXPECT_TRUE(master.does("wait 30s for diag 000C0001164904006AB5"));
     EXPECT_TRUE(gateway.daemon().says("trip of the drive: none any more"));
     EXPECT_TRUE(master.leaves());
 }
 
-TEST(TechnologyBox, TellsTheFirstDiagnosisOfAStartUpWithTheTripThatStands)
+TEST(TechnologyBox, ReportsTheFirstDiagnosisOfAStartUpWithTheTripThatStands)
 {
     Gateway gateway{box("trip_tag = 4\next_diagnostic_tag = 31\n", "ext_diag_bit = true\n")};
-    gateway.drive().tell("set 4 0014");
-    gateway.drive().tell("set 31 1234");
+    gateway.drive().send_line("set 4 0014");
+    gateway.drive().send_line("set 31 1234");
     EXPECT_TRUE(becomes(gateway, "EXT DIAGNOSTIC", 0x1234)) << "it follows the drive, without any master";
     EXPECT_TRUE(eventually([&] { return gateway.diagnosis().at("hex") == "0A 05 00 FF 16 49 04 14 12 34"; }))
         << gateway.diagnosis().at("hex");
@@ -92,14 +92,14 @@ TEST(TechnologyBox, TellsTheFirstDiagnosisOfAStartUpWithTheTripThatStands)
     EXPECT_EQ(gateway.dpctl({"tec", "set", "EXT DIAGNOSTIC", "1"}).status, 1) << "a tag of the drive says it";
 }
 
-TEST(TechnologyBox, Of590PlusTellsThatItHasTrippedButNotWhy)
+TEST(TechnologyBox, Of590PlusReportsThatItHasTrippedButNotWhy)
 {
     Wiring wiring = box("trip_tag = 4\n", "ident = 0x0B0B\n");
     wiring.profile = "590plus";
     Gateway gateway{wiring};
     Master master{gateway, {"--family", "technology-box", "--ident", "0x0B0B", "--tags", "55,56w"}};
     ASSERT_TRUE(master.does("start 30s"));
-    gateway.drive().tell("set 4 0005");
+    gateway.drive().send_line("set 4 0005");
     EXPECT_TRUE(master.does("wait 30s for diag ext 041F0000"));
 }
 
@@ -117,10 +117,10 @@ TEST(TechnologyBox, Of590PlusIsTrippedWhileItSaysThatItIsNotHealthy)
         eventually([&] { return gateway.dpctl({"show"}).out.find("trip 0: NO TRIP") != std::string::npos; }));
     EXPECT_TRUE(master.does("wait 30s for diag ext 04000000")) << "a healthy drive has not tripped";
 
-    gateway.drive().tell("set 12 0");
+    gateway.drive().send_line("set 12 0");
     EXPECT_TRUE(master.does("wait 30s for diag ext 041F0000"));
     EXPECT_TRUE(gateway.daemon().says("trip of the drive: 31: TRIPPED"));
-    gateway.drive().tell("set 12 1");
+    gateway.drive().send_line("set 12 1");
     EXPECT_TRUE(master.does("wait 30s for diag ext 04000000"));
 }
 
@@ -184,16 +184,16 @@ TEST_F(FunctionBlock, FollowsTheBusWithItsNetworkState)
     EXPECT_EQ(gateway.tec(kFault), 0);
     EXPECT_EQ(gateway.tec("VERSION"), 0x0300);
 
-    gateway.drive().tell("nak 05C8");
+    gateway.drive().send_line("nak 05C8");
     EXPECT_TRUE(master.does("out 1 = 500"));
     EXPECT_TRUE(becomes(gateway, kNetwork, kDataExError)) << "a write fails, data exchange goes on";
     EXPECT_TRUE(master.does("expect state data-exchange"));
-    gateway.drive().tell("ok");
+    gateway.drive().send_line("ok");
     EXPECT_TRUE(becomes(gateway, kNetwork, kDataExchange));
     EXPECT_TRUE(gateway.daemon().says("NETWORK STATE is DATA EX ERROR"));
     EXPECT_TRUE(master.does("unlock"));
     EXPECT_TRUE(becomes_while_asked(kWaitParam));
-    EXPECT_TRUE(becomes(gateway, kNetwork, kBaudSearch)) << "nobody speaks any more";
+    EXPECT_TRUE(becomes(gateway, kNetwork, kBaudSearch)) << "no station sends any more";
 }
 
 TEST_F(FunctionBlock, ShowsWithIntDiagSelectWhatTheMasterHasConfigured)
@@ -201,7 +201,7 @@ TEST_F(FunctionBlock, ShowsWithIntDiagSelectWhatTheMasterHasConfigured)
     Master master{gateway, for_box({"--tags", "55,56w"})};
     ASSERT_TRUE(master.does("start 30s"));
     EXPECT_TRUE(master.does("out 1 = 0x1234"));
-    gateway.drive().tell("set 55 12.50");
+    gateway.drive().send_line("set 55 12.50");
     EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
     for (const auto& [select, shown] : {std::pair{"100", 55},
                                         {"101", 56},
@@ -231,7 +231,7 @@ TEST(FunctionBlockOfADriveThatRuns, ShowsAccessErrors3And4)
     Gateway gateway{wiring};
     Master master{gateway, for_box({"--tags", "55,56w,60w,61w"})};
     ASSERT_TRUE(master.does("start 30s"));
-    gateway.drive().tell("nak 05C8"); // it runs
+    gateway.drive().send_line("nak 05C8"); // it runs
     EXPECT_TRUE(master.does("out 1 = 100"));
     EXPECT_TRUE(master.does("out 2 = 1500"));
     EXPECT_TRUE(master.does("out 3 = 1"));
@@ -239,12 +239,12 @@ TEST(FunctionBlockOfADriveThatRuns, ShowsAccessErrors3And4)
         EXPECT_EQ(gateway.dpctl({"tec", "set", "INT_DIAG_SELECT", select}).status, 0);
         EXPECT_TRUE(becomes(gateway, "INT DIAGNOSTIC", shown)) << select;
     }
-    gateway.drive().tell("nak 08C8");
+    gateway.drive().send_line("nak 08C8");
     EXPECT_EQ(gateway.dpctl({"tec", "set", "INT_DIAG_SELECT", "302"}).status, 0);
     EXPECT_TRUE(becomes(gateway, "INT DIAGNOSTIC", 3));
     EXPECT_TRUE(master.does("out 2 = 4000"));
     EXPECT_TRUE(becomes(gateway, "INT DIAGNOSTIC", 1)) << "beyond the limits of the table it is what it says";
-    gateway.drive().tell("ok");
+    gateway.drive().send_line("ok");
     EXPECT_TRUE(master.does("out 2 = 1500"));
     EXPECT_TRUE(gateway.drive().says("tag 60 written 1500"));
     EXPECT_TRUE(becomes(gateway, "INT DIAGNOSTIC", 0));
@@ -394,7 +394,7 @@ TEST_F(RideThrough, IsCutShortByTheEndOfTheProgram)
 {
     lose_master_with("60");
     EXPECT_EQ(gateway->daemon().end(), 0);
-    EXPECT_TRUE(gateway->drive().says("tag 56 written 0.00")) << "nobody could do it later";
+    EXPECT_TRUE(gateway->drive().says("tag 56 written 0.00")) << "the daemon has ended";
     EXPECT_TRUE(gateway->drive().says("tag 57 written 0.00"));
 }
 
@@ -450,7 +450,7 @@ TEST_F(BoxLamps, SayOnIsGoodAndOffIsBad)
     EXPECT_TRUE(eventually([&] { return pattern("network") == "on"; }));
     EXPECT_TRUE(shows(network, "1"));
 
-    gateway.drive().tell("set 272 0010");
+    gateway.drive().send_line("set 272 0010");
     EXPECT_TRUE(shows(health, "0"));
     EXPECT_TRUE(shows(run, "0"));
 

@@ -37,7 +37,7 @@ low_after_crash() {
 }
 
 # The bare program, killed again and again: every other time at a random moment, else just while the line is active.
-# Nobody but the kernel lets the line go then.
+# Only the kernel releases the line then.
 low_after_kills() {
     local kills=0 active=0 pid limit end
     limit=$(cat kills)

@@ -18,7 +18,7 @@ pin_flashes() { # LINE
     local value
     for value in 0 1 0 1; do eventually pin_is "$1" "$value"; done
 }
-# The kernel tells changes only, so four more lines are two flashes.
+# The kernel reports changes only, so four more lines are two flashes.
 class_lamp_flashes() {
     local seen
     changed_four_times() { [ "$(wc -l <"$bench/lamp.log")" -ge $((seen + 4)) ]; }

@@ -41,5 +41,5 @@ sysfs_number() { # LINE
         [ "$(cat "$folder/label")" != "$chip_label" ] || echo $(($(cat "$folder/base") + $1))
     done
 }
-# What a pin shows that nobody drives, as a resistor on the board would.
+# The level of a pin that is not driven, as a resistor on the board sets it.
 pull() { echo "pull-$2" >"$(dirname "$(level_file "$1")")/pull"; } # LINE up|down

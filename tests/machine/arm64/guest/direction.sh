@@ -46,8 +46,8 @@ release_makes_low() {
     expect_level "$enable_line" 0
     wait || true
 }
-# The end of a service that is not started again: what is low then was made low by ExecStopPost, although somebody has
-# begun to edit the configuration.
+# The end of a service that is not started again: what is low then was made low by ExecStopPost, although the
+# configuration is being edited.
 low_after_crash() {
     direct_by_gpio "$enable_line" false 9600
     mkdir -p /run/systemd/system/dpslaved.service.d

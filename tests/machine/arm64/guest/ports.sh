@@ -13,13 +13,13 @@ chip_device() { # of the PL061
 }
 # The number of a line for sysfs GPIO, and in the kernel's trace.
 sysfs_number() { echo $(($(cat /sys/class/gpio/gpiochip*/base) + $1)); } # LINE
-# Where the level of a line is to be seen while somebody has it as an output, and what is found there.
+# Where the level of a line is to be seen while a process has it as an output, and what is found there.
 level_file() { echo /sys/kernel/debug/gpio; } # LINE
 level_pattern() { # LINE LEVEL
     local levels=(lo hi)
     echo "gpio-$(sysfs_number "$1") .*out ${levels[$2]}"
 }
-# The level of a line. One that nobody has is taken for a moment: sysfs GPIO leaves direction and level as they are.
+# The level of a line. One that no process has is taken for a moment: sysfs GPIO leaves direction and level as they are.
 level() { # LINE
     local level number
     for level in 0 1; do

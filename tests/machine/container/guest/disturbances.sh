@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# What the service manager is for: a program that hangs, is killed, or is told to go.
+# What the service manager is for: a program that hangs, is killed, or is stopped.
 # shellcheck shell=bash disable=SC2034,SC2154 # what the files of the guest share
 
 # Stops one thread of a process and nothing else, as a debugger does, until it is gone or 60 s are over.
@@ -37,7 +37,7 @@ prove "given a bus thread that stands still alone, when the watchdog's time is o
 zeroes() { grep -c -F "tag 56 written 0.00" /host/drive1.log; }
 zeroes_more_than() { [ "$(zeroes)" -gt "$1" ]; }
 
-# Nobody can take a hanging thread its port away: the program goes without it, and the drive is not left running.
+# The port of a hanging thread cannot be taken away: the program ends without it, and the drive is not left running.
 stops_without_its_bus_thread() {
     local pid thread zeroes
     pid=$(main_pid)

@@ -4,7 +4,7 @@
 
 # What became of the telegrams since the start, as two numbers that stay what they are while every request to a station
 # is answered: requests without reply (broadcasts and what came too late left out), and telegrams that were taken for
-# somebody else's. A telegram that a busy machine has torn counts in neither. The smallest of some, because a request may
+# another station's. A telegram that a busy machine has torn counts in neither. The smallest of some, because a request may
 # just be under way.
 lost() {
     for _ in 1 2 3 4 5; do

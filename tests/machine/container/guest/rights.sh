@@ -11,7 +11,7 @@ operator_operates() {
     expect_status 0 as mechanic dpctl write --station unwinder 62 95.5
     eventually drive_has_said 1 "tag 62 written 95.5"
 }
-prove "given a user in the group dpslaved, when he writes a tag, then the drive has it" operator_operates
+prove "given a user in the group dpslaved, when a tag is written, then the drive has it" operator_operates
 
 visitor_looks() {
     local command
@@ -21,7 +21,7 @@ visitor_looks() {
     expect_text "$output" "only root and members of the group 'dpslaved' may do this"
     ! drive_has_said 1 "tag 62 written 33.3" || fail "the drive was written"
 }
-prove "given a user outside the group, when he looks he sees, and when he writes he is told why not" visitor_looks
+prove "given a user outside the group, when the state is read then it is shown, and a write is refused with the reason" visitor_looks
 
 visitor_reloads_not() {
     local pid
@@ -40,4 +40,4 @@ visitor_kills_not() {
     ! as visitor rm -f /run/dpslaved/control.sock || fail "a visitor could remove the socket"
     exchanging
 }
-prove "given a user outside the group, when he goes for the process or its socket, then the system refuses" visitor_kills_not
+prove "given a user outside the group, when the process or its socket is attacked, then the system refuses" visitor_kills_not

@@ -55,7 +55,7 @@ holds() {
     expect_equal "what is allowed" "$(allowed <<<"$report")" "$(printf '%s\n' "socket of AF_UNIX" \
         "reading its configuration" "writing to its private /tmp" "writing to its runtime folder" | sort)"
     expect_text "$report" "another personality: refused" # the last one: it has come to the end
-    # The container itself refuses some of it to everybody; of the rest the unit's refusal is a proof.
+    # The container itself refuses some of it to every process; of the rest the unit's refusal is a proof.
     outside=$(RUNTIME=/run perl /host/sandbox.pl)
     expect_equal "more than 20 are allowed outside the unit" "$(($(allowed <<<"$outside" | wc -l) > 20))" 1
 }
@@ -63,7 +63,7 @@ allowed() { sed -n 's/: allowed$//p' | sort; }
 prove "given the unit's sandbox, when another program runs in it, then it can do nothing but what the daemon needs" holds
 
 # A container can be given no more than its host may give: without CAP_SYS_RESOURCE no higher limit.
-tells_about_real_time() {
+reports_real_time() {
     local limit policy
     limit=$(awk '/^Max realtime priority/ { print $4 }' "/proc/$(main_pid)/limits")
     policy=$(chrt -p "$(bus_thread "$(main_pid)")")
@@ -75,7 +75,7 @@ tells_about_real_time() {
     fi
 }
 prove "given the right to real time, the bus thread has SCHED_FIFO; without it, the log says what to allow" \
-    tells_about_real_time
+    reports_real_time
 
 takes_real_time() {
     local pid

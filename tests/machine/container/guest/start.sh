@@ -9,7 +9,7 @@ starts() {
     expect_status 0 systemctl start dpslaved
     expect_equal "type" "$(property dpslaved Type)" notify
     expect_equal "state right after the start" "$(property dpslaved ActiveState)" active
-    expect_status 0 dpctl status # ready: the socket is open, nobody waits for it
+    expect_status 0 dpctl status # ready: the socket is open, without a wait
     expect_equal "user of the process" "$(stat -c %U "/proc/$(main_pid)")" dpslaved
 }
 require "given a configuration, when the service has started, then it serves at once and as its own user" starts
@@ -18,9 +18,9 @@ exchanges() {
     master 1 start
     eventually exchanging
     expect_text "$(dpctl status)" unwinder
-    eventually status_tells
+    eventually status_names_the_master
 }
-status_tells() { property dpslaved StatusText | grep -F "unwinder: Data_Exch with master 2"; }
+status_names_the_master() { property dpslaved StatusText | grep -F "unwinder: Data_Exch with master 2"; }
 require "given a pty of the host as bus, when a master starts up, then the station is in Data_Exchange and the unit says so" \
     exchanges
 

@@ -55,7 +55,7 @@ installs_again() {
 }
 prove "given the removed package, when it is installed again, then it finds its configuration and exchanges data" installs_again
 
-# What the administrator has put there is his to take away; his "enable" of a further bus goes with the package.
+# What the administrator has put there, only the administrator removes; "enable" of a further bus goes with the package.
 purges() {
     rm -rf /etc/dpslaved/second.toml /etc/systemd/system/dpslaved.service.d /etc/systemd/system/dpslaved@.service.d
     dpkg -P dpslaved-sim dpslaved

@@ -107,7 +107,7 @@ has_said() { grep -q -F -e "$1" <<<"$(said "${2:-dpslaved}")"; } # has_said TEXT
 
 # ---- masters and drives on the host
 
-# master NUMBER COMMAND...: tells it and prints what it said until that was done.
+# master NUMBER COMMAND...: sends the commands and prints the output until they were done.
 master() {
     local log=/host/master$1.log token from
     token="done $(date +%s%N)"

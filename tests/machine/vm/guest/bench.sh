@@ -68,7 +68,7 @@ start_drive() {
     dpsim drive --profile 590 --port "$drive_far_port" --baud 9600 --log <>"$bench/drive.in" >"$bench/drive.log" 2>&1 &
     eventually grep -q ready "$bench/drive.log"
 }
-tell_drive() { echo "$*" >"$bench/drive.in"; }
+send_to_drive() { echo "$*" >"$bench/drive.in"; }
 
 # DP masters are patient with a slow machine.
 master_options=(--slave 5 --tags "55,56w,288" --watchdog 20000 --cycle 20 --script -)
@@ -77,18 +77,18 @@ slots=(--slot-ms 500 --retries 5)
 master() { # PORT BAUD COMMAND...
     printf '%s\n' "${@:3}" | timeout 60 dpsim master --port "$1" --baud "$2" "${master_options[@]}" "${slots[@]}"
 }
-# A master that exchanges until leave_master; commands go through tell_master, its answers are in $bench/master.log.
+# A master that exchanges until leave_master; commands go through send_to_master, its answers are in $bench/master.log.
 start_master() { # PORT BAUD
     rm -f "$bench/master.in"
     mkfifo "$bench/master.in"
     dpsim master --port "$1" --baud "$2" "${master_options[@]}" "${slots[@]}" <>"$bench/master.in" >"$bench/master.log" 2>&1 &
     echo $! >"$bench/master.pid"
-    tell_master "start 30s"
+    send_to_master "start 30s"
     eventually grep -q "station is in data exchange" "$bench/master.log"
 }
-tell_master() { echo "$*" >"$bench/master.in"; }
+send_to_master() { echo "$*" >"$bench/master.in"; }
 leave_master() {
-    tell_master quit
+    send_to_master quit
     timeout "$patience" tail --pid="$(cat "$bench/master.pid")" -f /dev/null
     rm "$bench/master.pid"
 }

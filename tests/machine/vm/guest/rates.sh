@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Every rate that the service can be given, looked up in the port by somebody else.
+# Every rate that the service can be given, looked up in the port by another program.
 # shellcheck shell=bash
 
 # What the kernel has for the port (TCGETS2, c_ospeed), asked by another program than the service.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# The service after a boot, as nobody touched it yet.
+# The service after a boot, unchanged.
 # shellcheck shell=bash
 
 runs_since_boot() {
@@ -12,11 +12,11 @@ runs_since_boot() {
 exchanges_on_the_configured_bus() {
     start_drive
     start_master "$bus_far_port" 19200
-    tell_drive "set 55 12.50"
-    tell_master "wait 20s for in 1 = 1250"
-    tell_master "expect in 1 = 1250"
+    send_to_drive "set 55 12.50"
+    send_to_master "wait 20s for in 1 = 1250"
+    send_to_master "expect in 1 = 1250"
     eventually grep -q "as expected, in 1 is 1250" "$bench/master.log"
-    tell_master "out 1 = 500"
+    send_to_master "out 1 = 500"
     eventually grep -q "tag 56 written 5.00" "$bench/drive.log"
     exchanging
 }
@@ -41,4 +41,4 @@ require "given a master and a drive on serial ports, when the master starts up, 
     exchanges_on_the_configured_bus
 prove "given the service, when its threads are looked at, then the bus thread is SCHED_FIFO and all memory is locked" \
     bus_thread_is_real_time
-prove "given the port of the bus, when somebody else opens it, then it is busy" port_is_taken
+prove "given the port of the bus, when another process opens it, then it is busy" port_is_taken
