@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Digits of values, as people and as drives write them.
+/// Digits of values, as users type them and as drives send them.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The cyclic reads of one drive: which tags go into one transaction, and which transaction comes next. A
-/// round reads every tag once, whoever wants it. A block that the drive refuses is cut until the hole is
+/// round reads every tag once, whatever it is for. A block that the drive refuses is cut until the hole is
 /// found between two neighbours or is a tag itself, which only a single read decides; cuts elsewhere are
 /// mended then. A tag with a register of its own is never part of a block.
 #pragma once

@@ -114,9 +114,9 @@ Frame Stations::answer(Station& station, const Telegram& request, Instant at)
     return encode_sd1(request.sa, request.da, fc_of(answer)); // also DH without data (wire reference 4.7)
 }
 
-/// Repeats the last request instead of following it. Whoever changes function or SAP without a new frame
-/// count bit is confused rather than repeating: to execute is the safe side, because the services of DP are
-/// idempotent.
+/// Repeats the last request instead of following it. A master that changes function or SAP without a new
+/// frame count bit is confused rather than repeating: to execute is the safe side, because the services of DP
+/// are idempotent.
 bool Stations::is_retry(const Station& station, const Telegram& request)
 {
     return request.fcv() && station.stored && request.sa == station.sa && request.fcb() == station.fcb &&

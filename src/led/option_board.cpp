@@ -29,7 +29,7 @@ constexpr std::array kTable = std::to_array<Row>({
 });
 
 /// The internal fault goes before the external one: without its drive the board has nothing to exchange, and
-/// whoever looks for a fault on the bus first would look in vain.
+/// a fault on the bus would be looked for first, in vain.
 constexpr Say say(const Condition& condition)
 {
     if (!condition.running) return Say::dark;

@@ -33,7 +33,7 @@ std::string shown(SeenNumber number, bool is_word)
     return '>' + digits;
 }
 
-/// A cell seen_min or seen_max; nothing: empty, or a person has written something else.
+/// A cell seen_min or seen_max; nothing: empty, or something else was written there.
 std::optional<SeenNumber> seen_cell(std::string_view cell)
 {
     Sighting one;

@@ -17,7 +17,7 @@ namespace dpslave::profile {
 /// Cells of a row by the name of their column.
 using Cells = std::map<std::string, std::string>;
 
-/// The columns that a survey writes; the others are a person's.
+/// The columns that a survey writes; the others are written by hand.
 inline constexpr std::array<std::string_view, 7> kSurveyColumns = {"type",     "decimals", "min",     "max",
                                                                    "mnemonic", "seen_min", "seen_max"};
 
@@ -32,7 +32,7 @@ Cells new_row(const Sighting& one);
 /// further extremes. Precondition: as new_row().
 void widen_row(Cells& cells, const Sighting& one);
 
-/// What the answers have against a row that a person has confirmed. `has_decimals`: the row says how many.
+/// What the answers have against a confirmed row. `has_decimals`: the row says how many.
 std::vector<std::string> against(const drive::Tag& row, bool has_decimals, const Sighting& one);
 
 } // namespace dpslave::profile

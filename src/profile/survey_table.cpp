@@ -210,7 +210,7 @@ Result<SurveyedTable, toml::Faults> merge_survey(std::string_view table, const s
     TableText text{table, file, faults};
     if (!faults.empty()) return Failure{faults};
     SurveyedTable merged = Merger{std::move(text), *tags}.merge(seen);
-    if (is_marked) merged.text.insert(0, toml::kByteOrderMark); // the program of this person goes by it
+    if (is_marked) merged.text.insert(0, toml::kByteOrderMark); // the spreadsheet program needs it
     return merged;
 }
 

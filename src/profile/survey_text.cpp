@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a person writes for a survey, and its record as a file.
+// The options of a survey as text, and its record as a file.
 #include "csv.hpp"
 
 #include "dpslave/profile/survey.hpp"

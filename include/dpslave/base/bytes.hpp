@@ -28,8 +28,8 @@ constexpr std::uint8_t low(std::uint16_t word)
     return static_cast<std::uint8_t>(word & 0xFF);
 }
 
-/// Up to N octets in place; trivially copyable, so that it may cross between threads. What does not fit is
-/// refused whole and said by the return value; nothing is ever written behind the end.
+/// Up to N octets in place; trivially copyable, so that it may cross between threads. A call that does not
+/// fit returns false and changes nothing.
 template <std::size_t N>
 class ByteBuffer {
     static_assert(N <= 0xFFFF);
@@ -66,7 +66,7 @@ public:
         return append(all);
     }
 
-    /// By the octets that are in them; what an earlier, longer content left behind them does not count.
+    /// Compares the octets up to size(); those behind it do not count.
     friend constexpr bool operator==(const ByteBuffer& a, const ByteBuffer& b)
     {
         return std::ranges::equal(a.bytes(), b.bytes());

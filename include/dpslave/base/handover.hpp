@@ -30,7 +30,7 @@ public:
         offered_.store(next.release(), std::memory_order_release);
         return true;
     }
-    /// Giver: what the user is done with. Nothing: it still uses it, or never had anything.
+    /// Giver: what the user no longer uses. Nothing: it still uses it, or never had anything.
     std::unique_ptr<T> collect() noexcept
     {
         return std::unique_ptr<T>{used_up_.exchange(nullptr, std::memory_order_acquire)};

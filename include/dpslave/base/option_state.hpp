@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The two words in which a technology box says how it is. The numbers are those of the manual.
+/// FAULT and NETWORK STATE of a technology box. The numbers are those of the manual.
 /// Source: HA463561U002, "MMI Parameter Descriptions" (rows B-048, B-051).
 #pragma once
 

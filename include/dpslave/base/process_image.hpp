@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What DP and the drive side say to each other, as plain values that may cross between threads.
-/// Neither knows the other: DP fills a Layout and outputs, the poller fills inputs and answers.
+/// What DP and the drive side exchange, as plain values that may cross between threads.
+/// DP fills a Layout and outputs, the poller fills inputs and answers.
 ///
 /// Layout generation: on these devices the master picks the tags at run time, so the meaning of input word 3
 /// changes. Each accepted Chk_Cfg that changes the layout counts a generation up; a value counts only under
@@ -75,7 +75,7 @@ enum class AccessError : std::uint8_t {
     none,
     no_answer, ///< the drive is silent; no code of Demand Data stands for it
     /// Not asked, or not proven: what the line still owes stands between. It is asked again in a later round;
-    /// neither silence nor refusal. The poller keeps it to itself.
+    /// neither silence nor refusal. It does not leave the drive side.
     deferred,
     not_understood, ///< the drive answers but cannot take the request: noise, wrong format; no code either
     invalid_tag,

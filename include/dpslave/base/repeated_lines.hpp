@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Keeps equal lines of a log apart: each is said at once, and what repeats it is counted and said in one
-/// line every 10 s. Pure; for one thread.
+/// Limits equal lines of a log: the first one is logged at once, those that follow are counted and logged as
+/// one line every 10 s. Pure; for one thread.
 #pragma once
 
 #include "dpslave/base/units.hpp"
@@ -18,9 +18,9 @@ namespace dpslave {
 
 class RepeatedLines {
 public:
-    /// After a line was said: so long its like are only counted.
+    /// For this time after a line was logged, equal lines are only counted.
     static constexpr std::chrono::seconds kQuiet{10};
-    /// So many unlike lines are kept apart; what comes beyond them counts as one.
+    /// At most so many different keys; all others count as one.
     static constexpr std::size_t kMostKeys = 64;
 
     struct Line {
@@ -28,8 +28,8 @@ public:
         std::string text;
     };
 
-    /// `key`: what makes lines equal, such as station, tag and cause; the text may differ in its values. The
-    /// line to say now; none: it is counted.
+    /// `key`: what makes lines equal, such as station, tag and cause; the text may differ in its values.
+    /// Returns the line to log now; none: it is counted.
     std::optional<Line> on_line(std::string_view key, Line line, Instant now);
 
     /// The lines that are due: the newest text of each, with how many there were. In the order of their
@@ -40,7 +40,7 @@ private:
     struct Known {
         Line newest;
         Instant quiet_until{};
-        std::uint64_t held = 0;  ///< since the last one that was said
+        std::uint64_t held = 0;  ///< since the last one that was logged
         std::uint64_t order = 0; ///< of `newest` among all
     };
     std::map<std::string, Known, std::less<>> known_;

@@ -8,7 +8,7 @@
 
 namespace dpslave {
 
-/// Says "this is the failure arm" where a function gives up: `return Failure{Flaw::checksum};`
+/// The reason, on its way into a Result: `return Failure{Flaw::checksum};`
 template <class E>
 struct Failure {
     E why;

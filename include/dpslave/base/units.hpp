@@ -12,7 +12,7 @@
 namespace dpslave {
 
 /// The time line of the bus: CLOCK_MONOTONIC, which only io/ reads.
-/// There is no now() here on purpose: a layer that cannot ask for the time cannot depend on it.
+/// It has no now(): the pure layers get each moment as an argument.
 struct BusClock {
     using duration = std::chrono::nanoseconds;
     using rep = duration::rep;
@@ -64,7 +64,7 @@ constexpr std::optional<Baud> baud_of(std::uint32_t bits_per_second)
 /// As the GSD keywords spell it: "9.6", "187.5", "1.5M".
 std::string_view text(Baud baud) noexcept;
 
-/// A number of bit times (T_bit). It has no duration until it meets a Baud.
+/// A number of bit times (T_bit). Its duration depends on the rate: duration_of().
 struct Tbit {
     std::uint32_t count{};
     friend constexpr auto operator<=>(Tbit, Tbit) = default;

@@ -78,7 +78,7 @@ struct LineConfig {
     friend bool operator==(const LineConfig&, const LineConfig&) = default;
 };
 
-/// One lamp of a station and where it shines.
+/// One lamp of a station and its output.
 struct LedConfig {
     std::string lamp; ///< "red", "green"; "network", "module", "health", "run"; "rem"
     std::string sink; ///< "gpio:23", "led:dpslaved-green"

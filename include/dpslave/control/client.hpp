@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A caller of the control socket that waits: for dpctl and for tests.
+/// A blocking client of the control socket, for dpctl and tests.
 #pragma once
 
 #include "dpslave/control/protocol.hpp"
@@ -17,8 +17,8 @@ namespace dpslave::control {
 struct ClientError {
     enum class Kind : std::uint8_t {
         no_daemon, ///< no process serves this socket
-        no_access, ///< the socket is there, but its folder or file is closed to us
-        timeout,   ///< the daemon said nothing for the whole time-out
+        no_access, ///< the socket is there, but this user has no right to its folder or file
+        timeout,   ///< no reply within the time-out
         ended,     ///< the daemon ended the connection
         nonsense,  ///< what came is no Varlink reply
     };

@@ -2,7 +2,7 @@
 /// The control socket: a Varlink service on a Unix stream socket, without a thread and without a wait of its
 /// own. The main thread puts fd() into its epoll and calls on_ready(). Every caller is bounded: how many
 /// there are, how many of one user, how long a call is, how many calls a round, how much may wait to be read
-/// by it. A caller that is too slow or sends no Varlink loses its connection; others go on undisturbed.
+/// by it. A caller that is too slow or sends no Varlink loses its connection; others are not affected.
 #pragma once
 
 #include "control/interface.hpp"
@@ -65,7 +65,7 @@ struct ServerSettings {
     std::string version;                    ///< of the program, for org.varlink.service.GetInfo
     std::string url;                        ///< of the project, for the same
     std::size_t max_clients = 32;           ///< one user id that is not root: a quarter of them at most
-    std::size_t kept_for_operators = 4;     ///< of max_clients: they always get in
+    std::size_t kept_for_operators = 4;     ///< of max_clients: reserved for them
     std::size_t max_unsent = 2 * kMaxReply; ///< octets that may wait for one slow caller
     std::size_t max_unsent_of_all = 4 * kMaxReply; ///< above it the connection with most is ended
     /// The credentials of the other end of a connection; none: peer_of().

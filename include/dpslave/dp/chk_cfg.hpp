@@ -13,7 +13,7 @@
 
 namespace dpslave::dp {
 
-/// What an accepted Chk_Cfg brings. The layout has no generation yet.
+/// The configuration of an accepted Chk_Cfg. The layout has no generation yet.
 struct Configuration {
     bool demand = false;
     bool reads = false;         ///< at least one parameter is an input

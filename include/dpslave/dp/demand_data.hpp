@@ -26,8 +26,8 @@ public:
 
     /// A layout with Demand Data begins: nothing is asked, the reply is 0.
     void begin(Generation generation);
-    /// The layout ended: what stands is cancelled, and a write that was not fetched yet is not made any
-    /// more.
+    /// The layout ended: a standing order is cancelled, and a write that was not fetched yet is
+    /// dropped.
     void end();
 
     /// The registers that are active now. Only a change makes an order.
@@ -67,7 +67,7 @@ private:
     Wanted wanted_{};
     DemandOrder standing_{}; ///< the order given last; `cancel` = none stands
     DemandRegisters reply_{};
-    /// One call stack fetches after each telegram, so one place would do; eight are for a caller that is
+    /// Orders are fetched after each telegram, so one place is enough; eight are for a caller that is
     /// late.
     Queue<DemandOrder, 8> orders_;
     std::uint64_t ordered_ = 0;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// All that DP asks of a device type. Devices are data: a profile fills this, and no code here knows a
-/// product.
+/// The data of a device type that DP needs. A profile fills it; no code of DP depends on a product.
 #pragma once
 
 #include "dpslave/base/process_image.hpp"

@@ -74,7 +74,7 @@ public:
     /// Each end() once, in order.
     std::optional<LeftDataExchange> take_left() { return left_.pop(); }
 
-    /// Its part of what can be seen.
+    /// Fills its part of the snapshot.
     void fill(Snapshot& seen) const;
 
 private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Up to N values in order, in place, within one thread (a Ring is for two). What to do when it is full is
-/// the owner's decision, not the queue's.
+/// Up to N values in order, in place, within one thread (a Ring is for two). When it is full, the owner
+/// decides what to do.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Why a Set_Prm or Chk_Cfg was refused, exactly enough that a person can mend the master's configuration.
+/// Why a Set_Prm or Chk_Cfg was refused: enough detail to correct the master's configuration.
 #pragma once
 
 #include "dpslave/base/result.hpp"

@@ -20,7 +20,7 @@ inline constexpr std::size_t kPrmHeader = 7;
 /// Octets of DPV1_Status in front of User_Prm_Data, where a device has it.
 inline constexpr std::size_t kDpv1Status = 3;
 
-/// min T_SDR after power-on, and the smallest that a Set_Prm can bring about. Source: wire reference 4.4.
+/// min T_SDR after power-on, and the smallest that a Set_Prm can set. Source: wire reference 4.4.
 inline constexpr Tbit kSmallestMinTsdr{11};
 
 /// Lock_Req and Unlock_Req; Unlock has priority.
@@ -39,7 +39,7 @@ Tbit min_tsdr_of(Bytes telegram, Tbit old);
 /// Precondition: telegram.size() >= kPrmHeader.
 std::chrono::milliseconds watchdog_of(Bytes telegram, bool dpv1_status);
 
-/// What an accepted Set_Prm brings.
+/// The parameters of an accepted Set_Prm.
 struct Parameters {
     bool watchdog_on = false;
     std::chrono::milliseconds watchdog{}; ///< T_WD
@@ -53,8 +53,8 @@ struct Parameters {
     std::span<const std::uint16_t> tags() const { return std::span{tag_list}.first(tag_count); }
 };
 
-/// What the telegram brings, or why it is refused. Checks 5 to 8 of wire reference 4.4, in that order: ident,
-/// Sync/Freeze, watchdog factors, User_Prm_Data. Precondition: telegram.size() >= kPrmHeader.
+/// The parameters of the telegram, or why it is refused. Checks 5 to 8 of wire reference 4.4, in that order:
+/// ident, Sync/Freeze, watchdog factors, User_Prm_Data. Precondition: telegram.size() >= kPrmHeader.
 Result<Parameters, RefusalDetail> check_set_prm(const Personality& personality, Bytes telegram);
 
 } // namespace dpslave::dp

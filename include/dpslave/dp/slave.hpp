@@ -16,14 +16,14 @@
 
 namespace dpslave::dp {
 
-/// The doors to layer 2 and to the world, and the judge of telegrams between them: what a request is, goes to
-/// the state machine as a trigger. For one thread; the reply path allocates nothing.
+/// Judges each request of layer 2 and passes it to the state machine as a trigger. For one thread; the reply
+/// path allocates nothing.
 class Slave final : public fdl::SapUser {
 public:
-    /// `personality` outlives the slave. `address` 0..125. Until start() the slave is in Power_On and silent
-    /// above: attach it to layer 2 only when started.
+    /// `personality` outlives the slave. `address` 0..125. Until start() the slave is in Power_On: attach it
+    /// to layer 2 after start().
     Slave(const Personality& personality, std::uint8_t address);
-    Slave(const Slave&) = delete; // layer 2 knows it by its place
+    Slave(const Slave&) = delete; // layer 2 keeps its address
     Slave& operator=(const Slave&) = delete;
 
     /// The address from the next start() on, 0..125. Only in Power_On; false, and nothing changes, in any
@@ -31,9 +31,9 @@ public:
     bool set_address(std::uint8_t address);
 
     void start(Instant now); ///< Power_On -> Wait_Prm
-    void stop(Instant now);  ///< every state -> Power_On, with everything that leaving means
+    void stop(Instant now);  ///< every state -> Power_On, with all effects of leaving the state
 
-    // The door to layer 2.
+    // For layer 2.
     fdl::Answer srd(const fdl::Indication& request, fdl::ReplyData& reply) override;
     void sdn(const fdl::Indication& request) override;
     void heard(std::uint8_t sa, Instant at) override;
@@ -42,15 +42,15 @@ public:
     void on_time(Instant now) override { machine_.on_time(now); }
     Instant next_deadline() const override { return machine_.next_deadline(); }
 
-    // The door to the world: newest inputs and answers in; outputs, orders and events out.
+    // For the bus thread: newest inputs and answers in; outputs, orders and events out.
 
     /// Counts only under the present layout's generation; others are dropped.
     void set_inputs(const InputImage& inputs);
     void set_demand_answer(const DemandAnswer& answer) { data_.set_demand_answer(answer); }
     /// Blocks of extended diagnosis, back to back; `fault` sets Ext_Diag. What does not fit into
     /// max_diag_length is cut off at a block boundary (Ext_Diag_Overflow). None: the device's own block as
-    /// zeros (Personality::diag_octets). False: a header promised what was not there, from there on nothing
-    /// was taken.
+    /// zeros (Personality::diag_octets). False: a header announces more octets than there are; nothing from
+    /// there on was taken.
     bool set_ext_diag(Bytes blocks, bool fault) { return machine_.set_ext_diag(blocks, fault); }
 
     /// What the drive side shall write; given only when it changed since the last call.
@@ -64,7 +64,7 @@ public:
     Snapshot snapshot() const;
 
 private:
-    // Each counts its telegram and keeps what is to be seen of it.
+    // Each counts its telegram and keeps a copy for snapshot() where it has one.
     Judgement judge(const fdl::Indication& request);
     Judgement judge_data(const fdl::Indication& request) const;
     Judgement judge_set_prm(const fdl::Indication& request);

@@ -14,8 +14,8 @@ inline constexpr std::size_t kStandardDiagnosis = 6;
 inline constexpr std::size_t kLongestBlock = 63; ///< device-related, header included (six bits of length)
 inline constexpr std::uint8_t kNoMaster = 0xFF;  ///< Master_Add of a slave that no master has parameterised
 
-/// Octets of the block of extended diagnosis that begins here, its header included; 0 = the header promises
-/// what is not there (wire reference 5.3). Precondition: not empty.
+/// Octets of the block of extended diagnosis that begins here, its header included; 0 = the header announces
+/// more than is there (wire reference 5.3). Precondition: not empty.
 std::size_t block_length(Bytes rest);
 
 /// What the six standard octets say, by name.
@@ -44,9 +44,9 @@ public:
 
     /// What became of the blocks.
     struct Outcome {
-        bool changed = false; ///< what a master would read is another now: to be reported to the owner
+        bool changed = false; ///< a master would read another diagnosis now: to be reported to the owner
         bool well_formed =
-            false; ///< false: a header promised what was not there; from there on nothing was taken
+            false; ///< false: a header announces more than is there; nothing from there on was taken
     };
     /// None: the device's own block as zeros. `fault`: a block reports a fault, not only a status.
     Outcome set(Bytes blocks, bool fault);

@@ -23,7 +23,7 @@ enum class Trigger : std::uint8_t; // of the state table
 enum class Effect : std::uint8_t;
 enum class Fault : std::uint8_t;
 
-/// A telegram judged, or something that happened inside, and what it brings.
+/// A judged telegram or an event inside, as a trigger, and its data.
 struct Judgement {
     Trigger trigger;
     /// Parameters with an accepted Set_Prm, a configuration with an accepted Chk_Cfg that starts an exchange,
@@ -39,7 +39,7 @@ public:
 
     /// A request, judged: carries out what the table has for it, fills `reply` and says how to answer.
     fdl::Answer apply(const Judgement& judged, const fdl::Indication& request, fdl::ReplyData& reply);
-    /// Something happened inside.
+    /// An event inside: no telegram, no reply.
     void apply(Trigger trigger, Instant at = {});
     /// The watchdog, and the time that inputs have to be tried in. To be called before each request as well:
     /// one that comes after the watchdog's expiry finds the slave in Wait_Prm.
@@ -59,7 +59,7 @@ public:
     Tbit min_tsdr() const { return min_tsdr_; }
     fdl::Supervision supervision() const;
 
-    /// Its part of what can be seen.
+    /// Fills its part of the snapshot.
     void fill(Snapshot& seen) const;
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The watchdog of DP_Control: guards Wait_Cfg and Data_Exch against a master that is gone. Judged by the
+/// The watchdog of DP_Control: supervises the master in Wait_Cfg and Data_Exch. Judged by the
 /// receive times of requests, never by when they were processed. Source: wire reference 7.1.
 #pragma once
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The one narrow door to a drive, whatever protocol it speaks. A call is one exchange, or as many as it
+/// The interface to a drive, the same for each protocol. A call is one exchange, or as many as it
 /// takes to be sure of its answer (docs/internals/drive-answers.md): after a refusal the drive is asked for
 /// the reason, and where an older answer is owed it is cleared first. Each exchange may block for one
 /// response time-out and the time that its characters take, whatever comes on the line; the first one without
-/// a good answer ends the call. deferred: nothing was asked, or nothing is proven. Repetitions are the
-/// poller's business, so that one dead drive does not stop the others.
+/// a good answer ends the call. deferred: nothing was asked, or nothing is proven. The poller
+/// repeats, so that one dead drive does not stop the others.
 #pragma once
 
 #include "dpslave/base/process_image.hpp"
@@ -49,25 +49,25 @@ public:
     /// in silence.
     virtual AccessError write(UnitAddress unit, const Tag& tag, std::span<const std::uint16_t> words) = 0;
 
-    /// Is the drive there? Only what proves it counts: over EI-ASCII a value, over Modbus a valid frame of
-    /// its own.
+    /// True: the drive answers. Over EI-ASCII only a value counts, over Modbus a valid frame of this
+    /// drive.
     virtual bool probe(UnitAddress unit) = 0;
 
-    /// What went wrong in the last call, in words for the log ("EE >05C8"); empty when nothing did.
+    /// The failure of the last call, in words for the log ("EE >05C8"); empty: it did not fail.
     virtual std::string last_trouble() const = 0;
 
-    /// Judges what has come while nothing was asked: what is late is measured when it comes, not when the
-    /// next question is asked. Takes as long as octets come, two of the longest answers at most.
+    /// Reads and judges octets between two calls, so that the delay of a late answer is measured when it
+    /// comes. Takes as long as octets come, two of the longest answers at most.
     virtual void listen() {}
 
-    /// What came of this drive beside answers in time.
+    /// Counts of all that came of this drive beside answers in time.
     virtual AnswerCounts counts(UnitAddress unit) const
     {
         (void)unit;
         return {};
     }
 
-    /// The text of the value that the last read got, whatever became of it (EI-ASCII); empty: it got none.
+    /// The text of the value of the last read, even where it was refused (EI-ASCII); empty: there was none.
     /// Valid until the next call.
     virtual std::string_view last_answer() const { return {}; }
 };

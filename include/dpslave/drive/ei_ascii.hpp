@@ -28,7 +28,7 @@ inline constexpr Mnemonic kLastError{'E', 'E'};
 
 /// Longest value text that is sent; the longest one in use has 8 characters.
 inline constexpr std::size_t kMaxText = 16;
-/// Longest text of an answer that is still believed: room for a STRING, which then is refused by its type.
+/// Longest text of an answer that is accepted: room for a STRING, which then is refused by its type.
 inline constexpr std::size_t kMaxAnswerText = 80;
 /// EOT GID GID UID UID STX C1 C2 text ETX BCC.
 using Frame = ByteBuffer<10 + kMaxText>;
@@ -42,7 +42,7 @@ Frame poll(UnitAddress unit, Mnemonic mnemonic);
 /// EOT GID GID UID UID STX C1 C2 text ETX BCC. Precondition: text.size() <= kMaxText.
 Frame select(UnitAddress unit, Mnemonic mnemonic, std::string_view text);
 
-/// Why what came is no answer.
+/// Why the octets received are no answer.
 enum class Flaw : std::uint8_t {
     none,
     unexpected_start, ///< neither STX, EOT, ACK nor NAK, or one that does not answer this request
@@ -53,7 +53,7 @@ enum class Flaw : std::uint8_t {
 };
 std::string_view text(Flaw flaw) noexcept;
 
-/// What a drive said.
+/// An answer of a drive.
 struct Answer {
     enum class Kind : std::uint8_t { value, ack, nak, eot };
     Kind kind = Kind::eot;
@@ -103,7 +103,7 @@ enum class ValueFlaw : std::uint8_t {
 };
 std::string_view text(ValueFlaw flaw) noexcept;
 
-/// The text of `word`: the decimal point always there, zeros that say nothing left out ("30.", "-0.05"),
+/// The text of `word`: always with a decimal point, without redundant zeros ("30.", "-0.05"),
 /// hexadecimal after '>'.
 Result<std::string, ValueFlaw> encode_value(const Tag& tag, std::uint16_t word, EnumForm enums);
 

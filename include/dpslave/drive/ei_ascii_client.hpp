@@ -22,7 +22,7 @@ namespace ei {
 class Access;
 }
 
-/// One drive of the line: where it is and how its family names tags. The form of an ENUM goes with the rule.
+/// One drive of the line: its address and how its family names tags. The form of an ENUM goes with the rule.
 struct EiUnit {
     UnitAddress address{};
     MnemonicRule mnemonics = MnemonicRule::none;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What both protocols have to know of a drive line to assign each answer to its request.
+/// Settings of a drive line, for both protocols: how answers are assigned to requests.
 #pragma once
 
 #include <chrono>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Which answer belongs to which question: the one judgement of both protocols. A question whose answer has
+/// Which answer belongs to which question, for both protocols. A question whose answer has
 /// not come is owed by its drive, and an answer is taken only where it can belong to no other one.
 /// Pure: questions and answers come in with their times. docs/internals/drive-answers.md argues the rules.
 #pragma once
@@ -31,7 +31,7 @@ struct Question {
     std::chrono::nanoseconds wire_time{}; ///< of its longest answer
 };
 
-/// What came of a drive beside answers in time, for a person who looks for the fault.
+/// Counts of all that came of a drive beside answers in time, for diagnosis.
 struct AnswerCounts {
     std::uint64_t damaged = 0;       ///< frames with a wrong check sum, a parity fault or no form
     std::uint64_t bad_checksum = 0;  ///< those of them that were whole but for it; EI-ASCII
@@ -70,15 +70,15 @@ public:
     /// included; the wire time of all owed answers comes on top.
     OwedAnswers(Names names, std::chrono::nanoseconds settle) : names_(names), settle_(settle) {}
 
-    /// Could its answer be taken? What could not is not asked.
+    /// Whether its answer could be assigned to it. If not, it must not be asked.
     bool may_ask(const Question& question, Instant now) const;
-    /// Forgets what has settled. What came until `now` is heard before: an old answer that still waits in the
-    /// port would end a younger debt.
+    /// Ends the debts whose answers can no longer come. Precondition: heard() has everything that came until
+    /// `now`. Otherwise an old answer that still waits in the port would end a younger debt.
     void settle(Instant now);
     /// The last octet of `question` leaves at `at`.
     void asked(const Question& question, Instant at);
 
-    /// A frame with a check sum. Ends the debts that it ends.
+    /// A frame with a check sum. Ends the debts that it answers.
     Verdict heard(Form form, Bytes frame, Instant at);
     /// An ACK has come. True: it belongs to the write asked last, whose debt ends. False: it is doubtful and
     /// ends nothing.
@@ -90,7 +90,7 @@ public:
     bool owes(DriveNumber drive) const;
     bool owes(DriveNumber drive, Form form) const;
     bool owes_write(DriveNumber drive) const;
-    bool is_owed(Form form) const; ///< by whichever drive, as answer or refusal
+    bool is_owed(Form form) const; ///< by any drive, as answer or refusal
     bool empty() const { return owed_.empty(); }
     /// No answer is owed: the port was opened just now.
     void clear();

@@ -21,16 +21,16 @@ namespace dpslave::drive {
 /// Tags that a unit may have read beside those that the master chose.
 inline constexpr std::size_t kMaxWatched = 8;
 
-/// What becomes of the outputs when the master is lost: each is written 0 after this time until it is proven
-/// to be there, and writing stops; none = writing stops and nothing is zeroed (X-46; RIDE THROUGH of
+/// When the outputs go to 0 after the loss of the master: each is written 0 after this time until it is
+/// proven to be there, and writing stops; none = writing stops and nothing is zeroed (X-46; RIDE THROUGH of
 /// HA463561U002).
 using ZeroAfter = std::optional<std::chrono::nanoseconds>;
 
-/// What a drive has answered, as far as it is shown; ends with NUL.
+/// The beginning of an answer of a drive, for display; ends with NUL.
 using AnswerText = std::array<char, 12>;
 AnswerText answer_text(std::string_view text);
 
-/// One drive of the line, as the poller knows it.
+/// One drive of the line.
 struct UnitSettings {
     UnitAddress address{};
     const TagTable* tags = nullptr;    ///< outlives the poller
@@ -73,7 +73,7 @@ struct Transaction {
     std::span<const std::uint16_t> words; ///< of a write, `count` of them; valid until done()
 };
 
-/// What became of it. `words` holds `count` words after a read without error.
+/// The outcome of a transaction. `words` holds `count` words after a read without error.
 struct Outcome {
     AccessError error = AccessError::none;
     std::span<const std::uint16_t> words;
@@ -126,7 +126,7 @@ struct OperateOrder {
     std::uint16_t word = 0;
 };
 
-/// What a drive said in a survey; ends with NUL.
+/// The text of a drive's answer to a survey read; ends with NUL.
 using SaidText = std::array<char, 96>;
 
 struct OperateAnswer {
@@ -165,7 +165,7 @@ public:
 
     /// What to do now; nothing = wait until next_deadline() or until something new is set.
     std::optional<Transaction> next(Instant now);
-    /// What became of the transaction given last.
+    /// The outcome of the transaction given last.
     void done(const Outcome& outcome, Instant now);
     /// When next() has something to do, if nothing new is set before; a moment that has passed: now. kNever
     /// while a transaction is under way.

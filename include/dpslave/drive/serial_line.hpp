@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What a client needs of a serial line to drives. The line knows no protocol, the client knows no
-/// descriptor.
+/// The serial line to drives, as a client uses it. It is independent of protocols and descriptors.
 #pragma once
 
 #include "dpslave/base/bytes.hpp"
@@ -27,7 +26,7 @@ public:
     /// The monotonic clock that read() waits by.
     virtual Instant now() const = 0;
 
-    /// Forgets all that was received and not yet read.
+    /// Drops all that was received and not yet read.
     virtual void discard() = 0;
 
 protected:

@@ -54,7 +54,7 @@ struct Tag {
     bool is_real = false;
     std::uint8_t decimals = 0;    ///< 0..4, of a number
     bool decimals_known = true;   ///< false: a number, and the table does not say its decimals
-    bool confirmed = true;        ///< false: a survey made the row, and no person has confirmed it
+    bool confirmed = true;        ///< false: a survey made the row, and it is not confirmed yet
     bool follows_display = false; ///< `decimals` are those of the instrument's display (column: "display")
     bool is_unsigned = false;
     std::optional<std::int32_t> min; ///< in counts: displayed value x 10^decimals
@@ -94,7 +94,7 @@ std::string displayed(const Tag& tag, std::uint16_t word);
 
 /// The 16 bits of a displayed value, with the table's decimals, limits and labels.
 /// Accepts "12.5", ">1A2B", "0x1A2B", a label of a value (any case). Of a WORD only the hexadecimal forms and
-/// one single digit: "0203" could mean 203 or 0203h, and a command word is no place to guess.
+/// one single digit: "0203" could mean 203 or 0203h.
 struct ParsedValue {
     std::uint16_t word = 0;
     AccessError error = AccessError::none; ///< out_of_range, value_not_encoded or unsupported_type
@@ -104,7 +104,7 @@ ParsedValue parse_value(const Tag& tag, std::string_view text);
 /// Within the type and the limits of the row.
 bool is_within_limits(const Tag& tag, std::uint16_t word);
 
-/// Both rows ask the drive the same and make the same word of its answer: what differs is for people only, or
+/// Both rows ask the drive the same and make the same word of its answer: what differs is text only, or
 /// a limit.
 bool is_same_value(const Tag& a, const Tag& b);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Which addresses of others are asked on the bus and do not answer: where a master's project has another
-/// address than the slave. Pure; allocates nothing.
+/// Addresses that masters ask and that do not answer: shows that a master's project has another address
+/// than the slave. Pure; allocates nothing.
 #pragma once
 
 #include "dpslave/base/units.hpp"

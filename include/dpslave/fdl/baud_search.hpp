@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Which rate the bus runs at, found by listening. Evidence goes in, rates come out; no clock, no tty.
+/// Finds the rate of the bus by listening. Characters and telegrams go in, rates come out; no clock, no tty.
 /// Source: wire reference 7.
 #pragma once
 
@@ -39,7 +39,7 @@ constexpr std::chrono::nanoseconds dwell_at(Baud baud, const BaudSearchSettings&
 class BaudSearch {
 public:
     /// `begin_with`: the first rate to listen at (the one that was right the last time, say); a rate that is
-    /// not searched stands for the highest. The first dwell begins with the first call that says the time.
+    /// not searched stands for the highest. The first dwell begins with the first call that has the time.
     BaudSearch(const BaudSearchSettings& settings, Baud begin_with);
 
     /// `good` characters came without and `bad` ones with a parity or framing error.
@@ -47,7 +47,7 @@ public:
     /// An error-free SD1, SD2 or SD3 from any station; `to_us`: its DA is one of our addresses. Never SD4 or
     /// SC: those have no checksum.
     void on_telegram(bool to_us, Instant at);
-    /// What the masters made of our slaves: whether any is parameterised, and any with its watchdog on.
+    /// The state of our slaves: whether any is parameterised, and any with its watchdog on.
     void on_supervision(bool any_owned, bool any_supervised, Instant at);
     void on_time(Instant now);
 

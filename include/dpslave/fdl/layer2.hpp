@@ -55,7 +55,7 @@ public:
     /// (0..126).
     bool attach(std::uint8_t address, SapUser& user, const MaxTsdr& max_tsdr);
     /// From now on `address` is silent, and a reply of it that is under way is not given any more (octets
-    /// that take_transmit() handed out stay valid). The others notice nothing. An address that is not
+    /// that take_transmit() handed out stay valid). The others go on. An address that is not
     /// attached stays so. Call on_time() after it.
     void detach(std::uint8_t address);
 
@@ -77,7 +77,7 @@ public:
     /// later was too late although it began in time.
     Instant window_ended() const { return window_ended_; }
 
-    /// When on_time() wants to be called next. kNever = only octets can wake it. A moment that has passed
+    /// When on_time() is due next. kNever = only octets can wake it. A moment that has passed
     /// means: at once.
     Instant next_deadline() const;
 
@@ -85,7 +85,7 @@ public:
     bool reply_waits() const { return pending_.has_value(); }
 
     /// When a telegram with a checksum (SD1, SD2, SD3) of any station was read last; default = none yet.
-    /// Tokens and SC are no sign of life: noise and wrong rates are full of them.
+    /// Tokens and SC do not count: noise and wrong rates produce them.
     Instant last_telegram() const { return last_telegram_; }
 
     /// Which users were called since the last take: what the edge has to publish. Bit n = address n.

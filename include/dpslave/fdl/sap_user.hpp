@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The one interface between layer 2 and its user. FDL asks downwards and is answered in the same call;
-/// nothing calls upwards, nothing is kept waiting. Source: wire reference 2 and 3.
+/// The one interface between layer 2 and its user. Layer 2 calls the user and gets the answer in the same
+/// call; the user never calls layer 2. No call may block. Source: wire reference 2 and 3.
 #pragma once
 
 #include "dpslave/base/bytes.hpp"
@@ -33,7 +33,8 @@ enum class Answer : std::uint8_t {
 /// User data of a reply: what fits into SD2 beside two SAP octets.
 using ReplyData = ByteBuffer<244>;
 
-/// How closely a master watches this user: what Baud_Control and DP_Control hang on (wire reference 7.1).
+/// Whether a master owns and supervises this user: Baud_Control and DP_Control depend on it (wire reference
+/// 7.1).
 enum class Supervision : std::uint8_t {
     unowned,    ///< no master has parameterised it
     owned,      ///< parameterised, watchdog off
@@ -50,7 +51,7 @@ public:
     /// An SDN to this address or to all; never answered.
     virtual void sdn(const Indication& request) = 0;
 
-    /// A valid request of `sa` that layer 2 answered alone (retry, FDL status): a sign of life for the
+    /// A valid request of `sa` that layer 2 answered alone (retry, FDL status). It retriggers the
     /// watchdog.
     virtual void heard(std::uint8_t sa, Instant at) = 0;
 

@@ -19,11 +19,11 @@ using MaxTsdr = std::array<Tbit, kBauds.size()>;
 
 class Stations {
 public:
-    /// When the first bit of a reply may go out, counted from the end of the request, and when it must have.
+    /// A reply and the window for its first bit, counted from the end of the request.
     struct Reply {
         Bytes octets; ///< valid until the next request to the same address
         Tbit not_before;
-        Tbit not_after;        ///< later, silence is the better answer
+        Tbit not_after;        ///< later there is no reply: it would collide with the retry
         bool repeated = false; ///< the request was a retry, and this is the stored reply
     };
 

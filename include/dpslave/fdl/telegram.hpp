@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// FDL telegrams: first how long, then what; and the frames that a slave sends. Source: wire reference 2.
+/// FDL telegrams: length, then contents; and the frames that a slave sends. Source: wire reference 2.
 #pragma once
 
 #include "dpslave/base/bytes.hpp"
@@ -86,7 +86,7 @@ struct Telegram {
 /// How many octets the telegram that begins with `head` has. 0: too few are known.
 Result<std::size_t, Flaw> frame_length(Bytes head);
 
-/// What the telegram says. Precondition: frame.size() == *frame_length(frame), not 0.
+/// The contents of a telegram. Precondition: frame.size() == *frame_length(frame), not 0.
 Result<Telegram, Flaw> decode(Bytes frame);
 
 using Frame = ByteBuffer<kMaxTelegram>;

@@ -11,7 +11,7 @@
 
 namespace dpslave::gsd {
 
-/// Limits of the standard that whoever fills a Device keeps to (wire reference 9.2).
+/// Limits of the standard that a Device must keep (wire reference 9.2).
 inline constexpr std::size_t kMaxText = 32;         ///< characters of a name
 inline constexpr std::size_t kMaxLine = 80;         ///< characters of a line
 inline constexpr std::size_t kMaxModuleOctets = 17; ///< identifier octets of one module

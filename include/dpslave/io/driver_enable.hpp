@@ -69,7 +69,7 @@ public:
     bool by_hand() const noexcept;
 
     /// Before the first octet is written, and after the last stop bit has gone. No allocation; one system
-    /// call. An error of set(true): nothing may be sent, for a reply without driver enable is no reply. An
+    /// call. An error of set(true): nothing may be sent. An
     /// error of either but resource_unavailable_try_again (the guard is at work): the chip has gone, see
     /// works().
     std::error_code set(bool sending, Instant now) noexcept;
@@ -85,8 +85,9 @@ public:
 
     /// Since when the line is active; nothing = it is not. Any thread may ask.
     std::optional<Instant> active_since() const noexcept;
-    /// The last resort, from another thread: makes the line inactive if it has been active for longer than
-    /// `limit`. True: it had been, and is not any more. Never waits for the thread that calls set().
+    /// For another thread, when the bus thread hangs: makes the line inactive if it has been active for
+    /// longer than `limit`. True: it had been, and is not any more. Never waits for the thread that calls
+    /// set().
     bool drop_if_stuck(Instant now, std::chrono::nanoseconds limit) noexcept;
 
     /// At start, after attach() and before the first set(): whether the line can be switched, and how long an

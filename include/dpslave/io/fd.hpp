@@ -9,7 +9,7 @@ namespace dpslave::io {
 class Fd {
 public:
     Fd() = default;
-    /// Takes over `fd`; a negative number (as open(2) and friends give on failure) owns nothing.
+    /// Takes over `fd`; a negative number (the result of a call that failed) owns nothing.
     explicit Fd(int fd) noexcept : fd_(fd) {}
     Fd(Fd&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
     Fd& operator=(Fd&& other) noexcept
@@ -27,7 +27,7 @@ public:
     int get() const noexcept { return fd_; }
     explicit operator bool() const noexcept { return fd_ >= 0; }
 
-    /// Closes now. errno stays as it was, so that the reason of a failure survives the cleaning up after it.
+    /// Closes now. errno stays as it was.
     void reset() noexcept;
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A real lamp: a line of a GPIO chip, a lamp of the kernel's LED class, or a pin of sysfs GPIO.
+/// The output of a lamp: a line of a GPIO chip, a lamp of the kernel's LED class, or a pin of sysfs GPIO.
 #pragma once
 
 #include "dpslave/base/result.hpp"
@@ -49,8 +49,8 @@ std::optional<std::string> judge_led_sink(const std::string& sink);
 /// The line that a sink of the kind "line:" asks for; nothing: another kind, or its form is wrong.
 std::optional<GpioRequest> line_of_led_sink(const std::string& sink);
 
-/// What `sink` shines on, the same for each of its names as far as <sysfs> shows: two spellings of a path,
-/// "gpio:N" and "line:CHIP:LINE" of one line. For comparison only. Opens no device.
+/// The lamp or pin that `sink` drives, the same for each of its names as far as <sysfs> shows: two spellings
+/// of a path, "gpio:N" and "line:CHIP:LINE" of one line. For comparison only. Opens no device.
 std::string led_sink_target(const std::string& sink, const std::filesystem::path& sysfs);
 
 } // namespace dpslave::io

@@ -47,8 +47,8 @@ private:
     Fd held_; // closing it ends the request
 };
 
-/// Page faults of the calling thread since it began, minor and major: 0 more while it serves is what locked
-/// memory is for.
+/// Page faults of the calling thread since it began, minor and major: with locked memory
+/// the count does not grow while it serves.
 std::uint64_t page_faults_of_thread() noexcept;
 
 /// Names the calling thread for ps, top and gdb: "bus". At most 15 characters.

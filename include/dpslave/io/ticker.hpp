@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Wakes an epoll at a steady pace, so that a loop which waits thousands of times a second for octets need
-/// not arm and cancel a timer each time.
+/// A periodic timer for an epoll. A loop which waits thousands of times a second for octets need not arm
+/// and cancel a timer each time.
 #pragma once
 
 #include "dpslave/io/fd.hpp"

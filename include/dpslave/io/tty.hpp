@@ -32,7 +32,7 @@ struct TtySettings {
     bool prompt = false;           ///< read() gives every octet as soon as it has come: receive trigger 1
 };
 
-/// What one read gave.
+/// The result of one read.
 struct Chunk {
     std::span<std::uint8_t> octets; ///< good characters, in the caller's buffer; empty = nothing has come
     bool bad_character = false;     ///< right after these octets the UART received a bad character
@@ -93,7 +93,7 @@ public:
     /// Discards what has come and was not read yet.
     std::error_code discard_input();
 
-    /// Waits until read() has something to say, a hang-up included. False: the time is over.
+    /// Waits until read() has octets or an error, a hang-up included. False: the time is over.
     bool wait_readable(std::chrono::nanoseconds timeout);
 
     /// Whether the last stop bit of what was written has gone. Nothing: the driver does not know (a pty, most

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The LED language of a device: what is the case -> which lamp shows what, at which moment. Pure.
+/// The lamps of a device: from the condition of a station to the pattern of each lamp. Pure.
 /// Source: HA389815 ch. 9 (rows A-084); HA463561U002, "Understanding the LED Indications" (B-030 to
 /// B-035); 2408f/2404f handbook ch. 4 (C-009).
 #pragma once
@@ -14,7 +14,7 @@
 
 namespace dpslave::led {
 
-/// What the lamps speak about.
+/// What the lamps show.
 struct Condition {
     bool running = false;       ///< the gateway serves this station at all
     bool data_exchange = false; ///< with the master
@@ -38,7 +38,7 @@ struct Lamp {
     Pattern pattern;
 };
 
-/// Which language a profile speaks.
+/// The lamp language of a profile.
 enum class Language : std::uint8_t {
     option_board,     ///< 584S, 590: red steady for an internal fault
     option_board_620, ///< red flashes 2 Hz for an internal fault (X-32)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the Modbus client needs of a line: frames, one way and the other. The line does not know what a frame
-/// means, the client has no descriptor.
+/// The line as the Modbus client uses it: sends and receives frames. It does not interpret them, and the
+/// client has no descriptor.
 #pragma once
 
 #include "dpslave/base/bytes.hpp"
@@ -26,7 +26,7 @@ public:
     /// Waits for the next frame, at most until `until`; what has come already is given at once.
     virtual Heard receive(Instant until) = 0;
 
-    /// What receive() heard last: unit first, without check sum. Valid until the next call.
+    /// The last frame of receive(): unit first, without check sum. Valid until the next call.
     virtual Bytes frame() const = 0;
 
     /// The monotonic clock that receive() waits by.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// From the answers of a drive to a tag table: what a survey saw of each tag, its record as a file, which tag
+/// From the answers of a drive to a tag table: the answers of each tag, their record as a file, which tag
 /// is asked next, how long that takes, and the rows of the table. Pure: texts and times in, texts out.
 #pragma once
 
@@ -32,12 +32,12 @@ std::string spans_text(std::span<const std::uint16_t> tags);
 /// "90s", "10m", "2h"; a number alone is seconds. Nothing: it is no such time, 0, or more than 30 days.
 std::optional<std::chrono::seconds> parse_duration(std::string_view text);
 
-/// What came of one survey read.
+/// The result of one survey read.
 struct SurveyAnswer {
     enum class Kind : std::uint8_t {
         text,    ///< EI-ASCII: what lies between mnemonic and ETX
         word,    ///< Modbus: the 16 bits, there is no text
-        denied,  ///< the drive said no; `text` says why
+        denied,  ///< the drive refused; `text` says why
         silence, ///< no answer to this read, which may be the line
     };
     Kind kind = Kind::silence;
@@ -91,8 +91,8 @@ Result<Survey, toml::Faults> read_record(std::string_view content, const std::st
                                          std::string_view station);
 
 /// Which tag is asked next: of those that are still wanted the one that was asked least, ascending. A tag
-/// that was only ever denied is asked once; one that never answered three times, for a silence may be the
-/// line.
+/// that was only ever denied is asked once; one that never answered three times, because a fault of the line
+/// may be the reason.
 class SurveyPlan {
 public:
     /// `tags`: ascending. `passes`: how often each tag is to be asked; 0 = without end.
@@ -153,8 +153,8 @@ struct SurveyedTable {
 };
 
 /// Joins what was seen with `table`, the text of a tag table; empty = there is none yet. New rows have
-/// confirmed = no; rows with confirmed = no are widened (more decimals, further extremes) and keep what a
-/// person wrote into their other cells; every other row stays as it is, octet by octet, but for the cells of
+/// confirmed = no; rows with confirmed = no are widened (more decimals, further extremes) and keep their
+/// other cells; every other row stays as it is, octet by octet, but for the cells of
 /// new columns. Faults: `table` is no tag table.
 Result<SurveyedTable, toml::Faults> merge_survey(std::string_view table, const std::string& file,
                                                  const Survey& seen);

@@ -25,8 +25,8 @@ inline constexpr std::int32_t kProfibusDp = 2;
 /// VERSION shown: the option software that is emulated, "Version 3.x" (B-011).
 inline constexpr std::uint16_t kVersion = 0x0300;
 
-/// What can be set, as a PC tool may set it: any value of 16 bits, signed or not (-32768..65535). What no
-/// operator station would take makes FAULT = PARAMETER, it is not refused (B-049).
+/// What can be set, as a PC tool may set it: any value of 16 bits, signed or not (-32768..65535). A value
+/// that no operator station would take is not refused; it makes FAULT = PARAMETER (B-049).
 struct Settings {
     std::int32_t type = kProfibusDp;
     std::int32_t address = 3;         ///< 0..125
@@ -37,7 +37,7 @@ struct Settings {
     friend bool operator==(const Settings&, const Settings&) = default;
 };
 
-/// How the gateway itself is.
+/// The condition of the gateway itself.
 struct Hardware {
     bool self_test_passed = true;
     bool ports_open = true;   ///< bus and drive line

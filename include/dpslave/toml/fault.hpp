@@ -18,8 +18,8 @@ struct Fault {
 /// All faults found in one run, in the order of the file.
 using Faults = std::vector<Fault>;
 
-/// Most faults that one run reports; a last one says that there are more. A file with thousands must not keep
-/// the program busy.
+/// Most faults that one run reports; a last one says that there are more. This bounds the time
+/// for a file with thousands.
 inline constexpr std::size_t kMaxFaults = 100;
 
 /// Replaces those after the first kMaxFaults by one that says so.

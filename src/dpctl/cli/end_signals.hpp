@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The wish of a person that a command that runs on shall end.
+/// SIGINT or SIGTERM: the end of a command that runs on.
 #pragma once
 
 #include <csignal>

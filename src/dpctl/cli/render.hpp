@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Replies of the daemon as text for people. Pure: the parameters of a reply in, lines out.
+/// Replies of the daemon as text. Pure: the parameters of a reply in, lines out.
 #pragma once
 
 #include "fields.hpp"

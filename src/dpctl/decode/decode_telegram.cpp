@@ -116,7 +116,7 @@ std::string address_words(std::uint8_t address)
     return address == 126 ? "126: a station without an address of its own" : std::to_string(address);
 }
 
-/// The SAP that names the service: the slave's own, whoever speaks.
+/// The SAP that names the service: the slave's own, in both directions.
 std::optional<std::uint8_t> service_sap(const Telegram& telegram)
 {
     return telegram.is_request() ? telegram.dsap : telegram.ssap;

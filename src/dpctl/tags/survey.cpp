@@ -241,7 +241,7 @@ void Run::say_progress(bool last)
     terminal_.out << std::flush;
 }
 
-/// What fails is tried again: a person saves the table, or makes room on the disk.
+/// What fails is tried again: the table may be saved meanwhile, or the disk have room again.
 void Run::save_now_and_then()
 {
     if (Clock::now() < saved_ + kSaveEvery) return;
