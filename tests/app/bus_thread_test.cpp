@@ -131,7 +131,7 @@ class ReopenedPort : public BusThread {
 protected:
     ReopenedPort() { plug(); }
     std::string port_path() override { return link_.string(); }
-    /// First the name: the number of a pty that has gone is given to the next one, whoever opens it.
+    /// First the name: the number of a pty that has gone is given to the next one that is opened.
     void pull()
     {
         std::filesystem::remove(link_);

@@ -80,7 +80,7 @@ TEST_F(ReloadPlan, KnowsAStationByItsNameWhereverItStands)
         one.substr(0, one.find("[[station]]")) + test::kSecondStation + one.substr(one.find("[[station]]"));
     const Plan plan = this->plan(two, turned);
     EXPECT_THAT(stays(plan), ElementsAre(1U, 0U));
-    // Whoever counts stations has to learn the new order, or the next plan means another one.
+    // An index of a station follows the new order, or the next plan means another one.
     EXPECT_THAT(plan.changes, ElementsAre("lines or stations stand in another order"));
 }
 
@@ -409,7 +409,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Change{"[control] socket", "[control]", "[control]\nsocket = \"/run/other.sock\""}),
     testing::PrintToStringParamName());
 
-TEST_F(ReloadPlan, MayChangeWhoOperatesAndWhereTheLampsAre)
+TEST_F(ReloadPlan, MayChangeTheOperatorsAndTheSinksOfTheLamps)
 {
     const Plan group = plan(one, with(one, "\"root\"", "\"daemon\""));
     EXPECT_THAT(group.refusals, IsEmpty());

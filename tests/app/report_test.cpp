@@ -255,7 +255,7 @@ TEST_F(Report, OfAValueThatCannotBeWrittenNamesThoseThatCan)
                 HasSubstr("one of SP1, SP2"));
 }
 
-TEST_F(Report, OfAValueThatCannotBeWrittenCountsTheDecimalsAsAPersonDoes)
+TEST_F(Report, OfAValueThatCannotBeWrittenCountsTheDecimalsAsTyped)
 {
     drive::Tag tag;
     const auto words = [&](std::uint8_t decimals) {

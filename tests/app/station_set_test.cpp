@@ -94,7 +94,7 @@ TEST_F(StationsOfTheBus, GivesAnAddressToAnotherStation)
     EXPECT_NE(first->ended.load(), 0u);
 }
 
-TEST_F(StationsOfTheBus, IsTakenOnlyWhenTheOrdersOfThoseWhoLeaveWereTaken)
+TEST_F(StationsOfTheBus, IsTakenOnlyWhenTheOrdersOfThoseThatLeaveWereTaken)
 {
     const auto five = station(5);
     while (links[5]->demand_orders.push({})) { // as if the drive line took none

@@ -40,7 +40,7 @@ Handlers handlers_that_wait()
     return handlers;
 }
 
-/// A server that takes each caller for whom the test says he is.
+/// A server that gets the user of each caller from the test.
 class Fairness : public testing::Test {
 protected:
     RawCaller caller(uid_t uid, gid_t gid = 100)
@@ -79,7 +79,7 @@ protected:
                 }};
 };
 
-TEST_F(Fairness, ACallerWhoSendsManyCallsAtOnceHasOneAnsweredInEachRound)
+TEST_F(Fairness, ACallerThatSendsManyCallsAtOnceHasOneAnsweredInEachRound)
 {
     RawCaller one = caller(1000);
     one.write(many_calls(50));
@@ -105,7 +105,7 @@ TEST_F(Fairness, ARoundHasAnEndHoweverManyCallersSendHoweverMuch)
     EXPECT_EQ(calls(), 20u * 50u) << "and none is lost";
 }
 
-TEST_F(Fairness, WhoConnectsBehindAFloodIsTakenInWithinAFewRounds)
+TEST_F(Fairness, ACallerBehindAFloodIsAcceptedWithinAFewRounds)
 {
     constexpr std::size_t kFlood = 500;
     std::vector<RawCaller> flood;
@@ -145,7 +145,7 @@ TEST_F(Fairness, CallsBehindOneThatWaitsHaveTheirTurnsAfterIt)
     EXPECT_EQ(calls(), 4u);
 }
 
-TEST_F(Fairness, AUserWhoHasAQuarterOfThePlacesLosesTheOneIdleForLongestToHisNext)
+TEST_F(Fairness, AUserWithAQuarterOfThePlacesLosesTheOneIdleForLongestToTheNext)
 {
     std::vector<RawCaller> all = callers(kShare, 1000);
     EXPECT_TRUE(is_served(all[0])); // so that the second one is idle for longest
@@ -173,7 +173,7 @@ TEST_F(Fairness, HalfCallsAndWatchesAreEndedAsAnyIdleConnection)
     EXPECT_TRUE(bench.server->streams().empty());
 }
 
-TEST_F(Fairness, AUserIsNeverAtTheCostOfAnotherOneWhoHasLess)
+TEST_F(Fairness, AUserNeverDisplacesAnotherOneThatHasLess)
 {
     std::vector<RawCaller> other = callers(3, 1001);
     std::vector<RawCaller> greedy = callers(100, 1000);
@@ -194,7 +194,7 @@ TEST_F(Fairness, AConnectionThatWaitsForItsAnswerIsNotIdle)
         EXPECT_TRUE(bench.server->complete(token, Done{}));
 }
 
-TEST_F(Fairness, OfManyUsersWhoHoldAllPlacesTheOneWithTheMostMakesRoomForOneWhoHasNone)
+TEST_F(Fairness, OfManyUsersThatHoldAllPlacesTheOneWithTheMostMakesRoomForOneThatHasNone)
 {
     std::vector<RawCaller> all;
     for (uid_t uid = 1000; uid < 1004; ++uid)

@@ -92,7 +92,7 @@ TEST(ControlLimits, AStreamThatIsNotReadIsDroppedAtItsBound)
     EXPECT_TRUE(bench.server->streams().empty());
 }
 
-TEST(ControlLimits, ManyCallersWhoDoNotReadOccupyNoMoreThanAFewDo)
+TEST(ControlLimits, ManyCallersThatDoNotReadOccupyNoMoreThanAFewDo)
 {
     constexpr std::size_t kReply = 500'000, kOfAll = 2'000'000;
     Bench bench{large_answers(kReply), [](ServerSettings& s) { s.max_unsent_of_all = kOfAll; }};
@@ -108,7 +108,7 @@ TEST(ControlLimits, ManyCallersWhoDoNotReadOccupyNoMoreThanAFewDo)
     EXPECT_TRUE(bench.ask("GetVersion").contains("parameters"));
 }
 
-TEST(ControlLimits, ACallerWhoDoesNotReadIsNotReadFromEither)
+TEST(ControlLimits, ACallerThatDoesNotReadIsNotReadFromEither)
 {
     Bench bench{large_answers(300'000)};
     auto caller = bench.caller();

@@ -81,7 +81,7 @@ TEST_F(ControlServer, SendsNothingToAOnewayCall)
     EXPECT_EQ(bench.reply(caller), json(R"({"parameters":{"n":2}})"));
 }
 
-TEST_F(ControlServer, StillDoesTheOnewayCallOfACallerWhoHasGone)
+TEST_F(ControlServer, StillDoesTheOnewayCallOfACallerThatHasGone)
 {
     auto caller = bench.caller();
     caller.write(call("GetStatus", "{}", R"(,"oneway":true)"));
@@ -90,7 +90,7 @@ TEST_F(ControlServer, StillDoesTheOnewayCallOfACallerWhoHasGone)
     EXPECT_TRUE(bench.run_until([&] { return application.calls == 1 && bench.server->clients() == 0; }));
 }
 
-TEST_F(ControlServer, StillAnswersACallerWhoHasClosedHisSideForWriting)
+TEST_F(ControlServer, StillAnswersACallerThatHasClosedItsWritingSide)
 {
     auto caller = bench.caller();
     caller.write(call("GetStatus") + call("ReadTag", R"({"tag":7})"));
@@ -293,7 +293,7 @@ TEST_F(ControlServer, StreamsRepliesThatContinue)
     EXPECT_EQ(bench.reply(caller), json(R"({"continues":true,"parameters":{"n":2}})"));
 }
 
-TEST_F(ControlServer, StreamsOneReplyToACallerWhoDidNotAskForMore)
+TEST_F(ControlServer, StreamsOneReplyToACallerThatDidNotAskForMore)
 {
     auto caller = bench.caller();
 
@@ -329,7 +329,7 @@ TEST_F(ControlServer, EndsAStreamWhenItsCallerGoes)
 
 // ---------------------------------------------------------------- the server itself
 
-TEST(ControlServerOpen, WantsAHandlerForEachMethodAndNoOther)
+TEST(ControlServerOpen, RequiresAHandlerForEachMethodAndNoOther)
 {
     Handlers missing = quiet_handlers(), surplus = quiet_handlers();
     missing.erase("GetLeds");

@@ -119,7 +119,7 @@ TEST_F(SetPrm, C21_InDataExchTheWatchdogCanBeSwitchedOff)
     EXPECT_EQ(diag_of(master), "00 04 00 02");
 }
 
-TEST_F(SetPrm, C21_WhoGivesSyncUpInDataExchIsNotLeftInIt)
+TEST_F(SetPrm, C21_AMasterThatGivesSyncUpInDataExchEndsIt)
 {
     exchanges(kPrmSyncFreeze);
     master.control("28 00");

@@ -49,7 +49,7 @@ protected:
     FixtureDaemon daemon;
 };
 
-// ---------------------------------------------------------------- for people
+// ---------------------------------------------------------------- text
 
 TEST_F(DpctlProgram, PrintsWhatTheRenderersMakeWithoutColourIntoAPipe)
 {
@@ -322,7 +322,7 @@ TEST(DpctlWithoutDaemon, VersionWorks)
     EXPECT_EQ(json.at("program"), "dpctl");
 }
 
-TEST(DpctlWithoutDaemon, ASocketThatTheUserMayNotReachIsNoDaemonForHim)
+TEST(DpctlWithoutDaemon, ASocketThatTheUserMayNotReachCountsAsNoDaemon)
 {
     if (::geteuid() != 0) GTEST_SKIP() << "only root can become another user";
     const TempFolder folder;

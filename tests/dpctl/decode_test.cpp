@@ -13,7 +13,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-// ---------------------------------------------------------------- octets as people write them
+// ---------------------------------------------------------------- octets as they are typed
 
 TEST(DecodeOctets, AreReadInEveryUsualForm)
 {

@@ -133,7 +133,7 @@ TEST_F(Doctor, GivesTheSameAsJson)
         "source":"HA389815 chapter 9"}],"notes":[],"earlier":[],"line":{"baud":187500,"cable_a_m":1000,"cable_b_m":600}})"));
 }
 
-TEST(DoctorRules, AreAllPrintedForThoseWhoSeeLampsOnly)
+TEST(DoctorRules, AreAllPrintedWithConditionCauseAndSteps)
 {
     const std::string all = render_rules(Look{false, 300});
     const Json json = rules_json();

@@ -99,7 +99,7 @@ TEST_F(Doctor, BlamesNothingBeforeAMasterCanHaveAsked)
     EXPECT_EQ(found().front(), "bus.silent");
 }
 
-TEST_F(Doctor, BelievesATelegramThatTheCountersDoNotHaveYet)
+TEST_F(Doctor, AcceptsATelegramThatTheCountersDoNotHaveYet)
 {
     hears_nothing_for(20'000);
     bus().last_telegram_age_ms = 5.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `dpctl gsd` as a person calls it: exit codes, what is printed, files whole or not at all.
+// `dpctl gsd` as it is called in a shell: exit codes, what is printed, files whole or not at all.
 #include "dpctl/cli/cli.hpp"
 #include "dpctl/gsd/gsd.hpp"
 #include "gsd/second_hand.hpp"
@@ -262,7 +262,7 @@ TEST(GsdShowCommand, PrintsTheMapWithNamesOctetsAndWords)
               "Data\n");
 }
 
-TEST(GsdShowCommand, OfADriveSpeaksOfNoExtendedTagsAndCountsDemandDataByItself)
+TEST(GsdShowCommand, OfADriveShowsNoExtendedTagsAndCountsDemandDataByItself)
 {
     const test::Folder folder;
     const auto file = folder.write("UNWI0533.GSD", make({"--profile", "590", "--in", "55", "--demand"}).out);

@@ -25,7 +25,7 @@ TEST(DpctlReload, SaysThatNothingHasChanged)
               "warning: w\nNothing has changed.\n");
 }
 
-TEST(DpctlReload, OfADryRunSaysWhoWouldLeaveTheBusAndWhy)
+TEST(DpctlReload, OfADryRunNamesTheStationsThatWouldLeaveTheBusAndWhy)
 {
     EXPECT_EQ(render_reload(report::read<report::ReloadReply>(fixture("Reload")), true),
               "station rewinder removed\n"

@@ -88,7 +88,7 @@ TEST_F(SurveyFilesTest, WithoutResumeTheRecordBeginsAnewAndTheTableKeepsWhatWasS
     EXPECT_THAT(content(table), HasSubstr("1,,INT,2,,,,,,,,no,-3,12.55\n"));
 }
 
-TEST_F(SurveyFilesTest, WhatAPersonConfirmsWhileTheSurveyRunsStays)
+TEST_F(SurveyFilesTest, WhatIsConfirmedWhileTheSurveyRunsStays)
 {
     SurveyFiles files = open();
     files.seen[1].add(said("12.5"));

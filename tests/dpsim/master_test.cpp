@@ -164,7 +164,7 @@ TEST_F(MasterTest, SendsZerosInClearAndSaysSo)
     expect("68 05 05 68 05 02 5D A5 01 0A 16", "68 05 05 68 02 05 08 12 34 55 16");
 }
 
-TEST_F(MasterTest, ComplainsAboutAnAnswerFromAnotherStation)
+TEST_F(MasterTest, ReportsAnAnswerFromAnotherStation)
 {
     exchanging();
     expect("68 05 05 68 05 02 7D 00 00 84 16", "68 05 05 68 02 06 08 12 34 56 16");
@@ -172,7 +172,7 @@ TEST_F(MasterTest, ComplainsAboutAnAnswerFromAnotherStation)
     EXPECT_THAT(complaints(), HasSubstr("comes from station 6"));
 }
 
-TEST_F(MasterTest, ComplainsAboutTheStationTypeOfAMaster)
+TEST_F(MasterTest, ReportsTheStationTypeOfAMaster)
 {
     master.start();
     expect("10 05 02 49 50 16", "10 02 05 20 27 16");
@@ -181,7 +181,7 @@ TEST_F(MasterTest, ComplainsAboutTheStationTypeOfAMaster)
     EXPECT_EQ(master.state(), MasterState::searching);
 }
 
-TEST_F(MasterTest, ComplainsAboutInputsOfAnotherLength)
+TEST_F(MasterTest, ReportsInputsOfAnotherLength)
 {
     exchanging();
     expect("68 05 05 68 05 02 7D 00 00 84 16", "E5");

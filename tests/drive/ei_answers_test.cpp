@@ -224,7 +224,7 @@ TEST_F(EiAnswers, AStrayNakAndAnOldEeAreNoRefusalEither)
     EXPECT_EQ(a.parameters["ow"].text, ">0001");
 }
 
-TEST_F(EiAnswers, ARefusalIsBelievedAtOnceOnceEeIsKnownToBe0)
+TEST_F(EiAnswers, ARefusalIsAcceptedAtOnceOnceEeIsKnownToBe0)
 {
     a.parameters["ow"].read_only = true;
     ASSERT_EQ(write(kFirst, output, 1), AccessError::read_only);

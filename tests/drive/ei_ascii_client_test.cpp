@@ -225,7 +225,7 @@ TEST_F(EiClient, WaitsLongerBetweenCharactersOnASlowLine)
     EXPECT_EQ(value, 0x1B0B);
 }
 
-TEST_F(EiClient, DoesNotBelieveAnAnswerWithAWrongBcc)
+TEST_F(EiClient, DoesNotAcceptAnAnswerWithAWrongBcc)
 {
     dc.faults = {Fault::bad_bcc};
     EXPECT_EQ(read(kDc, status), AccessError::no_answer);
@@ -233,7 +233,7 @@ TEST_F(EiClient, DoesNotBelieveAnAnswerWithAWrongBcc)
     EXPECT_EQ(read(kDc, status), AccessError::none);
 }
 
-TEST_F(EiClient, DoesNotBelieveAnAnswerForAnotherParameter)
+TEST_F(EiClient, DoesNotAcceptAnAnswerForAnotherParameter)
 {
     dc.faults = {Fault::wrong_parameter};
     EXPECT_EQ(read(kDc, status), AccessError::no_answer);
@@ -271,7 +271,7 @@ TEST_F(EiClient, ReturnsFromALineThatBabbles)
     EXPECT_LT(took, 500ms);
 }
 
-TEST_F(EiClient, ReturnsWithinItsDeadlineFromALineThatBabblesForEver)
+TEST_F(EiClient, ReturnsWithinItsDeadlineFromALineWithEndlessNoise)
 {
     // The time-out and the request, the longest answer with a gap, then twice that for what is drained.
     const auto longest = 200ms + 8 * line.character() + (1 + 2) * 85 * line.character() + 2 * 21ms;
@@ -295,7 +295,7 @@ TEST_F(EiClient, AnEotThatNoDriveStandsBehindIsNoiseAndNoVerdictOnTheTag)
     EXPECT_EQ(client.last_trouble(), "an EOT, but no answer for EE behind it: noise");
 }
 
-TEST_F(EiClient, GivesUpADriveThatTricklesAtItsDeadline)
+TEST_F(EiClient, GivesUpADriveThatSendsTooSlowlyAtItsDeadline)
 {
     line.comes_by_itself("\x02ox>", 15ms);
     line.babbles('0', 19ms, 30ms);

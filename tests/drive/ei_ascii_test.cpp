@@ -75,7 +75,7 @@ TEST_P(EiReply, IsReadToItsBccAndNoFurther)
     EXPECT_EQ(parser.answer().mnemonic, GetParam().mnemonic);
     EXPECT_EQ(parser.answer().text, GetParam().text);
 }
-TEST_P(EiReply, WithAnyOneBitWrongIsNotBelieved)
+TEST_P(EiReply, WithAnyOneBitWrongIsNotAccepted)
 {
     const auto frame = octets(GetParam().reply);
     for (std::size_t i = 0; i < frame.size(); ++i)

@@ -153,7 +153,7 @@ TEST_F(Scale, ATagWithoutARowIsUnscaledToo)
     EXPECT_EQ(inputs.words[0], 0);
 }
 
-TEST_F(Scale, ARowThatNoPersonHasConfirmedIsUnscaled)
+TEST_F(Scale, ARowThatIsNotConfirmedIsUnscaled)
 {
     std::vector<Tag> rows = tags.all();
     for (Tag& tag : rows) tag.confirmed = false;

@@ -53,9 +53,9 @@ void expect_truth(const Run& run, const Make& make)
     testing::Test::RecordProperty("runs", static_cast<int>(runs));
 }
 
-/// How many of the first `runs` seeds convict this client.
+/// How many of the first `runs` seeds show a violation of this client.
 template <class Run, class Make>
-int convictions(const Run& run, const Make& make, std::uint64_t runs, RunOptions options = {})
+int runs_with_a_violation(const Run& run, const Make& make, std::uint64_t runs, RunOptions options = {})
 {
     int count = 0;
     for (std::uint64_t seed = 1; seed <= runs; ++seed)
@@ -73,14 +73,14 @@ TEST(ModbusAnswers, BelongToTheirQuestions)
     expect_truth(run_modbus, modbus_client);
 }
 
-TEST(Judge, ConvictsAClientThatTakesTheFirstAnswerThatLooksRight)
+TEST(Judge, FindsViolationsOfAClientThatTakesTheFirstAnswerThatLooksRight)
 {
-    EXPECT_GE(convictions(run_ei, naive_ei, 40), 20);
-    EXPECT_GE(convictions(run_modbus, naive_modbus, 40), 10);
+    EXPECT_GE(runs_with_a_violation(run_ei, naive_ei, 40), 20);
+    EXPECT_GE(runs_with_a_violation(run_modbus, naive_modbus, 40), 10);
 }
 
 /// Drives that die, deny tags and refuse writes excuse no violation.
-TEST(Judge, AcquitsEvenThatClientWhereNothingIsLateOrLost)
+TEST(Judge, FindsNoViolationOfThatClientWhereNothingIsLateOrLost)
 {
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         RunResult result = run_ei(seed, naive_ei, {.calm = true, .traces = true});

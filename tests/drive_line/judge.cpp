@@ -31,7 +31,7 @@ Judge::Judge(SimulatedLine& line) : line_(line), drives_(line.drives.size())
     };
 }
 
-void Judge::convict(const std::string& text)
+void Judge::report_violation(const std::string& text)
 {
     if (!violation_)
         violation_ = fmt::format("{:.1f} ms: {}",
@@ -132,8 +132,8 @@ void Judge::was_written(std::size_t drive, const SimulatedTag& tag, std::uint16_
     }
     const bool was_wanted = std::any_of(record.wanted.begin(), record.wanted.end(),
                                         [word](const Wanted& one) { return one.word == word; });
-    convict(fmt::format("{:04X} was written to tag {} of drive {}, {}", word, tag.number, drive,
-                        was_wanted ? "an older word after a newer one" : "and it was never wanted"));
+    report_violation(fmt::format("{:04X} was written to tag {} of drive {}, {}", word, tag.number, drive,
+                                 was_wanted ? "an older word after a newer one" : "and it was never wanted"));
 }
 
 // ---- what is shown
@@ -142,8 +142,8 @@ void Judge::shown(std::size_t drive, const InputImage& image)
 {
     DriveRecord& record = drives_[drive];
     if (image.generation != record.image.layout.generation)
-        return convict(fmt::format("inputs of layout {} of drive {} while {} stands", image.generation, drive,
-                                   record.image.layout.generation));
+        return report_violation(fmt::format("inputs of layout {} of drive {} while {} stands",
+                                            image.generation, drive, record.image.layout.generation));
     for (std::size_t i = 0; i < record.image.layout.count; ++i)
         if (record.image.layout.parameters[i].reads) judge_word(drive, i, image.words[i]);
 }
@@ -162,10 +162,10 @@ void Judge::judge_word(std::size_t drive, std::size_t place, std::uint16_t word)
     }
     if (word == 0 && !record.was_shown[place]) return; // not read yet
     const bool was_held = held(tag, word, 0).has_value();
-    convict(fmt::format("tag {} of drive {} shows {:04X}, {}", number, drive, word,
-                        was_held    ? "which it held before the word that was shown last"
-                        : word == 0 ? "though the drive has not denied it"
-                                    : "which it never held"));
+    report_violation(fmt::format("tag {} of drive {} shows {:04X}, {}", number, drive, word,
+                                 was_held    ? "which it held before the word that was shown last"
+                                 : word == 0 ? "though the drive has not denied it"
+                                             : "which it never held"));
 }
 
 void Judge::shown(std::size_t drive, const drive::UnitSnapshot& snapshot,
@@ -180,8 +180,8 @@ void Judge::shown(std::size_t drive, const drive::UnitSnapshot& snapshot,
         if (at)
             known.watched = *at;
         else if (word.word != 0)
-            convict(fmt::format("watched tag {} of drive {} shows {:04X}, which it does not hold", watched[i],
-                                drive, word.word));
+            report_violation(fmt::format("watched tag {} of drive {} shows {:04X}, which it does not hold",
+                                         watched[i], drive, word.word));
     }
     if (snapshot.generation != record.image.layout.generation) return;
     for (std::size_t i = 0; i < record.image.layout.count; ++i) {
@@ -194,9 +194,9 @@ void Judge::shown(std::size_t drive, const drive::UnitSnapshot& snapshot,
         for (std::size_t at = tag.history.size(); at-- > 0 && tag.history[at].word != snapshot.words[i];)
             given_up = tag.history[at].from;
         if (given_up < line_.time - std::max<Time>(kOutOfDate, kOutOfDateTimeouts * line_.rules().timeout))
-            convict(fmt::format("tag {} of drive {} shows {:04X} as good, which it gave up {:.1f} s ago",
-                                parameter.tag, drive, snapshot.words[i],
-                                static_cast<double>((line_.time - given_up).count()) / 1e9));
+            report_violation(fmt::format(
+                "tag {} of drive {} shows {:04X} as good, which it gave up {:.1f} s ago", parameter.tag,
+                drive, snapshot.words[i], static_cast<double>((line_.time - given_up).count()) / 1e9));
     }
 }
 
@@ -207,12 +207,12 @@ void Judge::judge_good(std::size_t drive, std::size_t place, std::uint16_t word)
     const std::uint16_t number = record.image.layout.parameters[place].tag;
     const TagRecord& known = record.tags[number];
     const std::string what = fmt::format("tag {} of drive {} shows {:04X} as good, ", number, drive, word);
-    if (record.in_doubt) return convict(what + "while the drive has not answered");
-    if (!known.was_refreshed) return convict(what + "though the last attempt to read it failed");
+    if (record.in_doubt) return report_violation(what + "while the drive has not answered");
+    if (!known.was_refreshed) return report_violation(what + "though the last attempt to read it failed");
     const SimulatedTag& tag = tag_of(drive, number);
     std::size_t from = 0;
     while (from + 1 < tag.history.size() && tag.history[from + 1].from <= known.sampled_from) ++from;
-    if (!held(tag, word, from)) convict(what + "which it has not held since it was asked last");
+    if (!held(tag, word, from)) report_violation(what + "which it has not held since it was asked last");
 }
 
 // ---- answers to orders
@@ -235,32 +235,35 @@ void Judge::judge_answer(const Order& order, AccessError error, std::uint16_t wo
         case AccessError::none: break;
         case AccessError::not_kept:
             if (taken(tag, order) == tag.history.end() && tag.disturbed_at < order.at)
-                convict(what + " is answered as taken and not kept, and the drive has not taken it");
+                report_violation(what + " is answered as taken and not kept, and the drive has not taken it");
             return;
         case AccessError::invalid_tag:
-            if (!was_denied(tag, known)) convict(what + " is answered as an invalid tag, which it is not");
+            if (!was_denied(tag, known))
+                report_violation(what + " is answered as an invalid tag, which it is not");
             return;
         case AccessError::read_only:
-            if (!tag.read_only) convict(what + " is answered as read only, which it is not");
+            if (!tag.read_only) report_violation(what + " is answered as read only, which it is not");
             return;
         case AccessError::out_of_range:
             if (!tag.refuses && !tag.read_only && tag.disturbed_at < order.at)
-                convict(what + " is answered as out of range, which it was not");
+                report_violation(what + " is answered as out of range, which it was not");
             return;
         default: return;
     }
     if (order.is_write) {
         const auto done = taken(tag, order);
         if (done == tag.history.end())
-            return convict(fmt::format("{} of {:04X} is answered as done, and the drive has not taken it",
-                                       what, order.word));
+            return report_violation(fmt::format(
+                "{} of {:04X} is answered as done, and the drive has not taken it", what, order.word));
         known.ordered = std::max(known.ordered, static_cast<std::size_t>(done - tag.history.begin()));
         return;
     }
     std::size_t from = known.ordered;
     while (from + 1 < tag.history.size() && tag.history[from + 1].from <= oldest) ++from;
     const auto at = held(tag, word, from);
-    if (!at) return convict(fmt::format("{} is answered {:04X}, which it has not held since", what, word));
+    if (!at)
+        return report_violation(
+            fmt::format("{} is answered {:04X}, which it has not held since", what, word));
     known.ordered = *at;
 }
 
@@ -268,7 +271,7 @@ void Judge::answered(std::size_t drive, const DemandAnswer& answer)
 {
     const auto order = drives_[drive].orders.find(answer.number);
     if (order == drives_[drive].orders.end())
-        return convict(
+        return report_violation(
             fmt::format("an answer to order {} of drive {}, which was not given", answer.number, drive));
     judge_answer(order->second, answer.error, answer.value);
 }
@@ -277,8 +280,8 @@ void Judge::answered(const drive::OperateAnswer& answer)
 {
     const auto order = operates_.find(answer.number);
     if (order == operates_.end())
-        return convict(
-            fmt::format("an answer to order {} of the operator, which he did not give", answer.number));
+        return report_violation(
+            fmt::format("an answer to order {} of the operator, which was not given", answer.number));
     judge_answer(order->second, answer.error, answer.word);
 }
 

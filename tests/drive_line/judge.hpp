@@ -78,7 +78,7 @@ private:
         bool in_doubt = false; ///< it has not answered the last transaction
     };
 
-    void convict(const std::string& text);
+    void report_violation(const std::string& text);
     void was_written(std::size_t drive, const SimulatedTag& tag, std::uint16_t word, Instant at);
     /// The first place from `from` on at which the tag held the word; nothing: it never did.
     std::optional<std::size_t> held(const SimulatedTag& tag, std::uint16_t word, std::size_t from) const;

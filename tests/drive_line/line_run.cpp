@@ -43,7 +43,7 @@ LineRun::LineRun(SimulatedLine& line, drive::Backend& backend, const std::vector
       words_(std::max<std::size_t>(backend.block_rule().max_tags, 1))
 {}
 
-void LineRun::convict(const std::string& text)
+void LineRun::report_violation(const std::string& text)
 {
     if (!violation_) violation_ = text;
 }
@@ -75,8 +75,9 @@ void LineRun::step(Instant until)
         line_.pass_until(std::min(next, std::max(until, line_.time + 1us)));
     }
     without_time_ = line_.time > before ? 0 : without_time_ + 1;
-    if (without_time_ > kMostWithoutTime) convict("the drive side is busy without end, and no time passes");
-    if (judge_.violation()) convict(*judge_.violation());
+    if (without_time_ > kMostWithoutTime)
+        report_violation("the drive side is busy without end, and no time passes");
+    if (judge_.violation()) report_violation(*judge_.violation());
 }
 
 void LineRun::carry_out(const drive::Transaction& transaction)
@@ -296,7 +297,7 @@ void LineRun::settle(Time limit)
         for (std::size_t i = 0; i < masters_.size() && wrong.empty(); ++i)
             wrong = judge_.not_settled(i, poller_.snapshot(i));
         if (wrong.empty()) return;
-        if (line_.time > end) return convict("in the end " + wrong);
+        if (line_.time > end) return report_violation("in the end " + wrong);
     }
 }
 

@@ -64,7 +64,7 @@ private:
     void order(std::size_t drive);
     void operate(std::size_t drive);
     void disturb(std::size_t drive);
-    void convict(const std::string& text);
+    void report_violation(const std::string& text);
 
     SimulatedLine& line_;
     drive::Backend& backend_;

@@ -8,7 +8,7 @@
 namespace dpslave::drive_line {
 namespace {
 
-TEST(Judge, ConvictsTheClientWithoutThisRule)
+TEST(Judge, FindsAViolationOfTheClientWithoutThisRule)
 {
     constexpr std::uint64_t kSeeds = DRIVE_LINE_MUTANT_SEEDS;
     std::string finding;

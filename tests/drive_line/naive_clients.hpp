@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Clients that take the first answer that looks right, as most masters do: they forget a question as soon as
-/// its time is over. On a calm line they work; the judge has to convict them on every other.
+/// its time is over. On a calm line they work; the judge has to find violations on every other.
 #pragma once
 
 #include "random_runs.hpp"

@@ -103,7 +103,7 @@ TEST_F(Detach, OctetsThatAreBeingWrittenStayAsTheyAre)
     EXPECT_EQ((Octets{reply->begin(), reply->end()}), sd2(kMaster, kUs, 0x08, {0x12, 0x34}));
 }
 
-TEST_F(Detach, WhoIsAttachedThereNextBeginsANewFrameCountSequence)
+TEST_F(Detach, TheUserAttachedThereNextBeginsANewFrameCountSequence)
 {
     bus.master_sends(sd2(kUs, kMaster, kSrdFcb1, {1}));
     ASSERT_TRUE(bus.reply());

@@ -38,7 +38,7 @@ TEST_F(Judge, SeesAMasterThatDoesNotWaitForTsyn)
                             "before T_SYN");
 }
 
-TEST_F(Judge, SeesTwoThatTalkAtOnce)
+TEST_F(Judge, SeesTwoStationsThatSendAtOnce)
 {
     bus.master_sends(sd1(kUs, kMaster, kFdlStatus));
     bus.advance(bus.bits(12)); // the reply has begun

@@ -81,7 +81,7 @@ TEST_F(Stations, SayTheWindowAsItWasBeforeTheRequest)
     EXPECT_EQ(after.not_after, 140_tbit);
 }
 
-TEST_F(Stations, CountWhoIsOwnedAndWhoIsSupervised)
+TEST_F(Stations, CountTheOwnedAndTheSupervisedOnes)
 {
     EXPECT_FALSE(stations.any_owned());
     user.level = fdl::Supervision::supervised;

@@ -46,7 +46,7 @@ TEST(Transmission, IsOverWithTheLastStopBitWhereTheUartReportsNothing)
     EXPECT_EQ(reply.guarded(), 0u);
 }
 
-TEST(Transmission, BelievesArithmeticBeforeTheUart)
+TEST(Transmission, UsesArithmeticBeforeTheUart)
 {
     Transmission reply;
     reply.begin(10, kStart, Baud::k500);

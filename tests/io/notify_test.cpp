@@ -90,7 +90,7 @@ TEST_F(ServiceManager, HearsWhenAReloadBegan)
     EXPECT_EQ(heard(), "RELOADING=1\nMONOTONIC_USEC=12345678");
 }
 
-TEST_F(ServiceManager, WhoIsNotThereHearsNothing)
+TEST_F(ServiceManager, ThatIsNotThereGetsNothing)
 {
     ::unsetenv("NOTIFY_SOCKET");
 
@@ -100,7 +100,7 @@ TEST_F(ServiceManager, WhoIsNotThereHearsNothing)
     EXPECT_EQ(heard(), "");
 }
 
-TEST_F(ServiceManager, SaysHowOftenItWantsToHearTheWatchdog)
+TEST_F(ServiceManager, ReportsHowOftenTheWatchdogIsDue)
 {
     ::setenv("WATCHDOG_USEC", "3000000", 1);
 

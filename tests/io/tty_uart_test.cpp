@@ -58,7 +58,7 @@ TEST(UartRate, ThatTheDriverDidNotTakeIsRefused)
 }
 
 /// The 8250 driver reads 93750 back whatever the divisor makes of it.
-TEST(UartRate, ThatOnlyTheDriverBelievesInIsRefusedWithWhatIsOnTheWire)
+TEST(UartRate, ThatTheUartCannotMakeIsRefusedWithTheRateOnTheWire)
 {
     EXPECT_EQ(rate_on_the_wire(kPcPort, 93'750), 115'200U);
     EXPECT_EQ(
@@ -233,7 +233,7 @@ TEST(UartTrigger, StaysAsItIsOnALineThatIsInNoHurry)
     EXPECT_EQ(sysfs.read("rx_trig_bytes"), "8\n");
 }
 
-TEST(UartTrigger, ThatStaysAboveOneIsAWarningWithItsCostAndWhoCanHelp)
+TEST(UartTrigger, ThatStaysAboveOneIsAWarningWithItsCostAndRemedy)
 {
     Pty cable;
     const FakeSysfs sysfs{cable.path(), "serial8250"};

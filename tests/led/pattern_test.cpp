@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(
         Row{"NoPowerOf620", Language::option_board_620, kNotServed, kDark, kDark, "no power or major fault"}),
     [](const auto& row) { return std::string{row.param.name}; });
 
-TEST(LedTimeLine, EqualPatternsFlashTogetherWhoeverAsks)
+TEST(LedTimeLine, EqualPatternsFlashTogether)
 {
     const auto one = lamps(Language::option_board_620, kNoDrive);
     const auto other = lamps(Language::option_board, kNormal);

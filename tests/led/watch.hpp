@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A person with a stop watch in front of the lamps.
+/// Measures what the lamps show, with a simulated clock.
 #pragma once
 
 #include "dpslave/led/pattern.hpp"

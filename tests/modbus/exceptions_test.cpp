@@ -132,7 +132,7 @@ std::string long_answer(const char* head, int octets)
 class ModbusNoAnswer : public testing::TestWithParam<NoAnswer> {};
 
 /// The request is the read of register 1 of unit 1.
-TEST_P(ModbusNoAnswer, IsNotBelieved)
+TEST_P(ModbusNoAnswer, IsNotAccepted)
 {
     Bench line{kTimeout};
     line.slave().says(GetParam().octets);

@@ -162,7 +162,7 @@ TEST(ModbusCall, RefusesWhatNoRequestCanHold)
     EXPECT_THAT(line.slave().requested(), IsEmpty());
 }
 
-TEST(ModbusCall, SpeaksToTheUnits1To247Only)
+TEST(ModbusCall, SendsToTheUnits1To247Only)
 {
     Bench line;
     line.slave().answers("F7 03 02 00 01");

@@ -19,7 +19,7 @@ grep -F 'the man pages are left out' "$work/said"
 ! grep '^docs/man/' "$work/without" || { echo "is still to be made" && exit 1; }
 grep '^bin/' "$work/with" | diff - "$work/without"
 [ -s "$work/without" ]
-# With it, whoever builds only the programs, as tools/demo does, can install them: the pages are made, too.
+# With it, a build of only the programs, as in tools/demo, can be installed: the pages are made, too.
 targets -DSCDOC=/bin/cat >"$work/with"
 for program in dpslaved dpctl dpsim; do
     ninja -C "$work/build" -n "$program" | grep -q "Generating dpslaved.toml.5" ||

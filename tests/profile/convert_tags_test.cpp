@@ -265,7 +265,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadSource{"tag,mnemonic,name,type,decimals,min,max,access,source\n1,ab,A,FLOAT,0,0,1,ro,m\n",
                   "type 'FLOAT'"}));
 
-TEST_F(ConvertTags, explains_itself_and_wants_folders)
+TEST_F(ConvertTags, prints_its_usage_and_requires_folders)
 {
     const Ended help = run("--help");
     EXPECT_EQ(help.status, 0);

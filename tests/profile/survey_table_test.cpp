@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From what a survey saw to a tag table: new rows, rows that wait, and rows that a person has confirmed.
+// From what a survey saw to a tag table: new rows, rows that wait, and rows that are confirmed.
 #include "sightings.hpp"
 
 #include "dpslave/profile/profile.hpp"
@@ -119,7 +119,7 @@ TEST(SurveyTable, what_no_row_can_hold_is_reported)
     }
 }
 
-TEST(SurveyTable, a_row_that_waits_gets_more_decimals_and_further_extremes_and_keeps_what_a_person_wrote)
+TEST(SurveyTable, a_row_that_waits_gets_more_decimals_and_further_extremes_and_keeps_cells_written_by_hand)
 {
     const std::string before =
         std::string{kHeader} +
@@ -135,7 +135,7 @@ TEST(SurveyTable, a_row_that_waits_gets_more_decimals_and_further_extremes_and_k
     EXPECT_THAT(table.added, IsEmpty());
 }
 
-TEST(SurveyTable, decimals_and_type_that_a_person_wrote_into_a_waiting_row_are_only_raised_or_ruled_out)
+TEST(SurveyTable, decimals_and_type_written_by_hand_into_a_waiting_row_are_only_raised_or_ruled_out)
 {
     const std::string before =
         std::string{kHeader} + "55,,INT,3,,,,,,,,no,,\n56,,ENUM,,,,,,,,,no,,\n57,,BOOL,,,,,,,,,no,0,1\n";
@@ -191,7 +191,7 @@ TEST(SurveyTable, a_number_row_without_decimals_is_reported_with_the_decimals_se
                 ElementsAre(HasSubstr("says no decimals, the drive answers with 1 at least")));
 }
 
-TEST(SurveyTable, new_rows_join_a_table_of_a_person_whose_rows_stay_as_they_are)
+TEST(SurveyTable, new_rows_join_a_table_written_by_hand_whose_rows_stay_as_they_are)
 {
     const std::string before = "name,tag,type,decimals,notes\n"
                                "\"SPEED, FEEDBACK\" ,55,INT,2,\"two\nlines\"\n"

@@ -275,7 +275,7 @@ TEST(SurveyPatience, with_a_time_of_its_own_waits_for_another_survey_half_a_minu
     EXPECT_EQ(at_the_end.waits(false, seconds{10}), Verdict::time_is_over);
 }
 
-// ---- what a person writes
+// ---- texts of the options
 
 TEST(SurveyTags, are_written_as_a_list_of_numbers_and_spans)
 {

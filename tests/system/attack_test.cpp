@@ -52,7 +52,7 @@ TEST_F(Attack, FromAnyUserKeepsTheMainThreadNeitherFromItsWatchdogNorFromTheLog)
     EXPECT_EQ(attacker.wait(std::chrono::nanoseconds{0}), std::nullopt) << "it goes on until now";
 }
 
-TEST_F(Attack, OfAStrangerLeavesTheOperatorsTheirConnectionsReadsAndWrites)
+TEST_F(Attack, OfAnotherUserLeavesTheOperatorsTheirConnectionsReadsAndWrites)
 {
     if (::geteuid() != 0) GTEST_SKIP() << "only root can be root and another user at once";
     Attacker attacker{gateway};

@@ -205,7 +205,7 @@ TEST(DoctorOfTheMaster, NamesAWatchdogThatIsShorterThanItsCycle)
 
 // ---------------------------------------------------------------- tags
 
-TEST(DoctorOfTags, NamesEachKindOfWrongTagAndNotThePersonsOwn)
+TEST(DoctorOfTags, NamesEachKindOfWrongTagOfTheMasterButNoneOfDpctl)
 {
     Gateway gateway;
     {
@@ -214,7 +214,8 @@ TEST(DoctorOfTags, NamesEachKindOfWrongTagAndNotThePersonsOwn)
         const Outcome typo = gateway.dpctl({"read", "999"});
         EXPECT_EQ(typo.status, 1);
         EXPECT_THAT(typo.err, HasSubstr("has no line for tag 999"));
-        EXPECT_TRUE(first_cause_is(gateway, "well")) << "a person's own typo is no fault of the plant";
+        EXPECT_TRUE(first_cause_is(gateway, "well"))
+            << "a wrong tag in a dpctl command is no fault of the plant";
         EXPECT_THAT(gateway.dpctl({"write", "56", "5"}).out, HasSubstr("will overwrite it"));
         ASSERT_TRUE(master.does("out 1 = 20000"));
         EXPECT_TRUE(first_cause_is(gateway, "station.range"));
@@ -433,7 +434,7 @@ TEST(DoctorOfTheDrive, FindsAUnitThatIsAnotherOne)
                 ContainsRegex("looking for the drive of unwinder on .*: [0-9]+ s at most; Ctrl-C ends it"));
 }
 
-TEST(DoctorOfTheDrive, LooksForItUntilThePersonHasEnoughAndThenTheLineGoesOn)
+TEST(DoctorOfTheDrive, LooksForItUntilItIsCancelledAndThenTheLineGoesOn)
 {
     Wiring wiring;
     wiring.units = {"00", "01"};

@@ -25,7 +25,7 @@ unsigned patient_max_tsdr(unsigned baud)
     return std::max(60U, baud * 15 / 1000);
 }
 
-/// A group that this user is in, so that the tests may operate whoever runs them.
+/// A group that this user is in, so that the tests may operate as any user.
 std::string own_group()
 {
     const group* const found = ::getgrgid(::getegid());
@@ -193,7 +193,7 @@ Arguments Gateway::daemon_command(Arguments more) const
 void Gateway::start_daemon()
 {
     daemon_ = std::make_unique<Process>(daemon_command(), wiring_.environment);
-    must(daemon_->says("station(s) on")); // all is open; whoever calls now is answered
+    must(daemon_->says("station(s) on")); // all is open; a call is answered now
 }
 
 void Gateway::plug_bus()

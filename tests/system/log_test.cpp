@@ -23,7 +23,7 @@ std::string line_with(Gateway& gateway, const std::string& text)
     return found;
 }
 
-TEST(TheLog, SaysWhoHasSetAnInputOfTheFunctionBlockFromWhatToWhat)
+TEST(TheLog, HasUserAndBothValuesOfAChangedInputOfTheFunctionBlock)
 {
     Wiring wiring;
     wiring.profile = "605";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a person sees and does at the gateway: dpctl, its exit codes, and the two lamps.
+// The operation of the gateway: dpctl, its exit codes, and the two lamps.
 #include "gateway.hpp"
 
 #include <gmock/gmock.h>

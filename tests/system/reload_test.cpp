@@ -375,7 +375,7 @@ TEST_F(ReloadOfATable, ThatRenamesATagAndAddsARowIsNotNoticed)
     unwinder_noticed_nothing();
 }
 
-TEST_F(ReloadOfATable, SaysInADryRunWhoWouldLeaveTheBusAndDoesNothing)
+TEST_F(ReloadOfATable, NamesInADryRunTheStationsThatWouldLeaveTheBusAndDoesNothing)
 {
     master.send_line("try wait 3s for in 1 = 0");
     std::string rows = kRows;

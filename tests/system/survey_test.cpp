@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a bare drive to a table that a person has confirmed, with the real programs: survey, Ctrl-C, resume,
+// From a bare drive to a confirmed table, with the real programs: survey, Ctrl-C, resume,
 // confirm, check, exchange.
 #include "gateway.hpp"
 
@@ -37,7 +37,7 @@ protected:
         const auto at = text.find('\n' + std::to_string(tag) + ',');
         return at == std::string::npos ? "" : text.substr(at + 1, text.find('\n', at + 1) - at - 1);
     }
-    /// A person writes into the table.
+    /// A change of the table by hand.
     void change(const std::string& from, const std::string& to)
     {
         std::string text = content(table) + '\n';
@@ -76,7 +76,7 @@ TEST_F(BareDrive, IsSurveyedInterruptedResumedConfirmedAndExchanged)
     EXPECT_EQ(row(120), "") << "it can only be written";
     EXPECT_THAT(content(record), HasSubstr("\n120,dc,0,0,1,"));
 
-    // A person compares two rows with the manual, which prints two decimals for both.
+    // Two rows are confirmed by the manual, which prints two decimals for both.
     change("55,,INT,2,,,bj,,no", "55,SPEED FEEDBACK,INT,2,,,bj,,yes");
     change("56,,INT,1,,,bk,,no", "56,SPEED SETPOINT,INT,2,,,bk,,yes");
     const Outcome checked = gateway.run_daemon({"--check"});

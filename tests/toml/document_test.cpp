@@ -231,7 +231,7 @@ TEST_F(TomlDocument, a_key_that_stands_twice_is_a_fault)
                 ElementsAre(AllOf(StartsWith("2:"), HasSubstr("cannot redefine"))));
 }
 
-TEST(Nearest, is_the_word_that_was_probably_meant_and_none_for_a_stranger)
+TEST(Nearest, is_the_word_that_was_probably_meant_and_none_where_too_much_differs)
 {
     const std::vector<std::string> legal{"port", "baud", "direction", "gpio_active_low"};
 

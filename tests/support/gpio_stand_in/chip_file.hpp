@@ -12,8 +12,8 @@ namespace dpslave::stand_in {
 
 inline constexpr std::size_t kMostLines = 32;
 inline constexpr std::array<char, 8> kMagic{'g', 'p', 'i', 'o', 'f', 'i', 'l', 'e'};
-/// Byte n behind this one is locked by whoever has line n, so that the kernel gives it back, as it does a
-/// line.
+/// Byte n behind this one is locked by the process that has line n, so that the kernel gives it back, as it
+/// does a line.
 inline constexpr long kLocks = 1L << 20;
 
 using Number = std::atomic<std::uint32_t>;

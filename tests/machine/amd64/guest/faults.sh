@@ -56,7 +56,7 @@ disk_is_full_and_read_only() {
     restart_service
     master "$bus_far_port" 19200 "start 30s" "run 300ms" unlock
     rm -f /ballast /ballast.end /one-more-file
-    echo u >/proc/sysrq-trigger # read-only, whoever has files open
+    echo u >/proc/sysrq-trigger # read-only, even with open files
     is_read_only() { ! touch /one-more-file; }
     eventually is_read_only
     restart_service

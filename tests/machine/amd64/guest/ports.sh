@@ -23,11 +23,11 @@ plug_chip() {
     echo "$chip_label" >"$chip/bank0/label"
     echo 1 >"$chip/live"
 }
-# It is taken away, whoever uses it.
+# It is taken away, even in use.
 unplug_chip() { echo 0 >"/sys/kernel/config/gpio-sim/$chip_label/live"; }
 # /dev/gpiochipN of the chip.
 chip_device() { echo "/dev/$(cat "/sys/kernel/config/gpio-sim/$chip_label/bank0/chip_name")"; }
-# Where the pin of a line shows its level, whoever drives it, and what is then found there.
+# Where the pin of a line shows its level, as output or input, and what is then found there.
 level_file() { # LINE
     local chip=/sys/kernel/config/gpio-sim/$chip_label
     echo "/sys/devices/platform/$(cat "$chip/dev_name")/$(cat "$chip/bank0/chip_name")/sim_gpio$1/value"
