@@ -41,7 +41,7 @@ ControlConfig read_control(Document& document, Table table, Faults& warnings)
         warnings.push_back(
             {document.name(), at.line, at.column,
              "the system has no group \"" + config.operator_group +
-                 "\": only root may operate until there is one or 'operator_group' names another."});
+                 "\": only root may operate. Create the group, or name another one in 'operator_group'."});
     }
     return config;
 }
@@ -102,8 +102,8 @@ void Unlike::check(Table& table, std::string_view key, const std::string& value,
 {
     const auto [entry, is_new] = seen_.try_emplace(value, table.place_of(key));
     if (!is_new)
-        table.refuse(key, shown + " stands on line " + std::to_string(entry->second.line) +
-                              " already: " + std::string{remedy} + ".");
+        table.refuse(key, shown + " is already on line " + std::to_string(entry->second.line) + ": " +
+                              std::string{remedy} + ".");
 }
 
 std::string canonical(const std::string& path)

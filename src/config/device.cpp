@@ -104,10 +104,11 @@ void read_tec(Document& document, Table& table, StationConfig& station, Faults& 
     read_lamp(tec, "run", config.run);
     if (config.start.ride_through != 0) {
         const toml::Place at = tec.place_of("ride_through");
-        warnings.push_back({document.name(), at.line, at.column,
-                            "'ride_through' is " + std::to_string(config.start.ride_through) +
-                                ": setting it to anything other than 0 could compromise safety, for the "
-                                "outputs then outlive the connection to the master."});
+        warnings.push_back(
+            {document.name(), at.line, at.column,
+             "'ride_through' is " + std::to_string(config.start.ride_through) +
+                 ": setting it to anything other than 0 could compromise safety, because the outputs then "
+                 "keep their values after the connection to the master is lost."});
     }
     if (!station.profile || !station.profile->has_tec) return;
     if (const OptionFault fault = tec::fault(config.start, {}); fault != OptionFault::none)
@@ -115,8 +116,8 @@ void read_tec(Document& document, Table& table, StationConfig& station, Faults& 
             {document.name(), table.place_of("tec").line, table.place_of("tec").column,
              "station " + in_quotes(station.name) + " will be silent on the bus: FAULT of TEC OPTION is " +
                  std::string{dpslave::text(fault)} +
-                 (fault == OptionFault::type_mismatch ? ", for 'type' is not 2 (PROFIBUS DP)."
-                                                      : ", for a value is out of its range.")});
+                 (fault == OptionFault::type_mismatch ? ", because 'type' is not 2 (PROFIBUS DP)."
+                                                      : ", because a value is out of its range.")});
     station.zero_after = tec::zero_after(config.start);
     station.tec = config;
     warn_of_unknown_trips(document, table, station, warnings);

@@ -20,11 +20,11 @@ void read_baud(Table& bus, BusConfig& config)
         "187500, 500000 or 1500000.";
     if (bus.is_text("baud")) {
         const auto text = bus.text("baud");
-        if (text && *text != "auto") bus.refuse("baud", "'baud' \"" + *text + "\" is no rate: " + remedy);
+        if (text && *text != "auto") bus.refuse("baud", "'baud' \"" + *text + "\" is not a rate: " + remedy);
     } else if (const auto rate = bus.integer("baud", 9600, 12'000'000)) {
         config.baud = baud_of(static_cast<std::uint32_t>(*rate));
         if (!config.baud)
-            bus.refuse("baud", "'baud' " + std::to_string(*rate) + " is no rate that is served: " + remedy);
+            bus.refuse("baud", "'baud' " + std::to_string(*rate) + " is not a supported rate: " + remedy);
     }
 }
 
@@ -174,10 +174,9 @@ BusConfig read_bus(Document& document, toml::Faults& warnings)
                        "'max_tsdr' is below 11 bit times, before which no station may answer: set 0 for the "
                        "profile's value, or 11 and more.");
         if (config.max_tsdr > 1000)
-            warnings.push_back(
-                {document.name(), at.line, at.column,
-                 "'max_tsdr' is above 1000 bit times: many masters do not wait that long; see that the "
-                 "master's GSD says the same."});
+            warnings.push_back({document.name(), at.line, at.column,
+                                "'max_tsdr' is above 1000 bit times: many masters do not wait that long; "
+                                "check that the master's GSD states the same."});
     }
     return config;
 }
@@ -191,8 +190,7 @@ std::vector<ReadLine> read_lines(Document& document, const BusConfig& bus)
     std::vector<Table> tables = root.tables("line");
     if (std::ssize(tables) > kMostLines) {
         document.fault(tables[static_cast<std::size_t>(kMostLines)].place(),
-                       "there are more lines than stations can be (126): remove "
-                       "those that are too many.");
+                       "there are more lines than there can be stations (126): remove some of them.");
         tables.erase(tables.begin() + kMostLines, tables.end());
     }
     for (Table& table : tables) {

@@ -85,7 +85,7 @@ public:
     StationConfig read(Table& table)
     {
         StationConfig station;
-        table.require("name", R"(name = "unwinder", by which dpctl calls it)");
+        table.require("name", R"(name = "unwinder", which dpctl uses for it)");
         station.name = table.text("name").value_or("");
         if (is_number(station.name))
             table.refuse("name",
@@ -93,7 +93,7 @@ public:
                              " is a number, which dpctl would take for an address: begin it with a letter.");
         else if (!is_station_name(station.name))
             table.refuse("name", "station name " + in_quotes(station.name) +
-                                     " cannot be given on a command line: take letters, digits, '_', '-' and "
+                                     " cannot be used on a command line: use letters, digits, '_', '-' and "
                                      "'.', 32 at most, and do not begin with '-'.");
         if (!station.name.empty())
             names_.check(table, "name", station.name, "station name " + in_quotes(station.name),
@@ -144,16 +144,16 @@ private:
         const std::string range = std::to_string(min) + " to " + std::to_string(max);
         if (*value > 125)
             table.refuse("address", text +
-                                        (*value == 126 ? " is that of stations which have none yet"
-                                                       : " is that of telegrams to all stations") +
+                                        (*value == 126 ? " is for stations that have no address yet"
+                                                       : " is for telegrams to all stations") +
                                         ": choose one from " + range + ".");
         else if (*value < min || *value > max)
-            table.refuse("address", text + " is none of profile " + in_quotes(station.profile->name) +
-                                        ": choose one from " + range + ".");
+            table.refuse("address", text + " is not an address of profile " +
+                                        in_quotes(station.profile->name) + ": choose one from " + range +
+                                        ".");
         else if (*value <= 2)
-            warn(table.place_of("address"),
-                 text + ": masters and engineering tools usually have 0 to 2; see that no one "
-                        "else on the bus has it.");
+            warn(table.place_of("address"), text + ": masters and engineering tools usually have 0 to 2; "
+                                                   "check that no other device on the bus has it.");
         addresses_.check(table, "address", std::to_string(*value), text,
                          "give each station of the bus an address of its own");
     }
@@ -198,7 +198,7 @@ private:
         warn(table.place_of("line"), "the line of this station runs at " + std::to_string(rate) +
                                          " bit/s; for a " + station.profile->name + " " +
                                          std::to_string(*station.profile->recommended_baud) +
-                                         " is recommended, with others the link may perform worse");
+                                         " is recommended; with another rate the link may perform worse");
     }
 
     void find_line(Table& table, StationConfig& station, const std::string& name)
@@ -240,7 +240,7 @@ private:
             table.refuse(
                 "output_loss",
                 "a device of profile " + in_quotes(station.profile->name) +
-                    " has a TEC OPTION function block, whose RIDE THROUGH alone says what becomes of "
+                    " has a TEC OPTION function block, whose RIDE THROUGH alone decides what happens to "
                     "the outputs: remove 'output_loss' and set ride_through in [station.tec].");
         else if (loss == Loss::zero)
             station.zero_after = std::chrono::nanoseconds{0};
@@ -261,11 +261,10 @@ private:
 
         dp::Personality personality = station.profile->personality;
         if (!ident && !table.has("ident") && !station.profile->ident)
-            document_.fault(
-                table.place(),
-                "'ident' is missing in [[station]]: profile " + in_quotes(station.profile->name) +
-                    " leaves it open, for no source states it; add ident = 0x.... with the number that key "
-                    "Ident_Number has in the GSD of the plant's PLC project.");
+            document_.fault(table.place(),
+                            "'ident' is missing in [[station]]: profile " + in_quotes(station.profile->name) +
+                                " has none, because no source states it; add ident = 0x.... with the number "
+                                "of the key Ident_Number in the GSD of the plant's PLC project.");
         if (ident) personality.ident = static_cast<std::uint16_t>(*ident);
         if (error_base && personality.demand == dp::DemandForm::none)
             demand.refuse("error_base", "profile " + in_quotes(station.profile->name) +
@@ -299,8 +298,8 @@ private:
                 warn(table.place(), "'max_tsdr' in [bus] is below the " + std::to_string(each.count) +
                                         " bit times of this station's profile at " +
                                         std::to_string(static_cast<std::uint32_t>(baud)) +
-                                        " bit/s: answers that the master would still take are not given. "
-                                        "Name the rate of the bus, or a max_tsdr that suits all of them.");
+                                        " bit/s: answers that the master would still accept are suppressed. "
+                                        "Name the rate of the bus, or a max_tsdr that suits all rates.");
             each = Tbit{bus_.max_tsdr};
         }
     }

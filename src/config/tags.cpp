@@ -82,12 +82,11 @@ void warn_of_unknown_scales(const StationConfig& station, Faults& warnings)
 {
     const auto bare = tags_where(*station.tags, [](const drive::Tag& tag) { return !tag.decimals_known; });
     if (!bare.empty())
-        warn_of_table(
-            station,
-            listed_tags(bare) + (bare.size() == 1 ? " is a number" : " are numbers") +
-                " without decimals: over EI-ASCII the scale is not known, and the exchange does not "
-                "begin while a master chooses such a tag; fill in column decimals.",
-            warnings);
+        warn_of_table(station,
+                      listed_tags(bare) + (bare.size() == 1 ? " is a number" : " are numbers") +
+                          " without decimals: over EI-ASCII the scale is not known, and data exchange does "
+                          "not start while a master chooses such a tag; fill in column decimals.",
+                      warnings);
 }
 
 /// Rows that a survey wrote.
@@ -107,7 +106,7 @@ void warn_of_no_table(Document& document, const Table& table, const StationConfi
                       Faults& warnings)
 {
     const std::string without =
-        "station " + in_quotes(station.name) + " has no tag table (" + station.tag_file + " holds no row): ";
+        "station " + in_quotes(station.name) + " has no tag table (" + station.tag_file + " has no rows): ";
     const toml::Place at = table.place();
     std::string what =
         without + "its tags go to and from the instrument as they are, 16 bits without a name.";
@@ -116,7 +115,7 @@ void warn_of_no_table(Document& document, const Table& table, const StationConfi
                std::to_string(*station.unlisted_decimals) + " decimals, as 'unlisted_decimals' says.";
     else if (is_text)
         what = without +
-               "the scale of its drive's numbers is not known, and the exchange does not begin while a "
+               "the scale of its drive's numbers is not known, and data exchange does not start while a "
                "master chooses a tag that answers with one; name a table with 'tags', or set "
                "'unlisted_decimals'.";
     warnings.push_back({document.name(), at.line, at.column, what});

@@ -21,7 +21,7 @@ ClientError refused(const std::filesystem::path& path, int error)
     if (error == EACCES || error == EPERM)
         return {Kind::no_access, fmt::format("{}: {}", path.native(), error_text(error))};
     if (error == EAGAIN)
-        return {Kind::timeout, fmt::format("{}: the daemon takes no connection", path.native())};
+        return {Kind::timeout, fmt::format("{}: the daemon accepts no connection", path.native())};
     return {Kind::no_daemon, fmt::format("nothing answers on {} ({})", path.native(), error_text(error))};
 }
 
@@ -87,7 +87,7 @@ Client::Impl::receive(int wake, std::optional<std::chrono::milliseconds> limit)
         const auto message = in.next();
         const auto nonsense = [&](Flaw flaw) {
             return Failure{ClientError{
-                Kind::nonsense, fmt::format("{}: the answer is no Varlink: {}", path.native(), text(flaw))}};
+                Kind::nonsense, fmt::format("{}: the answer is not Varlink: {}", path.native(), text(flaw))}};
         };
         if (!message) return nonsense(message.error());
         if (*message) {

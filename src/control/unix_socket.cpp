@@ -41,7 +41,7 @@ Result<bool, std::string> remove_stale(const std::filesystem::path& path)
         return Failure{fmt::format("{}: {}", path.native(), error_text(errno))};
     }
     if (!S_ISSOCK(status.st_mode))
-        return Failure{fmt::format("{}: exists and is no socket; remove it or name another control.socket",
+        return Failure{fmt::format("{}: exists and is not a socket; remove it or name another control.socket",
                                    path.native())};
     const auto answered = connect_to(path, std::chrono::milliseconds{200});
     if (answered || answered.error() == EAGAIN)

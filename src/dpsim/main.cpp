@@ -26,22 +26,24 @@ std::string lines(const std::vector<std::string>& all)
 
 void add_line(CLI::App& app, LineOptions& o)
 {
-    CLI::App& line = *app.add_subcommand("line", "joins two ptys as a paced serial line");
+    CLI::App& line =
+        *app.add_subcommand("line", "joins two ptys as a serial line with the timing of its rate");
     line.add_option("--baud", o.baud, "bit/s")->required()->check(CLI::Range(50, 12'000'000));
     line.add_option("--bits", o.bits, "bit times of a character: 11 (PROFIBUS, 8E1) or 10 (7E1)")
         ->check(CLI::IsMember({10, 11}));
     line.add_option("--a", o.a, "path of one end (a link to a pty is made there)")->required();
     line.add_option("--b", o.b, "path of the other end")->required();
-    line.add_option("--errors", o.errors, "chance of each bit to be inverted")->check(CLI::Range(0.0, 1.0));
-    line.add_option("--delay", o.delay_us, "further delay in microseconds")->check(CLI::Range(0, 10'000'000));
-    line.add_option("--seed", o.seed, "of the bit errors");
+    line.add_option("--errors", o.errors, "probability that a bit is inverted")->check(CLI::Range(0.0, 1.0));
+    line.add_option("--delay", o.delay_us, "additional delay in microseconds")
+        ->check(CLI::Range(0, 10'000'000));
+    line.add_option("--seed", o.seed, "seed of the random bit errors");
     line.add_flag("--any-rate", o.any_rate, "the ends may be set to any rate");
     line.footer(
         "Prints 'ready PATH PATH' when both ends can be opened.\n"
         "Commands on standard input: " +
         std::string{kLineCommands} +
         "\n"
-        "What is sent or read at another rate than the line's own, beyond 2 %, is garbage, as on a wire.\n"
+        "Octets whose rate differs by more than 2 % from that of the line are garbage, as on a real line.\n"
         "A bit error in a start or stop bit loses the character, wrong parity makes it 00 (as a tty "
         "with INPCK does).\n"
         "Example: dpsim line --baud 187500 --a /tmp/bus-slave --b /tmp/bus-master");
@@ -50,7 +52,7 @@ void add_line(CLI::App& app, LineOptions& o)
 void add_drive(CLI::App& app, DriveOptions& o)
 {
     CLI::App& drive =
-        *app.add_subcommand("drive", "a drive (EI-ASCII) or an instrument (Modbus RTU) in memory");
+        *app.add_subcommand("drive", "simulates a drive (EI-ASCII) or an instrument (Modbus RTU)");
     drive
         .add_option("--profile", o.profile,
                     "name of the device, as in config/profiles. EI-ASCII: 590, 584s, 620, 590plus, 584sv, "
@@ -62,10 +64,9 @@ void add_drive(CLI::App& app, DriveOptions& o)
         ->check(CLI::Range(50, 12'000'000));
     drive.add_option(
         "--unit", o.units,
-        "group and unit id, 00 if none is given; Modbus address, 1 if none is given; several: --unit 00 "
-        "01");
+        "EI-ASCII: group and unit id, default 00; Modbus RTU: address, default 1; several: --unit 00 01");
     drive.add_option("--table", o.table,
-                     "tag table (columns as in dpslaved.toml), else the one that is shipped: example.csv, of "
+                     "tag table (columns as in dpslaved.toml); default: the shipped example.csv, for "
                      "instruments 2400.csv");
     drive
         .add_option("--turnaround", o.turnaround_ms,
@@ -73,12 +74,13 @@ void add_drive(CLI::App& app, DriveOptions& o)
                     "characters")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 10'000.0));
-    drive.add_option("--programs", o.programs, "programs in the store of an instrument: 0, 1 or 4")
+    drive.add_option("--programs", o.programs, "number of programs that an instrument stores: 0, 1 or 4")
         ->capture_default_str()
         ->check(CLI::IsMember({0, 1, 4}));
     drive.add_flag("--parity", o.parity, "Modbus RTU with even parity (8E1)");
-    drive.add_option("--fault", o.faults, "a fault from the start, as the command: --fault 'slow 50'");
-    drive.add_flag("--log", o.log, "prints what is written, as 'log on'");
+    drive.add_option("--fault", o.faults,
+                     "sets a fault from the start, in the words of the command: --fault 'slow 50'");
+    drive.add_flag("--log", o.log, "prints each value that is written, as 'log on' does");
     drive.footer(
         "Commands on standard input, of a drive:\n" + lines(DriveCommands::all_help()) +
         "Commands on standard input, of an instrument:\n" + lines(InstrumentCommands::all_help()) +
@@ -90,30 +92,32 @@ void add_drive(CLI::App& app, DriveOptions& o)
 
 void add_master(CLI::App& app, MasterOptions& o, MasterTexts& t)
 {
-    CLI::App& master = *app.add_subcommand("master", "a DP master (class 1) for one slave");
+    CLI::App& master = *app.add_subcommand("master", "simulates a DP master (class 1) for one slave");
     master.add_option("--port", o.port, "tty or end of a simulated line")->required();
     master.add_option("--baud", t.baud, "9600, 19200, 45450, 93750, 187500, 500000 or 1500000")->required();
-    master.add_option("--master", t.address, "own address")->capture_default_str()->check(CLI::Range(0, 125));
+    master.add_option("--master", t.address, "address of the master")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 125));
     master.add_option("--slave", t.slave, "address of the slave")->required()->check(CLI::Range(0, 126));
     master
         .add_option("--family", t.family,
-                    "what the slave is: option-board (584S, 590, 620), technology-box (6053/6055) or "
+                    "kind of slave: option-board (584S, 590, 620), technology-box (6053/6055) or "
                     "controller (2408f/2404f, without Sync and Freeze)")
         ->capture_default_str()
         ->check(CLI::IsMember({"option-board", "technology-box", "controller"}));
     master.add_option("--ident", t.ident,
-                      "Ident_Number; 0x0533 of the option board, others have to be given");
+                      "Ident_Number; default 0x0533 for the option board, required for the others");
     auto* const prm = master.add_option("--prm", t.prm, "User_Prm_Data in hexadecimal, or none");
     auto* const tags = master.add_option(
         "--tags", t.tags,
         "tags for User_Prm_Data in the form of the family (24 octets; three of DPV1, then the tags; the tags "
         "alone); 'w' = written, 'rw' = both: 55,56w,288");
     tags->excludes(prm);
-    master.add_option("--prm-length", t.prm_length, "zeros behind the --tags up to so many octets")
+    master.add_option("--prm-length", t.prm_length, "fills --tags up with zeros to this number of octets")
         ->needs(tags)
         ->check(CLI::Range(1, 237));
     auto* const cfg = master.add_option(
-        "--cfg", t.cfg, "Cfg_Data in hexadecimal; else 73 and 50, 60 or 70 for each of --tags");
+        "--cfg", t.cfg, "Cfg_Data in hexadecimal; default: 73, then 50, 60 or 70 for each of --tags");
     master.add_flag("--no-demand", t.no_demand, "with --tags: Cfg_Data without the 73 of Demand Data")
         ->needs(tags)
         ->excludes(cfg);
@@ -131,7 +135,7 @@ void add_master(CLI::App& app, MasterOptions& o, MasterTexts& t)
     master.add_option("--cycle", t.cycle_ms, "milliseconds from one Data_Exchange to the next")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 60'000.0));
-    master.add_option("--slot-ms", t.slot_ms, "waits so much longer for an answer than the slot time")
+    master.add_option("--slot-ms", t.slot_ms, "how long to wait for an answer after the slot time")
         ->capture_default_str()
         ->check(CLI::Range(0, 60'000));
     master.add_option("--retries", o.settings.retries, "repetitions of a request without answer")
@@ -141,8 +145,9 @@ void add_master(CLI::App& app, MasterOptions& o, MasterTexts& t)
     master.add_option("--script", o.script,
                       "file of commands, - for standard input; ends at the first failure");
     master.footer(
-        "Commands, one a line:\n" + lines(Console::help()) +
-        "Exit status: 0 fine, 1 an expectation failed or the slave cannot be reached, 2 usage, 3 no port.\n"
+        "Commands, one on each line:\n" + lines(Console::help()) +
+        "Exit status: 0 success, 1 an expectation failed or the slave cannot be reached, 2 wrong usage, 3 a "
+        "port cannot be opened.\n"
         "Example: printf 'start\\nwait 2s for in 1 = 1250\\n' | dpsim master --port /tmp/bus-master --baud "
         "187500 \\\n"
         "           --slave 5 --tags 55,56w,288 --script -\n"

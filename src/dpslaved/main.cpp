@@ -94,7 +94,7 @@ int say_whether_configured(const std::string& file)
     if (!dpslave::app::is_unconfigured(file)) return 0;
     set_up_log();
     spdlog::warn(
-        "{} configures neither bus nor line nor station, so there is nothing to start: take the # away from "
+        "{} configures neither bus nor line nor station, so there is nothing to start: delete the # before "
         "[bus], [[line]] and [[station]], set the keys below them, and start the service again",
         file);
     return 1;
@@ -120,7 +120,7 @@ int release_driver(const std::string& file, const std::string& profiles)
 
 int main(int argc, char** argv)
 {
-    CLI::App app{"PROFIBUS-DP slave that takes the place of a drive's option board.", "dpslaved"};
+    CLI::App app{"PROFIBUS-DP slave that replaces a drive's option board.", "dpslaved"};
     app.footer(kFooter);
     std::string file = "/etc/dpslaved/dpslaved.toml";
     std::string profiles = DPSLAVE_DATA_FOLDER "/profiles"; // given by CMake
@@ -129,12 +129,12 @@ int main(int argc, char** argv)
     bool release = false;
     app.add_option("--config", file, "Configuration file")->capture_default_str();
     app.add_option("--profiles", profiles, "Folder of the device profiles")->capture_default_str();
-    app.add_flag("--check", check, "Only judge the configuration");
+    app.add_flag("--check", check, "Only check the configuration");
     app.add_flag("--is-configured", is_configured,
                  "Only show by the exit status whether a bus, a line or a station is configured")
         ->excludes("--check");
     app.add_flag("--release", release,
-                 "Only make the line inactive that enables the RS-485 driver, after a daemon's end")
+                 "Only switch the driver of the RS-485 transceiver off, after the daemon has ended")
         ->excludes("--check", "--is-configured");
     app.set_version_flag("--version", std::string("dpslaved ") + dpslave::app::kVersion);
     try {
@@ -160,7 +160,7 @@ int main(int argc, char** argv)
     try {
         return status(dpslave::app::run_daemon(*config, profiles));
     } catch (const std::exception& error) { // no descriptor, no thread or no memory left
-        spdlog::critical("ended by a failure of the system: {}", error.what());
+        spdlog::critical("ended by a system error: {}", error.what());
         return status(ExitStatus::device_not_opened);
     }
 }

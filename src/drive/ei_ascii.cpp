@@ -61,7 +61,7 @@ std::string_view text(Flaw flaw) noexcept
         case Flaw::none: return "no flaw";
         case Flaw::unexpected_start:
             return "an answer that begins with no STX, EOT, ACK or NAK, or with the wrong one";
-        case Flaw::bad_text: return "a character inside the answer that cannot stand there";
+        case Flaw::bad_text: return "a character inside the answer that is not allowed there";
         case Flaw::too_long: return "an answer that does not end";
         case Flaw::bad_bcc: return "a wrong BCC";
         case Flaw::octets_after: return "characters right behind an EOT, ACK or NAK";

@@ -169,7 +169,7 @@ Exchange::End Exchange::ask(const Question& question, Bytes request, WaitsFor wh
     }
     asked_ = question.drive; // what came until now was of the one before
     if (!line_.write(request)) {
-        trouble_ = "the line does not take the request";
+        trouble_ = "the line does not accept the request";
         return End::silence;
     }
     const Instant sent_at = line_.now() + duration_of(request.size()); // write() need not wait for the wire

@@ -21,7 +21,7 @@ void take_over_reading(DriveParameter& now, const DriveParameter& before)
         reading.word = known.word;
         reading.tried = known.tried;
         if (known.error != AccessError::no_scale) return;
-        reading.state = known.state; // the exchange does not begin with a word that was never read
+        reading.state = known.state; // data exchange does not start with a word that was never read
         reading.error = known.error;
         reading.answer = known.answer;
     }

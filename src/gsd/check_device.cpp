@@ -39,7 +39,7 @@ void check_needed(Judge& judge)
             missing(judge, Weight::error, needed.keyword, needed.example);
     if (judge.document.find("GSD_Revision") == nullptr)
         missing(judge, Weight::warning, "GSD_Revision",
-                "GSD_Revision = 1 or higher; without it tools take the file for one of the oldest");
+                "GSD_Revision = 1 or higher; without it tools treat the file as one of the oldest");
     if (!slave) return;
     if (judge.document.find("Max_Diag_Data_Len") == nullptr)
         missing(judge, judge.revision > 0 ? Weight::error : Weight::warning, "Max_Diag_Data_Len",

@@ -13,8 +13,8 @@ void unknown(Judge& judge, const Entry& entry)
 {
     const std::string_view nearest = nearest_keyword(entry.keyword);
     judge.say(entry.line, Weight::warning,
-              "unknown keyword " + in_quotes(entry.keyword) + ", which tools pass over in silence: " +
-                  (nearest.empty() ? std::string{"remove it, or look how the standard spells it."}
+              "unknown keyword " + in_quotes(entry.keyword) + ", which tools ignore without a message: " +
+                  (nearest.empty() ? std::string{"remove it, or look up the spelling in the standard."}
                                    : "the standard spells it " + in_quotes(nearest) + '.'));
 }
 
@@ -24,8 +24,8 @@ void check_number(Judge& judge, const Entry& entry, const Keyword& keyword)
     const std::string range = std::to_string(keyword.min) + " to " + std::to_string(keyword.max);
     if (!number)
         judge.say(entry.line, Weight::error,
-                  std::string{keyword.name} + " = " + entry.value + " is no number: write one from " + range +
-                      ", decimal or as 0x1AF.");
+                  std::string{keyword.name} + " = " + entry.value + " is not a number: write one from " +
+                      range + ", decimal or as 0x1AF.");
     else if (*number < keyword.min || *number > keyword.max)
         judge.say(entry.line, Weight::error,
                   std::string{keyword.name} + " = " + entry.value + " is out of range: it may be " + range +
@@ -91,7 +91,7 @@ void check_one(Judge& judge, const Entry& entry, Section section, Seen& seen)
     if (keyword == nullptr) return unknown(judge, entry);
     if ((keyword->places & section) == 0)
         return judge.say(entry.line, Weight::error,
-                         std::string{keyword->name} + " belongs into a module: move it there.");
+                         std::string{keyword->name} + " belongs in a module: move it there.");
     if (entry.keyword != keyword->name)
         judge.say(entry.line, Weight::pedantic,
                   in_quotes(entry.keyword) + ": the standard spells it " + in_quotes(keyword->name) + '.');
@@ -105,7 +105,7 @@ void check_one(Judge& judge, const Entry& entry, Section section, Seen& seen)
     const bool may_repeat = same(keyword->name, "Ext_User_Prm_Data_Ref"); // bits of one octet
     if (!is_first && !may_repeat)
         judge.say(entry.line, Weight::warning,
-                  std::string{keyword->name} + " stands here a second time (first in line " +
+                  std::string{keyword->name} + " is here a second time (first in line " +
                       std::to_string(first->second) + "): tools take the last one. Remove one of them.");
     if (judge.revision > 0 && keyword->revision > judge.revision)
         judge.say(entry.line, Weight::warning,
@@ -129,7 +129,7 @@ void check_keywords(Judge& judge)
     for (const Entry& entry : judge.document.keywords)
         if (entry.line > first_module)
             judge.say(entry.line, Weight::pedantic,
-                      entry.keyword + " stands behind the first module: the standard wants it before.");
+                      entry.keyword + " is after the first module: the standard requires it before.");
 }
 
 void check_module_keywords(Judge& judge, const Block& module)

@@ -99,7 +99,7 @@ ModbusClient::Exchange::End ModbusClient::Exchange::ask(std::uint8_t unit, Bytes
         return End::not_asked;
     }
     if (!line_.send(unit, request)) {
-        trouble_ = "the line does not take the request";
+        trouble_ = "the line does not accept the request";
         return End::silence;
     }
     const Instant sent_at = line_.now() + duration_of(request.size() + kFrame); // send() need not wait

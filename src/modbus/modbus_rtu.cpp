@@ -28,7 +28,7 @@ ModbusRtu::~ModbusRtu() = default;
 
 std::string ModbusRtu::last_trouble() const
 {
-    return line_->is_open() ? client_->last_trouble() : line_->path() + " has gone";
+    return line_->is_open() ? client_->last_trouble() : line_->path() + " is missing";
 }
 
 std::vector<PortMessage> ModbusRtu::take_port_messages()

@@ -79,7 +79,7 @@ void RtuLine::lose()
     modbus_set_socket(context_.get(), -1);
     port_.lose(now());
     is_open_.store(false, std::memory_order_relaxed);
-    messages_.push_back({true, settings_.port + " has gone; it is opened again as soon as it returns"});
+    messages_.push_back({true, settings_.port + " is missing; it is opened again as soon as it returns"});
 }
 
 Instant RtuLine::now() const

@@ -96,7 +96,7 @@ private:
         }
         while (rest_.starts_with(' ') || rest_.starts_with('\t')) take();
         if (at_end_of_line() || rest_.starts_with(',')) return;
-        fault("text behind the closing quote: end the cell with a comma here, or write a quote within it "
+        fault("text after the closing quote: end the cell with a comma here, or write a quote within it "
               "twice.");
         while (!at_end_of_line() && !rest_.starts_with(',')) take();
     }

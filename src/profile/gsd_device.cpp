@@ -94,13 +94,13 @@ private:
         const auto ident = wanted_.ident ? wanted_.ident : profile_.ident;
         if (!ident)
             refuse("the profile " + profile_.name +
-                   " has no Ident_Number, for no source states it: give it with --ident. It stands in the "
-                   "GSD file that "
-                   "came with the device, in the present project of the master, and in octets 5 and 6 of the "
+                   " has no Ident_Number, because no source states it: give it with --ident. It is in the "
+                   "GSD file that came with the device, in the present project of the master, and in octets "
+                   "5 and 6 of the "
                    "device's "
                    "diagnosis. Write the same into the station (ident = 0x...).");
         else if (*ident == 0)
-            refuse("the Ident_Number 0 belongs to no device: give that of yours.");
+            refuse("the Ident_Number 0 belongs to no device: give that of your device.");
         else if (profile_.ident && *ident != *profile_.ident)
             warn("the Ident_Number is not that of the profile " + profile_.name + ", " +
                  hex_of(*profile_.ident) + ": write ident = " + hex_of(*ident) +
@@ -125,7 +125,8 @@ private:
             refuse("MaxTsdr " + std::to_string(own) + " is at no rate larger than that of the profile " +
                    profile_.name + ": leave --max-tsdr out, or give what [bus] max_tsdr of the daemon says.");
         if (own > 1000)
-            warn("MaxTsdr is above 1000 bit times: many masters do not wait that long; see that yours does.");
+            warn("MaxTsdr is above 1000 bit times: many masters do not wait that long; check that yours "
+                 "does.");
     }
 
     void behaviour()
@@ -159,8 +160,7 @@ private:
         const dp::PrmLayout& prm = personality_.prm;
         if (prm.list == dp::TagList::exact)
             refuse("the tags of a " + profile_.name +
-                   " stand in the GSD, one for each word, and the profile has no mapping of its own: choose "
-                   "tags with "
+                   " stand in the GSD, one for each word, and the profile has no mapping: choose tags with "
                    "--in and --out, or Demand Data alone with --demand.");
         device_.choice_of_modules = true;
         device_.max_module = static_cast<std::uint8_t>(parameters + (demand ? 1 : 0));
@@ -197,11 +197,11 @@ private:
                 refuse(name + ": the device of the profile " + profile_.name +
                        " takes no tags from the master.");
             else if (word.tag == 0 || word.tag > personality_.prm.max_tag)
-                refuse(name + " is none: tags of the profile " + profile_.name + " go from 1 to " +
+                refuse(name + " is not a tag: tags of the profile " + profile_.name + " go from 1 to " +
                        std::to_string(personality_.prm.max_tag) + '.');
-            if (word.reads && !read.insert(word.tag).second) refuse(name + " is read twice: remove it once.");
+            if (word.reads && !read.insert(word.tag).second) refuse(name + " is read twice: remove one.");
             if (word.writes && !written.insert(word.tag).second)
-                refuse(name + " is written twice, and the two values would fight: remove it once.");
+                refuse(name + " is written twice, and the two values would conflict: remove one.");
             check_access(word, name);
         }
     }
@@ -238,17 +238,17 @@ private:
         if (words_.size() > personality_.max_parameters)
             refuse(std::to_string(words_.size()) + " parameters are more than a " + profile_.name + " has, " +
                    std::to_string(personality_.max_parameters) +
-                   ": take some away, and use Demand Data for them.");
+                   ": remove some, and use Demand Data for them.");
         if (words_.empty() && !personality_.may_have_no_parameters)
             refuse("a " + profile_.name + " needs at least one parameter: choose one with --in or --out.");
         const std::size_t words = (in_ + out_) / 2;
         if (personality_.max_words > 0 && words > personality_.max_words)
             refuse(std::to_string(words) + " words in and out" +
                    (wanted_.demand ? ", 8 of them Demand Data," : "") + " are more than a " + profile_.name +
-                   " has, " + std::to_string(personality_.max_words) + ": take " +
-                   std::to_string(words - personality_.max_words) + " away.");
+                   " has, " + std::to_string(personality_.max_words) + ": remove " +
+                   std::to_string(words - personality_.max_words) + ".");
         if (in_ > kMaxOctets || out_ > kMaxOctets)
-            refuse("more than 244 octets in one direction fit in no telegram: take parameters away.");
+            refuse("more than 244 octets in one direction do not fit in a telegram: remove parameters.");
     }
 
     /// The mapping as it was chosen: User_Prm_Data holds the tags, the modules all identifiers in their

@@ -77,7 +77,8 @@ private:
                                  " is not one word in, out or both: a parameter is one word, as 0x50 and "
                                  "0x60 have it.");
             else if (identifier_known(octet))
-                table.refuse("identifiers", "identifier " + hex_octet(octet) + " stands twice: remove one.");
+                table.refuse("identifiers",
+                             "identifier " + hex_octet(octet) + " is listed twice: remove one.");
             else
                 personality_.identifiers.push_back({octet, format.reads, format.writes});
         }
@@ -86,9 +87,8 @@ private:
         if (const auto words = table.integer("max_words", kDemandWords, kMaxWords)) {
             personality_.max_words = static_cast<std::size_t>(*words);
             if (personality_.max_words < personality_.max_parameters)
-                table.refuse("max_words",
-                             "'max_words' is below 'max_parameters': so many parameters could never "
-                             "be configured.");
+                table.refuse("max_words", "'max_words' is below 'max_parameters': that number of parameters "
+                                          "could never be configured.");
         }
         needed_boolean(table, "may_have_no_parameters", personality_.may_have_no_parameters);
     }

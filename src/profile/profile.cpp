@@ -181,9 +181,8 @@ private:
     {
         const bool is_given = root_.has("output_loss");
         if (is_given && root_.has("tec")) {
-            root_.refuse("output_loss",
-                         "with a TEC OPTION function block RIDE THROUGH alone decides what becomes "
-                         "of the outputs: remove 'output_loss', or the table [tec].");
+            root_.refuse("output_loss", "with a TEC OPTION function block RIDE THROUGH alone decides what "
+                                        "happens to the outputs: remove 'output_loss', or the table [tec].");
             return;
         }
         if (root_.has("tec")) return;

@@ -112,7 +112,7 @@ Result<std::vector<TagSpan>, std::string> parse_tag_spans(std::string_view text)
             return Failure{toml::in_quotes(text) +
                            ": write tags from 0 to 65535 without blanks, as in 1-600,1000-1127"};
         if (*first > *last)
-            return Failure{toml::in_quotes(item) + ": the first tag is above the last one: exchange them"};
+            return Failure{toml::in_quotes(item) + ": the first tag is above the last one: swap them"};
         spans.push_back({*first, *last});
     } while (!rest.empty());
 
@@ -179,7 +179,7 @@ Result<Survey, toml::Faults> read_record(std::string_view content, const std::st
     Survey survey;
     if (!content.starts_with(kRecordHeader))
         faults.push_back(
-            {file, 1, 1, "this is no record of a survey: leave --resume out to begin a new one."});
+            {file, 1, 1, "this is not the record of a survey: leave out --resume to begin a new one."});
     for (std::size_t i = 1; i < rows.size() && faults.empty(); ++i) {
         auto read = record_row(rows[i]);
         if (read && rows[i].cells.back().text != station)
@@ -192,7 +192,7 @@ Result<Survey, toml::Faults> read_record(std::string_view content, const std::st
         else
             faults.push_back(
                 {file, rows[i].line, 1,
-                 "this line was not written by a survey: leave --resume out to begin a new one."});
+                 "this line was not written by a survey: leave out --resume to begin a new one."});
     }
     if (!faults.empty()) return Failure{faults};
     return survey;

@@ -69,7 +69,8 @@ public:
         if (!given(kTag)) fault(kTag, "the tag number is missing: every row needs one.");
         tag.name = text(kName);
         if (toml::has_control_characters(tag.name))
-            fault(kName, "the name holds a control character or a line break: write plain text on one line.");
+            fault(kName,
+                  "the name contains a control character or a line break: write plain text on one line.");
         tag.section = text(kSection);
         tag.notes = text(kNotes);
         tag.type = type();
@@ -142,7 +143,7 @@ private:
         const std::string_view word = text(kConfirmed);
         if (!word.empty() && word != "yes" && word != "no")
             fault(kConfirmed, "confirmed " + toml::in_quotes(word) +
-                                  ": write yes, or no for a row that a survey has made and no person has "
+                                  ": write yes, or no for a row that a survey made and that has not been "
                                   "compared with the drive's manual.");
         return word != "no";
     }
@@ -246,7 +247,7 @@ private:
         tag.max = limit(tag, kMax);
         if (tag.min && tag.max && *tag.min > *tag.max)
             fault(kMin, "min " + toml::in_quotes(text(kMin)) + " is above max " +
-                            toml::in_quotes(text(kMax)) + ": exchange them.");
+                            toml::in_quotes(text(kMax)) + ": swap them.");
         if (tag.type != TagType::number) return;
         tag.is_unsigned = tag.min && *tag.min >= 0 && tag.max && *tag.max > 32767;
         const std::int32_t lowest = tag.is_unsigned ? 0 : -32768;

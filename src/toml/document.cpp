@@ -80,9 +80,9 @@ std::string what_is_wrong(std::string_view content, Place place, std::string_vie
     const auto key = line.find_first_not_of(" \t");
     if (key != std::string_view::npos && line.substr(key).starts_with("ident") &&
         line.find("0x.") != std::string_view::npos)
-        return "put your Ident_Number here, for example 0x1649. It stands in the GSD file of the PLC project "
+        return "put your Ident_Number here, for example 0x1649. It is in the GSD file of the PLC project "
                "(Ident_Number).";
-    return "this is no TOML: " + std::string{description} + ".";
+    return "this is not TOML: " + std::string{description} + ".";
 }
 
 } // namespace

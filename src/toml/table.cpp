@@ -74,7 +74,7 @@ std::optional<std::string> Table::text(std::string_view key)
         refuse(key,
                "'" + std::string{key} + "' is empty: write a text between the quotes, or remove the line.");
     else if (has_control_characters(*held))
-        refuse(key, "'" + std::string{key} + "' holds a control character: write plain text on one line.");
+        refuse(key, "'" + std::string{key} + "' contains a control character: write plain text on one line.");
     else
         return *held;
     return std::nullopt;

@@ -81,7 +81,7 @@ TEST_F(ReloadPlan, KnowsAStationByItsNameWhereverItStands)
     const Plan plan = this->plan(two, turned);
     EXPECT_THAT(stays(plan), ElementsAre(1U, 0U));
     // An index of a station follows the new order, or the next plan means another one.
-    EXPECT_THAT(plan.changes, ElementsAre("lines or stations stand in another order"));
+    EXPECT_THAT(plan.changes, ElementsAre("lines or stations are in another order"));
 }
 
 TEST_F(ReloadPlan, AddsAndRemovesStationsWhileTheOthersGoOn)
@@ -112,8 +112,9 @@ TEST_P(ChangedStation, LeavesAndStartsAnewWhileTheOtherGoesOn)
 {
     const std::string after = one + with(test::kSecondStation, GetParam().from, GetParam().to);
     const Plan plan = this->plan(two, after);
-    EXPECT_THAT(plan.changes, ElementsAre(HasSubstr("station winder changed: it leaves the bus and starts "
-                                                    "anew at address 6 (")));
+    EXPECT_THAT(
+        plan.changes,
+        ElementsAre(HasSubstr("station winder changed: it leaves the bus and starts again at address 6 (")));
     ASSERT_THAT(plan.leaving, SizeIs(1));
     EXPECT_EQ(plan.leaving[0].station, "winder");
     EXPECT_THAT(plan.leaving[0].reason, HasSubstr(GetParam().what));
@@ -258,7 +259,7 @@ TEST_F(ReloadPlan, LetsStationsGoOnWhoseLineIsSetInAnotherWay)
 {
     const Plan plan =
         this->plan(two, with(two, "protocol = \"ei-ascii\"", "protocol = \"ei-ascii\"\nbaud = 19200"));
-    EXPECT_THAT(plan.changes, ElementsAre("line p3 changed: /dev/null-p3 is opened anew"));
+    EXPECT_THAT(plan.changes, ElementsAre("line p3 changed: /dev/null-p3 is opened again"));
     EXPECT_THAT(plan.lines, ElementsAre(Plan::Line{0U, true, true}));
     EXPECT_THAT(stays(plan), ElementsAre(0U, 1U));
 }
@@ -310,7 +311,7 @@ TEST_F(ReloadPlan, OfAnotherAddressOfAnOptionBoardWaitsForTheNextStart)
     const Plan plan = this->plan(two, with(two, "address = 6", "address = 7"));
     EXPECT_THAT(plan.changes, IsEmpty());
     EXPECT_THAT(plan.pending,
-                ElementsAre(HasSubstr("station winder: address 7 counts from the next start on")));
+                ElementsAre(HasSubstr("station winder: address 7 takes effect at the next start")));
     EXPECT_THAT(plan.refusals, IsEmpty());
     EXPECT_THAT(stays(plan), ElementsAre(0U, 1U));
     EXPECT_EQ(plan.config.stations[1].address, 6) << "the one in force";
@@ -320,8 +321,9 @@ TEST_F(ReloadPlan, DoesTheRestOfAChangeAtTheOldAddressOfAnOptionBoard)
 {
     const std::string after = with(with(two, "address = 6", "address = 7"), "unit = \"01\"", "unit = \"02\"");
     const Plan plan = this->plan(two, after);
-    EXPECT_THAT(plan.changes,
-                ElementsAre("station winder changed: it leaves the bus and starts anew at address 6 (unit)"));
+    EXPECT_THAT(
+        plan.changes,
+        ElementsAre("station winder changed: it leaves the bus and starts again at address 6 (unit)"));
     EXPECT_THAT(plan.pending, SizeIs(1));
     EXPECT_EQ(plan.config.stations[1].address, 6);
 }
@@ -360,7 +362,7 @@ TEST_F(ReloadPlan, ChangesTheAddressOfATechnologyBoxAtOnce)
     const Plan plan = this->plan(boxed, with(boxed, "address = 9", "address = 10"));
     EXPECT_THAT(
         plan.changes,
-        ElementsAre("station box changed: it leaves the bus and starts anew at address 10 (address)"));
+        ElementsAre("station box changed: it leaves the bus and starts again at address 10 (address)"));
     EXPECT_THAT(plan.pending, IsEmpty());
     EXPECT_EQ(plan.config.stations[2].address, 10);
 }
@@ -413,12 +415,12 @@ TEST_F(ReloadPlan, MayChangeTheOperatorsAndTheSinksOfTheLamps)
 {
     const Plan group = plan(one, with(one, "\"root\"", "\"daemon\""));
     EXPECT_THAT(group.refusals, IsEmpty());
-    EXPECT_THAT(group.changes, ElementsAre("group daemon may operate, for callers from now on"));
+    EXPECT_THAT(group.changes, ElementsAre("group daemon may operate, from the next call on"));
     EXPECT_THAT(stays(group), ElementsAre(0U));
 
     const Plan lamps = plan(one, with(one, "[control]", "[leds]\nsysfs = \"/tmp\"\n[control]"));
     EXPECT_THAT(lamps.refusals, IsEmpty());
-    EXPECT_THAT(lamps.changes, ElementsAre("lamps are looked for in /tmp"));
+    EXPECT_THAT(lamps.changes, ElementsAre("lamps are now taken from /tmp"));
 }
 
 } // namespace

@@ -61,14 +61,14 @@ TEST_F(UnknownScale, ThatHoldsTheStartIsReportedWithTagAnswerAndWhatToDo)
     bench.view.bus.holds = true;
     EXPECT_THAT(
         app::scale_words(bench.view).value_or(""),
-        AllOf(HasSubstr("The exchange does not begin: the scale of tag 55 (answers '12.5') is not known"),
+        AllOf(HasSubstr("Data exchange does not start: the scale of tag 55 (answers '12.5') is not known"),
               HasSubstr("tag table"), HasSubstr("dpctl survey"), HasSubstr("unlisted_decimals"),
               HasSubstr("dpctl reload")));
 }
 
 TEST_F(UnknownScale, IsReportedOnceAndAsAHoldAlsoInTheMomentBeforeTheBusSideKnows)
 {
-    EXPECT_THAT(news(), ElementsAre(HasSubstr("The exchange does not begin")));
+    EXPECT_THAT(news(), ElementsAre(HasSubstr("Data exchange does not start")));
     bench.view.bus.holds = true;
     EXPECT_THAT(news(), IsEmpty());
 }
@@ -117,7 +117,7 @@ TEST_F(UnknownScale, IsNotOverBecauseTheMasterHasLeft)
     bench.view.bus.layout.generation = bench.view.drive.generation = 4;
     bench.view.bus.layout.count = 1;
     bench.view.bus.layout.parameters[0] = {.tag = 55, .reads = true, .writes = false};
-    EXPECT_THAT(news(), ElementsAre(HasSubstr("The exchange does not begin"))) << "each start says it";
+    EXPECT_THAT(news(), ElementsAre(HasSubstr("Data exchange does not start"))) << "each start says it";
 }
 
 TEST_F(UnknownScale, TheAdviceNamesWhatTheTableLacksAndNeverATableOfThePackage)
@@ -125,7 +125,7 @@ TEST_F(UnknownScale, TheAdviceNamesWhatTheTableLacksAndNeverATableOfThePackage)
     bench.station.tag_file = "/usr/share/dpslaved/tags/empty.csv";
     bench.profile().tag_file = "/usr/share/dpslaved/tags/empty.csv";
     EXPECT_THAT(app::row_advice(bench.station, 55),
-                AllOf(HasSubstr("a table of your own"), Not(HasSubstr("add a line"))));
+                AllOf(HasSubstr("write your own table"), Not(HasSubstr("add a line"))));
     bench.station.tag_file = "/etc/dpslaved/my-590.csv";
     EXPECT_THAT(app::row_advice(bench.station, 55), AllOf(HasSubstr("my-590.csv"), HasSubstr("add a line")));
     has_row(false, true);

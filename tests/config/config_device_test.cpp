@@ -112,7 +112,7 @@ TEST_F(OpenIdent, is_never_invented_and_the_message_says_where_to_find_it)
                                       HasSubstr("GSD of the plant's PLC project"))));
     for (const char* profile : {"584sv", "590plus", "690plus"})
         EXPECT_THAT(short_forms(bad(with(kBox, "605", profile))),
-                    ElementsAre(HasSubstr("key Ident_Number has in the GSD of the plant's PLC project")));
+                    ElementsAre(HasSubstr("of the key Ident_Number in the GSD of the plant's PLC project")));
     EXPECT_EQ(good(kBox).stations.at(0).personality->ident, 0x1649);
 }
 
@@ -366,7 +366,7 @@ TEST_F(Resolution, integer_reads_numbers_from_the_ieee_area_without_decimals)
     EXPECT_EQ(table->find(3)->decimals, 0);
     EXPECT_EQ(table->find(3)->min, -100) << "limits go with the decimals";
     EXPECT_EQ(table->find(3)->max, 100) << "100.5 would be above the limit as a whole number";
-    EXPECT_EQ(table->find(20)->modbus_register, 32776) << "it is there already";
+    EXPECT_EQ(table->find(20)->modbus_register, 32776) << "it exists already";
     EXPECT_EQ(table->find(20)->decimals, 0);
 }
 

@@ -194,8 +194,9 @@ TEST_F(ConfigFile, an_ident_that_the_profile_leaves_open_is_taken_from_the_stati
     change_profile("open", "ident = 0x0533", "");
     const std::string text = with(kGood, "\"590\"", "\"open\"");
 
-    EXPECT_THAT(short_forms(bad(text)), ElementsAre(AllOf(StartsWith("14:1: 'ident' is missing"),
-                                                          HasSubstr("\"open\" leaves it open"))));
+    EXPECT_THAT(short_forms(bad(text)),
+                ElementsAre(AllOf(StartsWith("14:1: 'ident' is missing"),
+                                  HasSubstr("\"open\" has none, because no source states it"))));
     EXPECT_EQ(good(text + "ident = 0x1649\n").stations.at(0).personality->ident, 0x1649);
 }
 
@@ -213,7 +214,7 @@ TEST_F(ConfigFile, no_rate_above_1500000_is_served)
 {
     for (const char* const rate : {"3000000", "6000000", "12000000"})
         EXPECT_THAT(short_forms(bad(with(kGood, "baud = 187500", std::string{"baud = "} + rate))),
-                    ElementsAre(HasSubstr("no rate that is served")))
+                    ElementsAre(HasSubstr("not a supported rate")))
             << rate;
 }
 
@@ -316,11 +317,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadChange{"port = \"/dev/null-bus\"", "port = 1", "2:8: ", "a text in quotes"},
         BadChange{"port = \"/dev/null-bus\"", "port = \"x\"\nprot = \"y\"", "3:1: ", "did you mean 'port'?"},
         BadChange{"baud = 187500", "baud = \"187500\"", "3:8: ", "without quotes"},
-        BadChange{"baud = 187500", "baud = \"Auto\"", "3:8: ", "'baud' \"Auto\" is no rate: write \"auto\""},
+        BadChange{"baud = 187500", "baud = \"Auto\"",
+                  "3:8: ", "'baud' \"Auto\" is not a rate: write \"auto\""},
         BadChange{"baud = 187500", "baud = \"\"", "3:8: ", "is empty"},
         BadChange{"baud = 187500", "baud = 38400",
-                  "3:8: ", "38400 is no rate that is served: write \"auto\", or a rate in bit/s"},
-        BadChange{"baud = 187500", "baud = 12000000", "3:8: ", "no rate that is served"},
+                  "3:8: ", "38400 is not a supported rate: write \"auto\", or a rate in bit/s"},
+        BadChange{"baud = 187500", "baud = 12000000", "3:8: ", "not a supported rate"},
         BadChange{"baud = 187500", "baud = true", "3:8: ", "not true"},
         BadChange{"direction = \"none\"", "direction = \"gpio\"\ngpio_line = 17",
                   "1:1: ", "'gpio_chip' is missing in [bus]: add gpio_chip = \"/dev/gpiochip0\""},
@@ -390,10 +392,10 @@ INSTANTIATE_TEST_SUITE_P(
                   "13:1: ", "did you mean 'retries'?"},
         BadChange{"[[station]]",
                   "[[line]]\nname = \"p3\"\nport = \"/dev/null-q\"\nprotocol = \"ei-ascii\"\n[[station]]",
-                  "15:8: ", "line name \"p3\" stands on line 10 already"},
+                  "15:8: ", "line name \"p3\" is already on line 10"},
         BadChange{"[[station]]",
                   "[[line]]\nname = \"q\"\nport = \"/dev/null-p3\"\nprotocol = \"ei-ascii\"\n[[station]]",
-                  "16:8: ", "port \"/dev/null-p3\" stands on line 11 already"}));
+                  "16:8: ", "port \"/dev/null-p3\" is already on line 11"}));
 
 INSTANTIATE_TEST_SUITE_P(
     station, BadConfigFile,
@@ -443,7 +445,7 @@ INSTANTIATE_TEST_SUITE_P(
                   "21:7: ", "line:CHIP:LINE"},
         BadChange{"unit = \"00\"", "unit = \"00\"\n[station.leds]\nred = \"23\"", "21:7: ", "\"led:NAME\""},
         BadChange{"unit = \"00\"", "unit = \"00\"\n[station.leds]\nred = \"gpio:1\"\ngreen = \"gpio:1\"",
-                  "22:9: ", "sink \"gpio:1\" stands on line 21 already"}));
+                  "22:9: ", "sink \"gpio:1\" is already on line 21"}));
 
 TEST_F(ConfigFile, a_lamp_may_be_a_line_of_a_GPIO_chip_but_not_that_of_the_driver_enable)
 {
@@ -463,20 +465,18 @@ TEST_F(ConfigFile, two_stations_with_one_address_are_a_fault_that_names_both_lin
 {
     const Faults faults = bad(std::string{kGood} + with(kSecondStation, "address = 6", "address = 5"));
 
-    EXPECT_THAT(short_forms(faults),
-                ElementsAre(AllOf(StartsWith("23:11: address 5 stands on line 16 already"),
-                                  HasSubstr("an address of its own"))));
+    EXPECT_THAT(short_forms(faults), ElementsAre(AllOf(StartsWith("23:11: address 5 is already on line 16"),
+                                                       HasSubstr("an address of its own"))));
 }
 
 TEST_F(ConfigFile, two_stations_with_one_name_or_one_drive_are_faults)
 {
     const std::string text = with(with(kSecondStation, "\"winder\"", "\"unwinder\""), "\"01\"", "\"00\"");
 
-    EXPECT_THAT(
-        short_forms(bad(kGood + text)),
-        ElementsAre(StartsWith("22:8: station name \"unwinder\" stands on line 15 already"),
-                    AllOf(StartsWith("26:8: unit \"00\" of drive line \"p3\" stands on line 19 already"),
-                          HasSubstr("one drive serves one station only"))));
+    EXPECT_THAT(short_forms(bad(kGood + text)),
+                ElementsAre(StartsWith("22:8: station name \"unwinder\" is already on line 15"),
+                            AllOf(StartsWith("26:8: unit \"00\" of drive line \"p3\" is already on line 19"),
+                                  HasSubstr("one drive serves one station only"))));
 }
 
 TEST_F(ConfigFile, two_names_of_one_tty_are_one_port)
@@ -515,7 +515,7 @@ TEST_F(ConfigFile, an_empty_file_says_that_bus_and_station_are_missing)
 TEST_F(ConfigFile, what_is_no_toml_is_reported_with_its_place)
 {
     EXPECT_THAT(short_forms(bad("[bus\nport = 1\n")),
-                ElementsAre(AllOf(StartsWith("1:5: "), HasSubstr("no TOML"))));
+                ElementsAre(AllOf(StartsWith("1:5: "), HasSubstr("not TOML"))));
 }
 
 TEST_F(ConfigFile, that_is_not_there_is_a_fault)
@@ -585,7 +585,7 @@ TEST_F(ConfigFile, all_faults_of_configuration_profiles_and_tables_are_reported_
                     AllOf(StartsWith("dpslaved.toml:3:8: "), HasSubstr("\"auto\"")),
                     AllOf(StartsWith("dpslaved.toml:4:1: "), HasSubstr("did you mean 'direction'?")),
                     AllOf(StartsWith("dpslaved.toml:19:8: "), HasSubstr("two hexadecimal digits")),
-                    AllOf(StartsWith("dpslaved.toml:24:11: "), HasSubstr("address 5 stands on line 16")),
+                    AllOf(StartsWith("dpslaved.toml:24:11: "), HasSubstr("address 5 is already on line 16")),
                     AllOf(StartsWith("broken.toml:"), HasSubstr("'ident' must be a whole number")),
                     StartsWith("empty.csv:2:1: "), StartsWith("own.csv:3:1: ")));
 }
@@ -734,7 +734,7 @@ TEST_F(ConfigWarning, a_station_without_a_tag_table_is_named)
 
     EXPECT_THAT(short_forms(good(kGood).warnings),
                 ElementsAre(AllOf(HasSubstr("station \"unwinder\" has no tag table"),
-                                  HasSubstr("the exchange does not begin"))));
+                                  HasSubstr("data exchange does not start"))));
     EXPECT_THAT(short_forms(good(std::string{kGood} + "unlisted_decimals = 2\n").warnings),
                 ElementsAre(HasSubstr("taken with 2 decimals")));
 }
@@ -817,12 +817,11 @@ TEST_F(LampNames, two_names_of_one_lamp_are_refused)
     for (const char* other : {"gpio:523", "gpio:0523", "gpio:lamps:11", "line:/dev/gpiochip3:11",
                               "line:gpiochip3:11", "line:lamps:11", "line:/dev/../dev/gpiochip3:11"})
         EXPECT_THAT(short_forms(bad(lamps("line:/dev/gpiochip3:11", other))),
-                    ElementsAre(HasSubstr("stands on line 21 already")))
+                    ElementsAre(HasSubstr("is already on line 21")))
             << other;
     EXPECT_TRUE(load(lamps("line:/dev/gpiochip3:11", "gpio:524")));
     EXPECT_TRUE(load(lamps("line:/dev/gpiochip3:11", "line:/dev/gpiochip4:11")));
-    EXPECT_THAT(short_forms(bad(lamps("led:x", "led:x"))),
-                ElementsAre(HasSubstr("stands on line 21 already")));
+    EXPECT_THAT(short_forms(bad(lamps("led:x", "led:x"))), ElementsAre(HasSubstr("is already on line 21")));
 }
 
 class ShippedSample : public ConfigFile {

@@ -107,7 +107,7 @@ std::map<std::string, json> all()
             {"protocol":"ei-ascii","baud":19200,"format":"7E1","unit":"03"}]})")},
         {"Reload", json::parse(R"({"applied":true,"changes":["station rewinder removed"],
             "leaving":[{"station":"rewinder","reason":"removed"}],
-            "pending":["station unwinder: address 7 counts from the next start on"],"warnings":[],"faults":[]})")},
+            "pending":["station unwinder: address 7 takes effect at the next start"],"warnings":[],"faults":[]})")},
         {"Watch", {{"bus", bus}, {"stations", stations}, {"words", watched_words}}},
         {"ReadTag", tag},
         {"GetSurveyScope",

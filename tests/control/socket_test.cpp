@@ -78,7 +78,7 @@ TEST(ControlSocket, IsNotMadeInPlaceOfAFile)
 
     ASSERT_FALSE(server);
     EXPECT_EQ(server.error(),
-              path.string() + ": exists and is no socket; remove it or name another control.socket");
+              path.string() + ": exists and is not a socket; remove it or name another control.socket");
     EXPECT_TRUE(std::filesystem::exists(path));
 }
 

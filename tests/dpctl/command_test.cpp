@@ -207,7 +207,7 @@ TEST_F(DpctlProgram, EndsWith1AndAReasonWhenItIsRefused)
 
     const Ran which = run({"read", "7"});
     EXPECT_EQ(which.exit, 1);
-    EXPECT_EQ(which.err, "dpctl: there are several stations, say which one: unwinder, rewinder\n"
+    EXPECT_EQ(which.err, "dpctl: there are several stations, name one: unwinder, rewinder\n"
                          "Add its name to the command, for example: --station unwinder\n");
 
     const Ran drive = run({"write", "1", "5", "--station", "5"});
@@ -291,11 +291,12 @@ TEST(DpctlWithoutDaemon, EndsWith3AndSaysWhatToDo)
         const Ran ran = dpctl(all);
         EXPECT_EQ(ran.exit, 3) << arguments[0];
         EXPECT_EQ(ran.out, "") << arguments[0];
-        EXPECT_EQ(ran.err,
-                  "dpctl: nothing answers on /nonexistent/control.sock (No such file or directory)\n"
-                  "Is dpslaved running? Ask: systemctl status dpslaved, or start it: dpslaved --config FILE\n"
-                  "journalctl -u dpslaved says why it does not start.\n"
-                  "Without dpslaved no station is on the bus: the lamps are off, as without power.\n")
+        EXPECT_EQ(
+            ran.err,
+            "dpctl: nothing answers on /nonexistent/control.sock (No such file or directory)\n"
+            "Check whether dpslaved runs: systemctl status dpslaved. Or start it: dpslaved --config FILE\n"
+            "journalctl -u dpslaved says why it does not start.\n"
+            "Without dpslaved no station is on the bus: the lamps are off, as without power.\n")
             << arguments[0];
     }
 }

@@ -56,7 +56,7 @@ STATION   ADDRESS  STATE      DRIVE   LAMPS
 unwinder        5  Data_Exch  silent  red off, green flashing 2 Hz: data
                                       exchange with the master
 
-1. The drive has fallen silent: power, cable, or other settings of its port
+1. The drive no longer answers: power, cable, or changed settings of its port
    (dpslaved)
    unwinder: ei-ascii unit 00 on p3: /dev/ttyS2 at 9.6 kbit/s, 7E1; it does not
              answer
@@ -129,7 +129,7 @@ TEST_F(Doctor, GivesTheSameAsJson)
         "rule":"board.dark","condition":"red off, green off","cause":"No power or major fault",
         "evidence":"the station is in Power_On: it is not served",
         "steps":["Check the power of the gateway and of its transceiver.",
-                 "Run systemctl status dpslaved. Look why the station is not served: journalctl -u dpslaved"],
+                 "Run systemctl status dpslaved. Find out why the station is not served: journalctl -u dpslaved"],
         "source":"HA389815 chapter 9"}],"notes":[],"earlier":[],"line":{"baud":187500,"cable_a_m":1000,"cable_b_m":600}})"));
 }
 

@@ -60,7 +60,7 @@ TEST_F(Doctor, DistinguishesAWrongRateFromSilenceAndSaysWhichOneIsConfigured)
               "the rate is fixed at 500 kbit/s ([bus] baud)");
 
     set_count(0, "checked", 40, 0, 300'000.0);
-    EXPECT_THAT(evidence("bus.rate"), HasSubstr("the last telegram with a checksum was heard 5 min ago"));
+    EXPECT_THAT(evidence("bus.rate"), HasSubstr("the last telegram with a checksum was received 5 min ago"));
 }
 
 TEST_F(Doctor, SaysWhichRateTheSearchLeavesOut)
@@ -145,7 +145,7 @@ TEST_F(Doctor, NamesAStationThatNoMasterAsks)
     station().state = "Wait_Prm";
     is_not_asked();
     EXPECT_THAT(found(), ElementsAre("station.not_asked", "board.external"));
-    EXPECT_EQ(evidence("board.external"), "telegrams are heard, but no master asks address 5");
+    EXPECT_EQ(evidence("board.external"), "telegrams are received, but no master asks for address 5");
 
     station().state = "Wait_Cfg";
     EXPECT_EQ(evidence("board.external"), "the master has parameterised address 5 and sends no Chk_Cfg");
@@ -436,16 +436,16 @@ INSTANTIATE_TEST_SUITE_P(
             "0 replies were suppressed because MaxTsdr had passed, 100 begun in time and written too late, 0 "
             "requests dropped because something followed them, in the last minute"},
         Counted{"DriverFails", "driver_errors", 1, 0, "bus.driver",
-                "1 edge failed, and the guard let the driver go 0 times in the last minute"},
+                "1 edge failed, and the guard released the driver 0 times in the last minute"},
         Counted{"DriverStays", "driver_guarded", 1, 0, "bus.driver",
-                "0 edges failed, and the guard let the driver go 1 time in the last minute"},
+                "0 edges failed, and the guard released the driver 1 time in the last minute"},
         Counted{"Flaws", "flaw: checksum", 5, 4, "bus.flaws",
                 "5 flaws (damaged telegrams, or noise between them) beside 100000 valid telegrams in "
                 "the last minute"},
         Counted{"Retries", "retries", 100, 99, "bus.retries",
                 "the master asked again 100 times in 100000 requests in the last minute"},
         Counted{"Port", "write_errors", 3, 0, "bus.port",
-                "the port did not take 3 replies in the last minute"}),
+                "the port did not accept 3 replies in the last minute"}),
     [](const auto& row) { return row.param.name; });
 
 TEST_F(Doctor, NoiseThatGoesOnIsNotLostAmongGoodTelegramsAndSaysSinceWhen)
@@ -553,7 +553,7 @@ TEST_F(Doctor, RideThroughIsNamedWithWhatIsLeftOfIt)
     station().ride = report::Ride{4200.0};
 
     EXPECT_THAT(found(), ElementsAre("station.ride_through"));
-    EXPECT_EQ(evidence("station.ride_through"), "the outputs stand for 4.2 s more");
+    EXPECT_EQ(evidence("station.ride_through"), "the outputs keep their values for 4.2 s more");
 }
 
 // ---------------------------------------------------------------- the tags

@@ -77,10 +77,9 @@ TEST(DpctlHelp, ShowsExitCodesAndWhereTheSchemaIs)
 
     EXPECT_EQ(ran.exit, 0);
     EXPECT_THAT(ran.out, HasSubstr("  0  fine\n"));
-    EXPECT_THAT(ran.out,
-                HasSubstr("  1  refused by the daemon or the drive, a faulty answer or input, not found, "
-                          "or not so (status --wait, doctor, survey, tune)\n"));
-    EXPECT_THAT(ran.out, HasSubstr("  2  usage, or there is no such station\n"));
+    EXPECT_THAT(ran.out, HasSubstr("  1  refused by the daemon or the drive, a faulty answer or input, not "
+                                   "found, or the answer is no (status --wait, doctor, survey, tune)\n"));
+    EXPECT_THAT(ran.out, HasSubstr("  2  wrong usage, or no such station\n"));
     EXPECT_THAT(ran.out, HasSubstr("  3  no daemon"));
     EXPECT_THAT(ran.out, HasSubstr("org.dpslaved.Control.varlink"));
 }
@@ -126,10 +125,10 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair{"survey",
                   "0 complete, 1 refused, faulty or not complete, 2 usage or no such station, 3 no daemon."},
         std::pair{"reload", "0 applied, or can be; 1 refused or faulty; 2 usage; 3 no daemon."},
-        std::pair{"tune", "0 fine, 1 the rate of the bus cannot be held or something must be mended,\n"
+        std::pair{"tune", "0 fine, 1 the rate of the bus cannot be held or something must be corrected,\n"
                           "2 usage, 3 no PORT and no daemon."},
-        std::pair{"version", "0 fine, also without a daemon; 1 a faulty answer; 2 usage; 3 the socket is "
-                             "closed to this user."},
+        std::pair{"version", "0 fine, also without a daemon; 1 a faulty answer; 2 usage; 3 this user may not "
+                             "open the socket."},
         std::pair{"tag", kNeedsNone}, std::pair{"hex", kNeedsNone}, std::pair{"decode", kNeedsNone}),
     [](const auto& row) { return std::string{row.param.first}; });
 

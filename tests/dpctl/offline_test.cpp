@@ -24,7 +24,8 @@ TEST(DpctlDoctor, EndsWith1WhenSomethingIsFoundAnd0WhenAllIsWell)
     EXPECT_EQ(all.exit, 1);
     EXPECT_THAT(
         all.out,
-        HasSubstr("\n1. The drive was never heard: cable, unit, rate or format (dpslaved)\n   rewinder: "));
+        HasSubstr(
+            "\n1. The drive has never answered: cable, unit, rate or format (dpslaved)\n   rewinder: "));
     EXPECT_EQ(all.err, "");
 
     const Ran one = dpctl({"doctor", "unwinder", "--socket", daemon.socket()});

@@ -14,7 +14,7 @@ TEST(DpctlReload, SaysWhatIsDifferentAndWhatWaits)
 {
     EXPECT_EQ(render_reload(report::read<report::ReloadReply>(fixture("Reload")), false),
               "station rewinder removed\n"
-              "pending: station unwinder: address 7 counts from the next start on\n");
+              "pending: station unwinder: address 7 takes effect at the next start\n");
 }
 
 TEST(DpctlReload, SaysThatNothingHasChanged)
@@ -29,9 +29,9 @@ TEST(DpctlReload, OfADryRunNamesTheStationsThatWouldLeaveTheBusAndWhy)
 {
     EXPECT_EQ(render_reload(report::read<report::ReloadReply>(fixture("Reload")), true),
               "station rewinder removed\n"
-              "pending: station unwinder: address 7 counts from the next start on\n"
+              "pending: station unwinder: address 7 takes effect at the next start\n"
               "leaves the bus: rewinder (removed)\n"
-              "Nothing was done: this is what a reload would do.\n");
+              "Nothing was changed: this is what a reload would do.\n");
 }
 
 TEST(DpctlReload, OfADryRunSaysThatNoStationWouldLeaveTheBus)
@@ -41,7 +41,7 @@ TEST(DpctlReload, OfADryRunSaysThatNoStationWouldLeaveTheBus)
     EXPECT_EQ(render_reload(report::read<report::ReloadReply>(live), true),
               "station unwinder: other lamps\n"
               "no station leaves the bus\n"
-              "Nothing was done: this is what a reload would do.\n");
+              "Nothing was changed: this is what a reload would do.\n");
 }
 
 TEST(DpctlReload, SaysAllFaultsAndThatTheOldConfigurationRunsOn)
@@ -49,7 +49,7 @@ TEST(DpctlReload, SaysAllFaultsAndThatTheOldConfigurationRunsOn)
     const Json refused = Json::parse(
         R"({"applied":false,"changes":[],"leaving":[],"pending":[],"warnings":[],"faults":["a: b","c: d"]})");
     EXPECT_EQ(render_reload(report::read<report::ReloadReply>(refused), false),
-              "a: b\nc: d\nThe new configuration is refused; the one until now runs on.\n");
+              "a: b\nc: d\nThe new configuration is refused; the old one stays in use.\n");
 }
 
 } // namespace

@@ -42,7 +42,7 @@ TEST(DpctlStatus, SaysThatTheRateIsSearched)
 
     const std::string picture = render_status(reply, Look{false, 100});
     EXPECT_EQ(picture.substr(0, picture.find('\n')),
-              "bus       /dev/ttyS1, searching the rate, now at 187.5 kbit/s, no telegram heard yet");
+              "bus       /dev/ttyS1, searching the rate, now at 187.5 kbit/s, no telegram received yet");
 }
 
 TEST(DpctlStatus, ShowsStatesAndLinksInColour)
@@ -66,10 +66,10 @@ TEST(DpctlStatus, NamesWhatLooksNormalAndIsNot)
 
     const std::string picture = render_status(reply, Look{false, 120});
     for (const char* said :
-         {"/dev/ttyS1 has vanished", "Data_Exch in Clear, Sync, Freeze, RIDE THROUGH", "port gone",
+         {"/dev/ttyS1 is missing", "Data_Exch in Clear, Sync, Freeze, RIDE THROUGH", "port gone",
           "unwinder: Sync holds the outputs", "unwinder: Freeze holds the inputs",
           "unwinder: the master is in Clear: 0 goes to every output of the drive",
-          "its outputs stand for 4.2 s more",
+          "its outputs keep their values for 4.2 s more",
           "unwinder: FAULT is PARAMETER, the station is silent on the bus.",
           "the port of the drive line, /dev/ttyS2, is gone or cannot be opened"})
         EXPECT_NE(picture.find(said), std::string::npos) << said << '\n' << picture;
@@ -174,8 +174,8 @@ unwinder, address 5
   host firmware     4.2 or later
   manual            HA389815
   Ident_Number      0x0533
-  address           5 active, 7 pending: the configuration file has it, the next
-                    start of dpslaved takes it
+  address           5 active, 7 pending: it is in the configuration file and
+                    takes effect at the next start of dpslaved
   legal addresses   0 to 125
   at most           12 parameters, 32 octets in, 32 octets out, 6 octets of
                     diagnosis
@@ -202,8 +202,8 @@ TEST(DpctlShow, ReportsAStationWithoutMasterAndASilentDrive)
   min T_SDR         11 T_bit
   groups            none
   Sync, Freeze      off, off
-  diagnosis         static diagnosis: not ready for data yet; new, the master
-                    has yet to read it
+  diagnosis         static diagnosis: not ready for data yet; new, not yet read
+                    by the master
   parameters        0
   left Data_Exch    never
   drive             unit 01 on p3 (/dev/ttyS2, ei-ascii): silent
@@ -298,7 +298,7 @@ TEST(DpctlTec, TakesTheNamesThatFitAnyOptionInTheGenericView)
 
     const std::string picture = render_tec(report::read<report::Tec>(reply["stations"][0]), false);
 
-    EXPECT_EQ(picture.find("booster: TEC OPTION, in names that fit any option\n"), 0u);
+    EXPECT_EQ(picture.find("booster: TEC OPTION, with the general names of any option\n"), 0u);
     EXPECT_NE(picture.find("  input   INPUT 1   3"), std::string::npos) << picture;
     EXPECT_NE(picture.find("  output  OUTPUT 1  DATA EXCHANGE"), std::string::npos);
     EXPECT_EQ(picture.find("ADDRESS"), std::string::npos);
@@ -312,10 +312,10 @@ TEST(DpctlTec, SaysTheThreeStepsOfTheSetUpWhereItIsNotSetUp)
         const std::string picture = render_tec(report::read<report::Tec>(reply["stations"][0]), false);
 
         const auto type =
-            picture.find("    1. TYPE is to be PROFIBUS DP:  dpctl tec set TYPE \"PROFIBUS DP\"\n");
-        const auto address =
-            picture.find("    2. ADDRESS, 0 to 125; 0 to 2 are usually masters:  dpctl tec set ADDRESS 3\n");
-        const auto look = picture.find("    3. look at FAULT: NONE is wanted\n");
+            picture.find("    1. set TYPE to PROFIBUS DP:  dpctl tec set TYPE \"PROFIBUS DP\"\n");
+        const auto address = picture.find(
+            "    2. set ADDRESS, 0 to 125; 0 to 2 are usually masters:  dpctl tec set ADDRESS 3\n");
+        const auto look = picture.find("    3. check FAULT: it must be NONE\n");
         EXPECT_LT(type, address);
         EXPECT_LT(address, look);
         EXPECT_NE(look, std::string::npos);
@@ -337,11 +337,11 @@ unwinder, address 5: Data_Exch; outputs go to the drive
   reply        0000 1388 1000 0007
 
 rewinder, address 16: Wait_Prm; nothing is written to the drive
-  no parameters: no master has chosen any
+  no parameters: no master has chosen one
 
 in: drive to master, out: master to drive; octet: place in the Data_Exchange
 telegram, counted from 0; word: place among the words of its direction, counted
-from 1 behind Demand Data, as gsd make and dpsim count
+from 1 after Demand Data, as gsd make and dpsim count
 )"));
 }
 

@@ -227,10 +227,11 @@ TEST_F(SurveyFilesTest, KeepTheirPermissionsAndNewOnesHaveThoseOfTheUser)
 TEST_F(SurveyFilesTest, SayAtOnceWhatIsWrong)
 {
     EXPECT_THAT(SurveyFiles::open("unwinder", table, {}, true).error(),
-                testing::AllOf(HasSubstr("cannot be read: No such file"), HasSubstr("leave --resume out")));
+                testing::AllOf(HasSubstr("cannot be read: No such file"), HasSubstr("leave out --resume")));
     EXPECT_THAT(SurveyFiles::open("unwinder", folder.path() / "none" / "t.csv", {}, false).error(),
                 HasSubstr("cannot be written"));
-    EXPECT_THAT(SurveyFiles::open("unwinder", "/dev/null", {}, false).error(), HasSubstr("no regular file"));
+    EXPECT_THAT(SurveyFiles::open("unwinder", "/dev/null", {}, false).error(),
+                HasSubstr("not a regular file"));
     put(table, "name\nSPEED\n");
     EXPECT_THAT(SurveyFiles::open("unwinder", table, {}, false).error(), HasSubstr("no column tag"));
 }
@@ -248,7 +249,7 @@ TEST(SurveyProgressLine, SaysWhatWasAskedAndHowLongItTakes)
     p.left = seconds{601};
     EXPECT_THAT(progress_line(p), HasSubstr("about 11 min left"));
     p.left = std::nullopt;
-    EXPECT_THAT(progress_line(p), HasSubstr("the pace is not measured yet"));
+    EXPECT_THAT(progress_line(p), HasSubstr("the speed is not measured yet"));
     p.left = seconds{120};
     p.is_time_given = true;
     EXPECT_THAT(progress_line(p), HasSubstr("; 2 min left")) << "given, not estimated";

@@ -283,7 +283,7 @@ TEST_F(Tune, APtyIsForTryingOnlyAndNothingIsToBeMended)
     on(test::virtual_machine, "/dev/pts/3");
 
     EXPECT_THAT(verdicts(), ElementsAre(doubtful, doubtful, doubtful, doubtful, doubtful, doubtful, cannot));
-    EXPECT_EQ(reason(Baud::k9_6), "a pty is no wire: for trying only");
+    EXPECT_EQ(reason(Baud::k9_6), "a pty is not a real line: for tests only");
     EXPECT_THAT(names(), ElementsAre("kernel.virtual"));
 
     serves(Baud::k187_5);
@@ -671,7 +671,7 @@ TEST(DpctlTune, WithoutPortAndWithoutDaemonSaysWhatToType)
 
     EXPECT_EQ(ran.exit, 3);
     EXPECT_EQ(ran.out, "");
-    EXPECT_THAT(ran.err, HasSubstr("Without one say which port: dpctl tune /dev/ttyS1\n"));
+    EXPECT_THAT(ran.err, HasSubstr("If none runs, name the port: dpctl tune /dev/ttyS1\n"));
 }
 
 TEST(DpctlTune, JudgesAPortWithoutADaemon)

@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(
                   "there is no station 'x'; there are: unwinder, rewinder"},
         Explained{"StationRequired", "org.dpslaved.Control.StationRequired",
                   R"({"known":["unwinder","rewinder"]})",
-                  "there are several stations, say which one: unwinder, rewinder"},
+                  "there are several stations, name one: unwinder, rewinder"},
         Explained{"NotPermitted", "org.dpslaved.Control.NotPermitted", R"({"group":"dpslaved"})",
                   "only root and members of the group 'dpslaved' may do this; try: sudo dpctl ..., or let "
                   "root add you: "
@@ -97,17 +97,18 @@ INSTANTIATE_TEST_SUITE_P(
                   R"({"parameter":"TYPE","value":"ARCNET","reason":"no such type"})",
                   "TYPE cannot be set to 'ARCNET': no such type"},
         Explained{"Busy", "org.dpslaved.Control.Busy", "{}",
-                  "the daemon has too many callers or orders at once; try again"},
+                  "the daemon has too many connections or requests at once; try again"},
         Explained{
             "InvalidParameter", "org.varlink.service.InvalidParameter", R"({"parameter":"station"})",
-            "the daemon does not take the parameter 'station': dpctl and dpslaved are of different versions"},
+            "the daemon does not know the parameter 'station': dpctl and dpslaved are of different versions"},
         Explained{"MethodNotFound", "org.varlink.service.MethodNotFound",
                   R"({"method":"org.dpslaved.Control.Watch"})",
                   "the daemon does not know org.dpslaved.Control.Watch: dpctl and dpslaved are of different "
                   "versions"},
-        Explained{"InterfaceNotFound", "org.varlink.service.InterfaceNotFound",
-                  R"({"interface":"org.dpslaved.Control"})",
-                  "what answers on this socket does not know org.dpslaved.Control: it is no dpslaved"},
+        Explained{
+            "InterfaceNotFound", "org.varlink.service.InterfaceNotFound",
+            R"({"interface":"org.dpslaved.Control"})",
+            "the program that answers on this socket does not know org.dpslaved.Control: it is not dpslaved"},
         Explained{"Unknown", "org.example.Odd", R"({"a":1})", R"(org.example.Odd {"a":1})"},
         Explained{"WithoutItsParameters", "org.dpslaved.Control.DriveRefused", "{}", "tag -: ?"}),
     [](const auto& row) { return row.param.name; });

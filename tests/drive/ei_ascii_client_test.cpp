@@ -316,7 +316,7 @@ TEST_F(EiClient, SaysSoWhenTheLineIsUnplugged)
 {
     line.unplugged = true;
     EXPECT_EQ(read(kDc, status), AccessError::no_answer);
-    EXPECT_THAT(client.last_trouble(), HasSubstr("does not take"));
+    EXPECT_THAT(client.last_trouble(), HasSubstr("does not accept"));
     EXPECT_FALSE(client.probe(kDc));
 }
 

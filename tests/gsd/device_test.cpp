@@ -224,26 +224,26 @@ TEST(GsdMake, Allows117WordsOnAControllerDemandDataIncluded)
 {
     EXPECT_THAT(refusals("2408f", {.in = tags(500, 60), .out = tags(20, 57), .ident = 1}), IsEmpty());
     EXPECT_THAT(refusals("2408f", {.in = tags(500, 60), .out = tags(20, 58), .ident = 1}),
-                Contains(HasSubstr("118 words in and out are more than a 2408f has, 117: take 1 away.")));
+                Contains(HasSubstr("118 words in and out are more than a 2408f has, 117: remove 1.")));
     EXPECT_THAT(refusals("2408f", {.in = tags(500, 55), .out = tags(20, 54), .demand = true, .ident = 1}),
                 IsEmpty());
-    EXPECT_THAT(refusals("2408f", {.in = tags(500, 55), .out = tags(20, 55), .demand = true, .ident = 1}),
-                ElementsAre(HasSubstr(
-                    "118 words in and out, 8 of them Demand Data, are more than a 2408f has, 117: take "
-                    "1 away.")));
+    EXPECT_THAT(
+        refusals("2408f", {.in = tags(500, 55), .out = tags(20, 55), .demand = true, .ident = 1}),
+        ElementsAre(HasSubstr(
+            "118 words in and out, 8 of them Demand Data, are more than a 2408f has, 117: remove 1.")));
 }
 
 TEST(GsdMake, RefusesTagsThatAreNone)
 {
     EXPECT_THAT(refusals("590", {.in = {2048}}),
-                ElementsAre("tag 2048 is none: tags of the profile 590 go from 1 to 2047."));
-    EXPECT_THAT(refusals("590", {.out = {0}}), ElementsAre(HasSubstr("tag 0 is none")));
+                ElementsAre("tag 2048 is not a tag: tags of the profile 590 go from 1 to 2047."));
+    EXPECT_THAT(refusals("590", {.out = {0}}), ElementsAre(HasSubstr("tag 0 is not a tag")));
     EXPECT_THAT(refusals("2408f", {.in = {16384}, .ident = 1}), ElementsAre(HasSubstr("go from 1 to 16383")));
 }
 
 TEST(GsdMake, RefusesATagTwiceInOneDirectionAndAllowsItInBoth)
 {
-    EXPECT_THAT(refusals("590", {.in = {5, 5}}), ElementsAre("tag 5 is read twice: remove it once."));
+    EXPECT_THAT(refusals("590", {.in = {5, 5}}), ElementsAre("tag 5 is read twice: remove one."));
     EXPECT_THAT(refusals("605", {.out = {5}, .in_out = {5}}),
                 ElementsAre(HasSubstr("tag 5 is written twice")));
     EXPECT_THAT(refusals("590", {.in = {5}, .out = {5}}), IsEmpty());

@@ -153,7 +153,7 @@ TEST(ManualGsd, OfThe620LacksMaxDiagDataLenWhereMinSlaveIntervallIsRepeated)
         ElementsAre(
             StartsWith("0: warning: GSD_Revision is missing"),
             StartsWith("0: warning: Max_Diag_Data_Len is missing: add Max_Diag_Data_Len = 6"),
-            "37: warning: Min_Slave_Intervall stands here a second time (first in line 30): tools take the "
+            "37: warning: Min_Slave_Intervall is here a second time (first in line 30): tools take the "
             "last one. Remove one of them."));
 }
 

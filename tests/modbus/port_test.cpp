@@ -108,7 +108,7 @@ TEST(ModbusPort, ThatDoesNotTakeTheRequestIsStillThere)
 
     ASSERT_EQ(::tcflow(same_port.get(), TCOOFF), 0); // as a UART without its clear-to-send
     EXPECT_EQ((*drive)->read({.unit = 1}, number(1), {&word, 1}), AccessError::no_answer);
-    EXPECT_EQ((*drive)->last_trouble(), "the line does not take the request");
+    EXPECT_EQ((*drive)->last_trouble(), "the line does not accept the request");
     EXPECT_TRUE(is_open);
 
     ASSERT_EQ(::tcflow(same_port.get(), TCOON), 0);
@@ -129,7 +129,7 @@ TEST(ModbusPort, IsUsedAgainWhenItReturns)
     socket.pull();
     EXPECT_EQ((*drive)->read({.unit = 1}, number(1), {&word, 1}), AccessError::no_answer);
     EXPECT_FALSE(is_open);
-    EXPECT_EQ((*drive)->last_trouble(), socket.path() + " has gone");
+    EXPECT_EQ((*drive)->last_trouble(), socket.path() + " is missing");
     EXPECT_FALSE((*drive)->probe({.unit = 1})); // still gone
     EXPECT_FALSE(is_open);
 

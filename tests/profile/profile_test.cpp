@@ -143,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadChange{"9600    = 60", "9600    = 10", "from 11 to 65535", 11},
         BadChange{"[0x50, 0x60]", "[0x50, 0x61]", "identifier 0x61 is not one word", 26},
         BadChange{"[0x50, 0x60]", "[0x50, 0x00]", "identifier 0x00 is not one word", 26},
-        BadChange{"[0x50, 0x60]", "[0x50, 0x50]", "stands twice", 26},
+        BadChange{"[0x50, 0x60]", "[0x50, 0x50]", "is listed twice", 26},
         BadChange{"[0x50, 0x60]", "[0x50, 256]", "from 0 to 255", 33},
         BadChange{"max_parameters         = 12", "max_parameters = 118", "from 1 to 117", 18},
         BadChange{"max_parameters         = 12", "max_parameters = 13", "that takes 26 octets", 0},
@@ -162,7 +162,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadChange{"[slave_diag]\nmax_length = 6", "[slave_diag]\nmax_length = 5", "from 6 to 244", 0},
         BadChange{"[global_control]", "[global_controls]\n[global_control]", "did you mean 'global_control'?",
                   2},
-        BadChange{"ident = 0x0533", "ident = ", "no TOML", 0}));
+        BadChange{"ident = 0x0533", "ident = ", "not TOML", 0}));
 
 INSTANTIATE_TEST_SUITE_P(
     technology_box_keys, BadProfile,

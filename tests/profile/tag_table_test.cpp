@@ -406,7 +406,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadTable{"tag,type,values\n1,WORD,bit16=a\n", "2:8: ", "bit0 to bit15"},
         BadTable{"tag,type,values\n1,BOOL,bit0=a\n", "2:8: ", "only WORD and INT have bits"},
         BadTable{"tag,name\n1,\"open\n2,b\n", "2:3: ", "never closed"},
-        BadTable{"tag,name\n1,\"a\" b\n", "2:7: ", "behind the closing quote"},
+        BadTable{"tag,name\n1,\"a\" b\n", "2:7: ", "after the closing quote"},
         BadTable{"tag,name\n1,5\" pipe\n", "2:4: ", "write this quote twice"},
         BadTable{"tag,name\n1,Z\xE4hler \x80\n", "2:10: ", "save the table as UTF-8"},
         BadTable{"tag,name\n1,a\xC2\x9B"

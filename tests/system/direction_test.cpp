@@ -111,7 +111,7 @@ TEST(DriverEnable, IsInactiveAfterThePortHasGoneInTheMiddleOfAReply)
         ASSERT_TRUE(eventually([&] { return at.chip.high(kLine); }));
         at.gateway.unplug_bus();
     }
-    EXPECT_TRUE(at.gateway.daemon().says("has gone"));
+    EXPECT_TRUE(at.gateway.daemon().says("is missing"));
     EXPECT_TRUE(eventually([&] { return !at.chip.high(kLine); }));
     EXPECT_TRUE(at.chip.is_taken(kLine)) << "it is never given back in service";
 

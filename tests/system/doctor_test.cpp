@@ -83,7 +83,7 @@ TEST(DoctorOfTheBus, NamesSilenceACutCableAndAPortThatVanishes)
 
     gateway.unplug_bus();
     EXPECT_TRUE(first_cause_is(gateway, "bus.gone")) << "the adapter was pulled";
-    EXPECT_THAT(gateway.dpctl({"status"}).out, HasSubstr("has vanished"));
+    EXPECT_THAT(gateway.dpctl({"status"}).out, HasSubstr("is missing"));
 }
 
 TEST(DoctorOfTheBus, NamesAFixedRateThatIsNotThatOfTheBus)
@@ -313,7 +313,7 @@ TEST_F(SickDrive, WhoseLineHearsItselfIsNotBlamed)
     gateway->drive().send_line("echo on");
 
     EXPECT_TRUE(is("drive.echo"));
-    EXPECT_THAT(evidence(), HasSubstr("hears what it sends, and [[line]] echo is off"));
+    EXPECT_THAT(evidence(), HasSubstr("receives what it sends, and [[line]] echo is off"));
     EXPECT_THAT(steps(), HasSubstr("in the [[line]] of this drive"));
 }
 
@@ -431,7 +431,7 @@ TEST(DoctorOfTheDrive, FindsAUnitThatIsAnotherOne)
     EXPECT_EQ(probe.status, 0) << probe.err;
     EXPECT_THAT(probe.out, HasSubstr("ei-ascii unit 03 at 38.4 kbit/s, 7E1"));
     EXPECT_THAT(probe.err,
-                ContainsRegex("looking for the drive of unwinder on .*: [0-9]+ s at most; Ctrl-C ends it"));
+                ContainsRegex("searching for the drive of unwinder on .*: [0-9]+ s at most; Ctrl-C ends it"));
 }
 
 TEST(DoctorOfTheDrive, LooksForItUntilItIsCancelledAndThenTheLineGoesOn)
@@ -495,7 +495,7 @@ TEST(DoctorOfABox, NamesATypeThatSilencesItAndTheRideThroughThatRuns)
         EXPECT_EQ(gateway.tec("RIDE THROUGH"), 20);
         ASSERT_TRUE(master.does("stop"));
     }
-    EXPECT_TRUE(gateway.daemon().says("the outputs stand for"));
+    EXPECT_TRUE(gateway.daemon().says("the outputs keep their values for"));
     EXPECT_TRUE(eventually([&] { return !gateway.station().at("ride").is_null(); }));
     EXPECT_THAT(gateway.dpctl({"doctor"}).out, HasSubstr("RIDE THROUGH is running"));
     EXPECT_EQ(gateway.dpctl({"tec", "set", "RIDE_THROUGH", "0"}).status, 0);

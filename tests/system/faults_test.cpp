@@ -168,7 +168,7 @@ TEST(BusPort, ThatVanishesAndReturnsIsOpenedAgain)
         EXPECT_TRUE(master.does("out 1 = 500"));
         EXPECT_TRUE(gateway.drive().says("tag 56 written 5.00"));
         gateway.unplug_bus();
-        EXPECT_TRUE(gateway.daemon().says("bus-gateway has gone"));
+        EXPECT_TRUE(gateway.daemon().says("bus-gateway is missing"));
         EXPECT_TRUE(gateway.drive().says("tag 56 written 0.00"))
             << "the watchdog works without a port as well";
     }

@@ -92,10 +92,10 @@ TEST(TheLog, HasOneLineForAModbusPortThatComesAndGoes)
         gateway.plug_drive();
     }
     ASSERT_TRUE(port_is(true));
-    EXPECT_TRUE(gateway.daemon().says("drive-gateway has gone; it is opened again"));
-    EXPECT_TRUE(gateway.daemon().says("drive-gateway has gone; it is opened again"));
+    EXPECT_TRUE(gateway.daemon().says("drive-gateway is missing; it is opened again"));
+    EXPECT_TRUE(gateway.daemon().says("drive-gateway is missing; it is opened again"));
     EXPECT_TRUE(gateway.daemon().ever_said("more time")) << "what came within 10 s is counted";
-    EXPECT_LT(gateway.daemon().how_often("drive-gateway has gone"), 2U);
+    EXPECT_LT(gateway.daemon().how_often("drive-gateway is missing"), 2U);
 }
 
 } // namespace

@@ -111,7 +111,7 @@ TEST_F(Reload, RemovesTheRightStationAlsoAfterTheirOrderWasAnother)
     const auto first = text.find("[[station]]"), second = text.rfind("[[station]]");
     const std::string turned =
         text.substr(0, first) + text.substr(second) + "\n" + text.substr(first, second - first);
-    EXPECT_EQ(changes_in(reload(turned)), "lines or stations stand in another order\n");
+    EXPECT_EQ(changes_in(reload(turned)), "lines or stations are in another order\n");
 
     EXPECT_EQ(changes_in(reload(without_rewinder())), "station rewinder removed\n");
     EXPECT_EQ(gateway.station().at("name"), "unwinder");
@@ -126,7 +126,7 @@ TEST_F(Reload, ZeroesTheOutputsOfAStationThatIsChangedAndStartsItAnew)
         reload(changed(text, "rewinder", "output_refresh_s", "demand.error_base = 1\noutput_refresh_s"));
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_EQ(changes_in(outcome),
-              "station rewinder changed: it leaves the bus and starts anew at address 6 (its "
+              "station rewinder changed: it leaves the bus and starts again at address 6 (its "
               "Demand Data or other abilities)\n");
     EXPECT_TRUE(gateway.drive().says("unit 01: tag 56 written 0.00"));
     Master master{gateway, {"--tags", "55,56w"}, 6};
@@ -197,7 +197,7 @@ TEST_F(ReloadInService, WithFaultsNamesThemAllAndTheOldConfigurationRunsOn)
     EXPECT_EQ(outcome.status, 1);
     EXPECT_THAT(outcome.err, HasSubstr("there is no profile \"591\""));
     EXPECT_THAT(outcome.err, HasSubstr("adress"));
-    EXPECT_THAT(outcome.err, HasSubstr("the one until now runs on"));
+    EXPECT_THAT(outcome.err, HasSubstr("the old one stays in use"));
     EXPECT_TRUE(gateway.daemon().says("the new configuration is refused"));
     EXPECT_EQ(gateway.json({"status"}).at("stations").size(), 2U);
     unwinder_noticed_nothing();
@@ -238,8 +238,9 @@ TEST_F(ReloadInService, OfAnotherAddressOfAnOptionBoardIsPendingUntilTheNextStar
 {
     const Outcome outcome = reload(changed(text, "unwinder", "address = 5", "address = 7"));
     EXPECT_EQ(outcome.status, 0) << outcome.err;
-    EXPECT_THAT(outcome.out, HasSubstr("pending: station unwinder: address 7 counts from the next start on"));
-    EXPECT_TRUE(gateway.daemon().says("address 7 counts from the next start on"));
+    EXPECT_THAT(outcome.out,
+                HasSubstr("pending: station unwinder: address 7 takes effect at the next start"));
+    EXPECT_TRUE(gateway.daemon().says("address 7 takes effect at the next start"));
     const Json info = gateway.json({"show", "unwinder"}).at("stations").at(0).at("info");
     EXPECT_EQ(info.at("address_active"), 5);
     EXPECT_EQ(info.at("address_pending"), 7);
@@ -386,7 +387,7 @@ TEST_F(ReloadOfATable, NamesInADryRunTheStationsThatWouldLeaveTheBusAndDoesNothi
     EXPECT_THAT(outcome.out, HasSubstr("leaves the bus: unwinder (tag 55, which the master uses, would be "
                                        "another value)\n"));
     EXPECT_THAT(outcome.out, Not(HasSubstr("leaves the bus: rewinder"))) << "no master uses it";
-    EXPECT_THAT(outcome.out, HasSubstr("Nothing was done"));
+    EXPECT_THAT(outcome.out, HasSubstr("Nothing was changed"));
     write_file(gateway.folder("tags.csv"), kRows);
     EXPECT_EQ(changes_in(gateway.dpctl({"reload"})), "Nothing has changed.\n");
     unwinder_noticed_nothing();
@@ -501,7 +502,7 @@ TEST_F(ReloadOfBoxes, AppliesAnotherAddressAtOnceAndKeepsWhatWasSetByHandWhereNo
     EXPECT_EQ(gateway.dpctl({"tec", "set", "ADDRESS", "20", "--station", "unwinder"}).status, 0);
     const Outcome outcome = reload(changed(text, "rewinder", "address = 6", "address = 8"));
     EXPECT_EQ(changes_in(outcome),
-              "station rewinder changed: it leaves the bus and starts anew at address 8 (address)\n");
+              "station rewinder changed: it leaves the bus and starts again at address 8 (address)\n");
     EXPECT_EQ(gateway.station(0).at("address"), 20);
     EXPECT_EQ(gateway.station(1).at("address"), 8);
     EXPECT_EQ(gateway.tec("EXT DIAGNOSTIC"), 0x6AB5);

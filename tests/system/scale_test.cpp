@@ -53,12 +53,12 @@ TEST_F(UnknownScale, OfAnInputHoldsTheStartUntilAReloadBringsItsRow)
     EXPECT_TRUE(gateway.word_becomes(55, "state", "unscaled"));
     EXPECT_EQ(gateway.word(55)["answer"], "12.5");
     EXPECT_EQ(gateway.word(55)["raw"], 0);
-    EXPECT_TRUE(diag_says("The exchange does not begin: the scale of tag 55 (answers '12.5') is not known"));
+    EXPECT_TRUE(diag_says("Data exchange does not start: the scale of tag 55 (answers '12.5') is not known"));
     EXPECT_EQ(gateway.dpctl({"status", "--wait", "0", "--quiet"}).status, 1)
         << "it is in Data_Exch and exchanges nothing";
     EXPECT_THAT(gateway.dpctl({"status"}).out,
                 AllOf(HasSubstr("1, 0 in Data_Exch"), HasSubstr("Data_Exch, held")));
-    EXPECT_TRUE(gateway.daemon().says("The exchange does not begin"));
+    EXPECT_TRUE(gateway.daemon().says("Data exchange does not start"));
 
     table("tag,type,decimals\n55,INT,2\n56,INT,2\n");
     EXPECT_EQ(gateway.dpctl({"reload"}).status, 0);

@@ -95,7 +95,7 @@ TEST(BadStart, NamesAllFaultsOfTheConfigurationInOneRunAndOpensNothing)
     for (const Outcome& outcome : {gateway.run_daemon(), gateway.run_daemon({"--check"})}) {
         EXPECT_EQ(outcome.status, 1);
         EXPECT_THAT(outcome.err, HasSubstr("adress"));
-        EXPECT_THAT(outcome.err, HasSubstr("address 5 stands on line"));
+        EXPECT_THAT(outcome.err, HasSubstr("address 5 is already on line"));
         EXPECT_THAT(outcome.err, HasSubstr("there is no profile \"591\""));
         EXPECT_THAT(outcome.err, HasSubstr("wrong.csv:3"));
         std::istringstream lines{outcome.err};

@@ -222,7 +222,7 @@ TEST_F(TomlDocument, what_is_no_toml_is_one_fault_with_its_place)
 
     EXPECT_FALSE(document.readable());
     EXPECT_THAT(short_forms(document.faults()),
-                ElementsAre(AllOf(StartsWith("2:8: "), HasSubstr("no TOML"))));
+                ElementsAre(AllOf(StartsWith("2:8: "), HasSubstr("not TOML"))));
 }
 
 TEST_F(TomlDocument, a_key_that_stands_twice_is_a_fault)

@@ -44,7 +44,7 @@ public:
     /// Before the port is closed: the driver goes inactive at once, whatever is on its way.
     void abort();
 
-    std::uint64_t write_errors() const { return write_errors_; }   ///< replies that the port did not take
+    std::uint64_t write_errors() const { return write_errors_; }   ///< replies that the port did not accept
     std::uint64_t driver_errors() const { return driver_errors_; } ///< edges that failed
     std::uint64_t driver_guarded() const { return transmission_.guarded(); }
 

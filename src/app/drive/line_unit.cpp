@@ -95,12 +95,13 @@ void LineUnit::log_ride_through(const std::optional<Instant>& ends)
     const std::string& name = config->name;
     if (ends && !before) ride_layout_ = layout_;
     if (ends == kNever)
-        spdlog::warn("{}: the master is lost; the outputs stand until it returns (RIDE THROUGH)", name);
+        spdlog::warn("{}: the master is lost; the outputs keep their values until it returns (RIDE THROUGH)",
+                     name);
     else if (ends)
-        spdlog::warn("{}: the master is lost; the outputs stand for {:.1f} s more (RIDE THROUGH)", name,
-                     std::chrono::duration<double>(*ends - io::monotonic_now()).count());
+        spdlog::warn("{}: the master is lost; the outputs keep their values for {:.1f} s more (RIDE THROUGH)",
+                     name, std::chrono::duration<double>(*ends - io::monotonic_now()).count());
     else if (layout_ != ride_layout_)
-        spdlog::info("{}: the master is back and has taken over the outputs that stood", name);
+        spdlog::info("{}: the master is back and has taken over the outputs", name);
     else
         spdlog::warn("{}: RIDE THROUGH is over: the outputs are set to 0", name);
 }

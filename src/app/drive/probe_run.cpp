@@ -29,7 +29,7 @@ bool answers_twice(const config::LineConfig& trial, drive::UnitAddress address)
 ProbeReport run_probe(const ProbeOrder& order, const config::LineConfig& line, const LineUnit& unit,
                       const std::vector<LineUnit>& units, LineLink& link, const std::stop_token& stop)
 {
-    spdlog::info("{}: looking for the drive on {} with other rates, formats and units", unit.config->name,
+    spdlog::info("{}: searching for the drive on {} with other rates, formats and units", unit.config->name,
                  line.port);
     // The drive of another station is where it should be: what answers there is not the one looked for.
     const auto is_of_another = [&](drive::UnitAddress address) {

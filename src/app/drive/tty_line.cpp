@@ -24,7 +24,7 @@ void TtyLine::lose()
 {
     port_.lose(now());
     is_open_.store(false, std::memory_order_relaxed);
-    log_.say(LimitedLog::Level::error, port_.path() + " has gone; it is opened again as soon as it returns",
+    log_.say(LimitedLog::Level::error, port_.path() + " is missing; it is opened again as soon as it returns",
              now());
 }
 

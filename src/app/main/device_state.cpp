@@ -68,7 +68,7 @@ std::string remedy(OptionFault fault, const tec::Settings& settings)
                    "at the adapters and their cables, and at the GPIO chip; the log names which it is, and "
                    "it "
                    "is opened again as soon as it returns.";
-        case OptionFault::missing: return "There is no option: look at what the log says about the ports.";
+        case OptionFault::missing: return "There is no option: see what the log says about the ports.";
     }
     return "";
 }
@@ -275,8 +275,8 @@ std::vector<std::string> DeviceState::notes() const
             fmt::format("EXT DIAGNOSTIC follows tag {} of the drive.", config_->tec->ext_diagnostic_tag));
     }
     if (settings_ != start)
-        notes.emplace_back("What was set stands until the next start; to keep it, put it into the "
-                           "configuration file.");
+        notes.emplace_back("Values that were set apply until the next start. To keep them, write them into "
+                           "the configuration file.");
     return notes;
 }
 
@@ -390,7 +390,7 @@ void DeviceState::say_status()
     if (faults == status_said_) return;
     status_said_ = faults;
     if (faults == 0)
-        say(false, "the instrument reports no alarm and no fault any more");
+        say(false, "the instrument no longer reports an alarm or a fault");
     else
         say(true,
             fmt::format("the instrument reports {}", shown_value(*config_->tags, config_->status_tag, word)));

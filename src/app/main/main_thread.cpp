@@ -182,7 +182,7 @@ void MainThread::log_port_events()
     while (const auto news = bus_.port_events.pop()) {
         switch (*news) {
             case PortEvent::lost:
-                say(Level::error, port + " has gone; it is opened again as soon as it returns");
+                say(Level::error, port + " is missing; it is opened again as soon as it returns");
                 break;
             case PortEvent::back: say(Level::info, port + " is back"); break;
             case PortEvent::driver_lost:

@@ -52,7 +52,7 @@ Reply PendingProbes::start(const Station& station, const Json& parameters, const
     if (pending_.size() >= kMaxProbes ||
         !station.drive_line->link.probes.push({.number = replies_.next_token, .station = station.number}))
         return Error{"Busy", Json::object()};
-    spdlog::info("{}: the drive is looked for on line {} by {}", station.config->name, line.name,
+    spdlog::info("{}: search for the drive on line {}, started by {}", station.config->name, line.name,
                  words_of(caller));
     Probe& probe = pending_[replies_.next_token];
     probe = {.config = station.config,

@@ -75,10 +75,10 @@ void Reload::start()
         outcome_ = attempt();
     } catch (const std::exception& error) { // no descriptor, no thread or no memory left; nothing was changed
         outcome_ = {};
-        outcome_.faults.push_back(fmt::format("a failure of the system: {}", error.what()));
+        outcome_.faults.push_back(fmt::format("a system error: {}", error.what()));
     }
     for (const std::string& fault : outcome_.faults) spdlog::error("{}", fault);
-    if (!outcome_.applied) spdlog::error("the new configuration is refused; the one until now runs on");
+    if (!outcome_.applied) spdlog::error("the new configuration is refused; the old one stays in use");
     if (outcome_.applied && outcome_.changes.empty() && outcome_.pending.empty())
         spdlog::info("nothing has changed");
     if (step_ == Step::idle) answer();

@@ -88,8 +88,8 @@ void refuse_what_needs_a_restart(const config::Config& present, Plan& plan)
     const auto refuse = [&plan](std::string_view table, const std::string& keys) {
         if (keys.empty()) return;
         plan.refusals.push_back(
-            fmt::format("{} {} cannot change while the bus is served: put the old value back and "
-                        "reload, or restart the service (systemctl restart dpslaved), which "
+            fmt::format("{} {} cannot change while the bus is served: restore the old value and reload, or "
+                        "restart the service (systemctl restart dpslaved), which "
                         "silences every station for a moment",
                         table, keys));
     };
@@ -114,7 +114,7 @@ void plan_lines(const config::Config& present, Plan& plan)
             plan.changes.push_back(
                 fmt::format("line {} moves from {} to {}", line.name, old.port, line.port));
         else if (planned.is_opened_anew)
-            plan.changes.push_back(fmt::format("line {} changed: {} is opened anew", line.name, line.port));
+            plan.changes.push_back(fmt::format("line {} changed: {} is opened again", line.name, line.port));
         if (old.name != line.name)
             plan.changes.push_back(fmt::format("line {}: its name, which was {}", line.name, old.name));
         if (old.retries != line.retries) plan.changes.push_back(fmt::format("line {}: retries", line.name));
@@ -130,7 +130,7 @@ void hold_address(const config::StationConfig& before, config::StationConfig& st
 {
     if (before.address == station.address || !is_option_board(before) || !is_option_board(station)) return;
     plan.pending.push_back(fmt::format(
-        "station {}: address {} counts from the next start on, as it does on an option board; until then it "
+        "station {}: address {} takes effect at the next start, as on an option board; until then it "
         "is {}: "
         "restart the service (systemctl restart dpslaved) when the master may lose it for a moment",
         station.name, station.address, before.address));
@@ -183,7 +183,7 @@ void plan_station(const config::Config& present, const std::vector<InForce>& in_
     const std::string& reason = change.leaves.names();
     plan.leaving.push_back({old.name, reason});
     plan.changes.push_back(
-        fmt::format("station {} changed: it leaves the bus and starts anew at address {} ({})", station.name,
+        fmt::format("station {} changed: it leaves the bus and starts again at address {} ({})", station.name,
                     station.address, reason));
 }
 
@@ -230,10 +230,10 @@ void refuse_addresses_in_use(const config::Config& present, const std::vector<In
 void plan_rest(const config::Config& present, Plan& plan)
 {
     if (present.sysfs != plan.config.sysfs)
-        plan.changes.push_back(fmt::format("lamps are looked for in {}", plan.config.sysfs.string()));
+        plan.changes.push_back(fmt::format("lamps are now taken from {}", plan.config.sysfs.string()));
     if (present.control.operator_group != plan.config.control.operator_group)
         plan.changes.push_back(
-            fmt::format("group {} may operate, for callers from now on", plan.config.control.operator_group));
+            fmt::format("group {} may operate, from the next call on", plan.config.control.operator_group));
 }
 
 /// The order alone changes no function, but the index of a line or station.
@@ -242,7 +242,7 @@ void plan_order(Plan& plan)
     bool moved = false;
     for (std::size_t i = 0; i < plan.lines.size(); ++i) moved = moved || plan.lines[i].before != i;
     for (std::size_t i = 0; i < plan.stations.size(); ++i) moved = moved || plan.stations[i].stays != i;
-    if (moved && plan.changes.empty()) plan.changes.emplace_back("lines or stations stand in another order");
+    if (moved && plan.changes.empty()) plan.changes.emplace_back("lines or stations are in another order");
 }
 
 } // namespace

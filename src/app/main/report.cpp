@@ -164,7 +164,7 @@ std::string_view text(AccessError error) noexcept
         case AccessError::contradicted:
             return "the drive has answered with more decimals than the tag table gives";
         case AccessError::not_kept:
-            return "the drive takes the value and then holds another one: read the tag";
+            return "the drive accepts the value and then holds another one: read the tag";
     }
     return "?";
 }

@@ -34,31 +34,33 @@ Group bus_counters(const View& view)
     add(c, "checked", fdl.checked, "those of them that have a checksum: noise cannot make them");
     add(c, "requests", fdl.requests, "to one of our addresses or to all");
     add(c, "replies", fdl.replies, "sent");
-    add(c, "retries", fdl.retries, "answered with the stored reply: the master had not heard the first one");
+    add(c, "retries", fdl.retries,
+        "answered with the stored reply: the master had not received the first one");
     add(c, "overtaken", fdl.overtaken,
         "requests dropped because something followed them: the machine reads too late");
     add(c, "late", fdl.late, "replies suppressed because MaxTsdr had passed: see [realtime] and max_tsdr");
     add(c, "too_late", view.bus.too_late,
         "replies begun in time whose write ended behind MaxTsdr: see [realtime] and max_tsdr");
     add(c, "own_address", fdl.own_address, "telegrams of another device with one of our addresses");
-    add(c, "write_errors", view.bus.write_errors, "replies that the port did not take");
+    add(c, "write_errors", view.bus.write_errors, "replies that the port did not accept");
     add(c, "unsent", view.bus.unsent,
         "replies that did not go out: those, or the port was closed, or the driver enable did not work");
     add(c, "driver_errors", view.bus.driver_errors,
-        "edges of the driver enable that failed: look at gpio_chip, gpio_line and the log");
+        "edges of the driver enable that failed: check gpio_chip, gpio_line and the log");
     add(c, "driver_guarded", view.bus.driver_guarded,
-        "times that the guard let the driver go: the UART never said that it had sent all");
-    add(c, "echo_missing", view.bus.echo_missing, "echoes of our own that did not come: is echo set right?");
+        "times that the guard released the driver: the UART did not report that it had sent all");
+    add(c, "echo_missing", view.bus.echo_missing,
+        "echoes of our replies that did not come: check echo under [bus]");
     add(c, "echo_broken", view.bus.echo_broken,
-        "echoes of our own that were not what was sent: a collision, or a short circuit");
+        "echoes of our replies that differ from what was sent: a collision, or a short circuit");
     add(c, "page_faults", view.bus.page_faults,
         "of the bus thread while it serves: see lock_memory in [realtime]");
     for (std::size_t i = 0; i < fdl::kFlaws; ++i)
         add(c, fmt::format("flaw: {}", fdl::text(static_cast<fdl::Flaw>(i))), fdl.flaws[i],
-            "pieces of the stream that were no telegram: noise, wiring, termination, rate");
+            "pieces of the stream that were not a telegram: noise, wiring, termination, rate");
     add(c, "search_flaws", fdl.search_flaws,
         "the same while the rate was searched: at a rate that is not the bus's nothing is a telegram");
-    add(c, "lost_events", view.lost_events, "events that the log could not take");
+    add(c, "lost_events", view.lost_events, "events that did not fit into the log");
     return {"bus", std::move(c)};
 }
 
@@ -70,7 +72,7 @@ Group station_counters(const Station& station)
     add(c, "data_exchange", dp.data_exchange, "Data_Exchange telegrams carried out");
     add(c, "slave_diag", dp.slave_diag, "");
     add(c, "set_prm", dp.set_prm, "");
-    add(c, "foreign_prm", dp.foreign_prm, "those of them of another master than the one that has this slave");
+    add(c, "foreign_prm", dp.foreign_prm, "those of them from a master that does not own this slave");
     add(c, "chk_cfg", dp.chk_cfg, "");
     add(c, "get_cfg", dp.get_cfg, "");
     add(c, "rd_inp", dp.rd_inp, "");
@@ -79,9 +81,10 @@ Group station_counters(const Station& station)
     add(c, "not_activated", dp.not_activated,
         "requests answered RS: not possible in this state or for this master");
     add(c, "no_resource", dp.no_resource, "requests answered RR");
-    add(c, "watchdog_expired", dp.watchdog_expired, "the master was silent for longer than it promised");
+    add(c, "watchdog_expired", dp.watchdog_expired,
+        "the master was silent for longer than its watchdog time");
     add(c, "left_data_exchange", dp.left_data_exchange,
-        "ways out of Data_Exch: the outputs went to their safe state");
+        "times that Data_Exch was left: the outputs went to their safe state");
     add(c, "demand_orders", dp.demand_orders, "Demand Data reads and writes");
     add(c, "demand_rejects", dp.demand_rejects, "answered with 7");
     add(c, "drive_reads", drive.reads, "transactions with the drive");
@@ -92,21 +95,21 @@ Group station_counters(const Station& station)
         "those of them that the drive could not take: noise on the way to it, or a wrong format");
     add(c, "drive_not_accepted", drive.heard.not_accepted,
         "requests that the drive refused for their check sum (EI-ASCII: EE 02): noise on the way to it");
-    add(c, "drive_losses", drive.losses, "times the drive was given up until it answered again");
+    add(c, "drive_losses", drive.losses, "times the drive was treated as lost until it answered again");
     add(c, "drive_damaged", drive.heard.damaged, "answers with a wrong check sum, a parity fault or no form");
     add(c, "drive_bad_checksum", drive.heard.bad_checksum,
         "those of them that were whole but for their check sum (EI-ASCII)");
     add(c, "drive_late", drive.heard.late, "answers that came after their time-out");
-    add(c, "drive_foreign", drive.heard.foreign, "frames that answered nothing that was asked");
+    add(c, "drive_foreign", drive.heard.foreign, "frames that answered no request");
     add(c, "drive_came_back", drive.heard.came_back,
-        "requests that were heard again: the line has an echo and [[line]] echo is off");
+        "requests that were received again: the line has an echo and [[line]] echo is off");
     add(c, "drive_delay_ms", static_cast<std::uint64_t>(drive.heard.delay / std::chrono::milliseconds{1}),
         "of the late answers: the longest since one came in time");
     add(c, "drive_needs_timeout_ms", static_cast<std::uint64_t>(drive::needed_timeout(drive.heard).count()),
         "not 0: the drive is always late, and timeout_ms has to be at least this");
     add(c, "demand_orders_lost", dp.orders_lost, "Demand Data orders that the bus side had no room for");
     add(c, "drive_orders_dropped", drive.orders_dropped,
-        "Demand Data writes that no longer stood when they could have been carried out");
+        "Demand Data writes that the master withdrew before they could be carried out");
     return {station.config->name, std::move(c)};
 }
 

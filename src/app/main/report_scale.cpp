@@ -33,7 +33,7 @@ std::optional<std::string> scale_words(const Station& station)
             "{}: the scale of {} is not known. Give each a confirmed row with decimals in "
             "the tag table (dpctl "
             "survey finds a lower bound), or set unlisted_decimals, then run dpctl reload",
-            is_held ? "The exchange does not begin" : "Inputs read 0 and outputs are not written", tags);
+            is_held ? "Data exchange does not start" : "Inputs read 0 and outputs are not written", tags);
     if (const std::string tags = listed(all, true); !tags.empty())
         words +=
             fmt::format("{}The tag table gives too few decimals to {}. The tag is refused: correct its row, "
@@ -49,7 +49,7 @@ std::string row_advice(const config::StationConfig& station, std::uint16_t tag)
     if (row == nullptr)
         return fmt::format("the tag table {} has no line for tag {}: check the number, or {}",
                            station.tag_file, tag,
-                           is_of_profile ? "write a table of your own and name it with 'tags' in [[station]]"
+                           is_of_profile ? "write your own table and name it with 'tags' in [[station]]"
                                          : "add a line with name, type and decimals");
     if (!row->confirmed)
         return "its row is not confirmed: compare it with the drive's manual and set confirmed to yes";

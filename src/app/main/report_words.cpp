@@ -33,17 +33,17 @@ std::string_view advice_for(dp::Refusal why)
         case prm_ident:
             return "use the GSD of this device in the master's project, or check that the master expects "
                    "this device at this address";
-        case prm_watchdog: return "both watchdog factors must be 1 to 255, or the watchdog be off";
+        case prm_watchdog: return "set both watchdog factors to 1 to 255, or switch the watchdog off";
         case prm_not_supported: return "switch Sync and Freeze off for this slave in the master's project";
         case prm_length:
             return "check the User_Prm_Data (the hex parameters of the slave) in the master's project";
         case prm_dpv1: return "switch the DP-V1 functions off for this slave in the master's project";
         case prm_tag_too_large:
-            return "check the tag numbers; three octets 00 too many at the front come from a master that "
-                   "takes this for a DP-V1 device";
-        case prm_zero_tag: return "close the gap: unused tags stand at the end";
+            return "check the tag numbers; three extra octets 00 at the front come from a master that treats "
+                   "this as a DP-V1 device";
+        case prm_zero_tag: return "close the gap: put unused tags at the end";
         case cfg_empty: return "add at least one module (identifier) to the slave in the master's project";
-        case cfg_too_long: return "take modules away";
+        case cfg_too_long: return "remove modules";
         case cfg_identifier: return "use the modules of the GSD; Demand Data can only be the first one";
         case cfg_too_few: return "add a module for each tag, or end the list of tags with 0";
         case cfg_too_many: return "name a tag in User_Prm_Data for each input and output module";
@@ -249,7 +249,7 @@ std::string sentence(const std::string& station, const dp::Event& event)
         case Kind::clear_data: return fmt::format("{}: Clear_Data, outputs are zero", station);
         case Kind::watchdog_of_master:
             return fmt::format(
-                "{}: master {} runs without watchdog: if it vanishes, the outputs stay as they are for ever",
+                "{}: master {} runs without watchdog: if it is lost, the outputs keep their values for ever",
                 station, event.master);
         case Kind::overflow: return fmt::format("{}: events were lost, the log has a gap", station);
     }

@@ -55,7 +55,7 @@ void guarded(std::atomic<bool>& failed, const char* name, const std::function<vo
         io::name_thread(name);
         work();
     } catch (const std::exception& error) {
-        spdlog::critical("the {} thread had to give up: {}", name, error.what());
+        spdlog::critical("the {} thread ended because of an error: {}", name, error.what());
         failed.store(true, std::memory_order_relaxed);
     }
 }

@@ -47,9 +47,9 @@ std::vector<std::string> self_test(Bytes known, Instant earlier, Instant later)
 {
     std::vector<std::string> failed;
     if (!is_understood_and_sent_as_it_is(known))
-        failed.emplace_back("a known telegram is not understood, or not sent as it is to be");
+        failed.emplace_back("a known telegram is decoded or encoded wrongly");
     else if (!is_refused_with_any_bit_wrong(known))
-        failed.emplace_back("a telegram with a wrong bit is taken for a good one");
+        failed.emplace_back("a telegram with a wrong bit is accepted as valid");
     if (later <= earlier) failed.emplace_back("the clock of the bus (CLOCK_MONOTONIC) does not advance");
     return failed;
 }

@@ -11,12 +11,12 @@ namespace {
 
 void follow_flag(CLI::App& app, Options& options)
 {
-    app.add_flag("--follow", options.follow, "Go on and show each change, until Ctrl-C");
+    app.add_flag("--follow", options.follow, "Continue until Ctrl-C and show each change");
 }
 
 void station_option(CLI::App& app, Options& options)
 {
-    app.add_option("--station", options.station, "Name or address; needed when there are several")
+    app.add_option("--station", options.station, "Name or address; required if there are several")
         ->type_name("STATION");
 }
 
@@ -24,7 +24,7 @@ void profile_options(CLI::App& app, Options& options, const char* what_profile_d
 {
     app.add_option("--profile", options.profile, what_profile_does)->type_name("NAME");
     app.add_option("--profiles", options.profiles,
-                   "Folder of the device profiles; the tag tables lie in ../tags")
+                   "Folder of the device profiles; the tag tables are in ../tags")
         ->type_name("DIR")
         ->capture_default_str();
 }
@@ -60,14 +60,14 @@ void status_arguments(CLI::App& app, Options& options)
     station_argument(app, options);
     follow_flag(app, options);
     auto* wait = app.add_option("--wait", options.wait_s,
-                                "Wait at most so long until all stations, or this one, are in exchange")
+                                "Wait at most this long until all stations, or this one, are in exchange")
                      ->type_name("SECONDS")
                      ->check(CLI::Range(0.0, 86400.0).description(""))
                      ->excludes("--follow");
     app.add_flag("--drive", options.with_drive,
-                 "With --wait: the drive must answer, too, and the master must not be in Clear")
+                 "With --wait: the drive must also answer, and the master must not be in Clear")
         ->needs(wait);
-    app.add_flag("--quiet", options.quiet, "With --wait: print nothing, the exit code says it")->needs(wait);
+    app.add_flag("--quiet", options.quiet, "With --wait: print nothing, only set the exit code")->needs(wait);
 }
 
 void io_arguments(CLI::App& app, Options& options)
@@ -101,11 +101,11 @@ void tec_arguments(CLI::App& app, Options& options)
     set.add_option("NAME", options.parameter, "Name of the input: TYPE, ADDRESS, RIDE_THROUGH ...")
         ->required()
         ->type_name("");
-    set.add_option("VALUE", options.value, "A number (12, -1, 0x6AB5), of TYPE also a name")
+    set.add_option("VALUE", options.value, "A number (12, -1, 0x6AB5); for TYPE also a name")
         ->required()
         ->type_name("");
     station_option(set, options);
-    set.add_flag("--yes", options.yes, "Also if it silences a station that is in exchange");
+    set.add_flag("--yes", options.yes, "Set it even if this silences a station that is in exchange");
     add_common(set, options);
 }
 
@@ -114,14 +114,15 @@ void doctor_arguments(CLI::App& app, Options& options)
     station_argument(app, options);
     auto* all = app.add_flag("--all", options.all, "Print every rule: lamps and symptoms, causes, steps");
     app.add_flag("--probe", options.probe,
-                 "Let the daemon look for the drive on its line: other rates, formats and units")
+                 "Let the daemon search for the drive on its line: other rates, formats and units")
         ->excludes(all);
-    app.add_flag("--yes", options.yes, "With --probe: also while a station of this line is in exchange");
+    app.add_flag("--yes", options.yes,
+                 "With --probe: search even while a station of this line is in exchange");
 }
 
 void port_argument(CLI::App& app, Options& options)
 {
-    app.add_option("PORT", options.port, "A tty; without it: that of the running daemon. It is not opened")
+    app.add_option("PORT", options.port, "A tty, which is not opened; default: that of the running daemon")
         ->type_name("");
 }
 
@@ -130,9 +131,9 @@ void query_arguments(CLI::App& app, Options& options)
     app.add_option("WHAT", options.words,
                    "A tag number (270, 0x10E), or words of its name; a number belongs to the word before it")
         ->type_name("");
-    app.add_flag("--all", options.all, "Also names that say more than WHAT");
-    auto* table = app.add_option("--table", options.table, "Look into this CSV file only")->type_name("FILE");
-    profile_options(app, options, "Look into the table of this profile only");
+    app.add_flag("--all", options.all, "Also find names that contain more than WHAT");
+    auto* table = app.add_option("--table", options.table, "Search only this CSV file")->type_name("FILE");
+    profile_options(app, options, "Search only the table of this profile");
     table->excludes("--profile");
 }
 
@@ -147,7 +148,7 @@ void number_arguments(CLI::App& app, Options& options)
 void reload_arguments(CLI::App& app, Options& options)
 {
     app.add_flag("--dry-run", options.dry_run,
-                 "Only prints what a reload would do; no port is opened for it");
+                 "Only say what a reload would do; change nothing and open no port");
 }
 
 void octet_arguments(CLI::App& app, Options& options)
@@ -158,36 +159,36 @@ void octet_arguments(CLI::App& app, Options& options)
     app.add_option("--as", options.form, "The octets are those of a Set_Prm, a Chk_Cfg or a Slave_Diag")
         ->type_name("prm|cfg|diag")
         ->check(CLI::IsMember({"prm", "cfg", "diag"}).description(""));
-    profile_options(app, options, "Take tags, modules and the extended diagnosis for those of this device");
+    profile_options(app, options, "Explain tags, modules and the extended diagnosis as those of this device");
 }
 
 void survey_arguments(CLI::App& app, Options& options)
 {
-    app.add_option("STATION", options.station, "Name or address; needed when there are several")
+    app.add_option("STATION", options.station, "Name or address; required if there are several")
         ->type_name("");
-    app.add_option("--tags", options.tags, "Ask these tags only: 1-600,1000-1127")
+    app.add_option("--tags", options.tags, "Ask only for these tags: 1-600,1000-1127")
         ->type_name("LIST")
         ->check([](const std::string& text) {
             const auto spans = profile::parse_tag_spans(text);
             return spans ? std::string{} : spans.error();
         });
     app.add_option("--table", options.table,
-                   "The tag table to write; one that is there is joined. Without it: STATION.csv")
+                   "The tag table to write; an existing one is continued. Default: STATION.csv")
         ->type_name("FILE");
-    auto* duration = app.add_option("--for", options.duration, "Go on for so long: 90s, 10m, 2h")
-                         ->type_name("TIME")
-                         ->check([](const std::string& text) {
-                             return profile::parse_duration(text)
-                                        ? std::string{}
-                                        : toml::in_quotes(text) + ": write a time up to 30 days, as "
-                                                                  "90s, 10m or 2h";
-                         });
-    app.add_option("--passes", options.passes, "Ask each tag so often")
+    auto* duration =
+        app.add_option("--for", options.duration, "Repeat the passes for this time: 90s, 10m, 2h")
+            ->type_name("TIME")
+            ->check([](const std::string& text) {
+                return profile::parse_duration(text)
+                           ? std::string{}
+                           : toml::in_quotes(text) + ": write a time up to 30 days, such as 90s, 10m or 2h";
+            });
+    app.add_option("--passes", options.passes, "Number of times to ask for each tag")
         ->type_name("N")
         ->check(CLI::Range(1, 1'000'000).description(""))
         ->capture_default_str()
         ->excludes(duration);
-    app.add_flag("--resume", options.resume, "Go on where the survey before this one ended");
+    app.add_flag("--resume", options.resume, "Continue where the last survey ended");
 }
 
 } // namespace dpslave::dpctl

@@ -17,12 +17,12 @@ int print_error(const control::ClientError& error, Terminal& terminal)
     terminal.err << "dpctl: " << error.text << '\n';
     if (error.kind == Kind::no_daemon)
         terminal.err
-            << "Is dpslaved running? Ask: systemctl status dpslaved, or start it: dpslaved --config FILE\n"
+            << "Check whether dpslaved runs: systemctl status dpslaved. Or start it: dpslaved --config FILE\n"
                "journalctl -u dpslaved says why it does not start.\n"
                "Without dpslaved no station is on the bus: the lamps are off, as without power.\n";
-    if (error.kind == Kind::no_access) terminal.err << "The folder or the socket is closed to this user.\n";
+    if (error.kind == Kind::no_access) terminal.err << "This user may not open the folder or the socket.\n";
     if (error.kind == Kind::timeout)
-        terminal.err << "The daemon runs but is silent; see: journalctl -u dpslaved\n";
+        terminal.err << "The daemon runs but does not answer. See: journalctl -u dpslaved\n";
     return error.kind == Kind::no_daemon || error.kind == Kind::no_access ? kNoDaemon : kNo;
 }
 

@@ -21,11 +21,12 @@ constexpr const char* kJudges =
 constexpr const char* kSurveys =
     "0 complete, 1 refused, faulty or not complete, 2 usage or no such station, 3 no daemon.";
 constexpr const char* kReloads = "0 applied, or can be; 1 refused or faulty; 2 usage; 3 no daemon.";
-constexpr const char* kTunes = "0 fine, 1 the rate of the bus cannot be held or something must be mended,\n"
-                               "2 usage, 3 no PORT and no daemon.";
+constexpr const char* kTunes =
+    "0 fine, 1 the rate of the bus cannot be held or something must be corrected,\n"
+    "2 usage, 3 no PORT and no daemon.";
 constexpr const char* kNeedsNone = "0 fine, 1 not found or faulty, 2 usage; no daemon is needed.";
 constexpr const char* kVersions =
-    "0 fine, also without a daemon; 1 a faulty answer; 2 usage; 3 the socket is closed to this user.";
+    "0 fine, also without a daemon; 1 a faulty answer; 2 usage; 3 this user may not open the socket.";
 
 constexpr std::array kCommands = std::to_array<Command>({
     {"status", kLook, "The bus, and each station in one line",
@@ -34,17 +35,18 @@ constexpr std::array kCommands = std::to_array<Command>({
      "dpctl status unwinder --wait 30 --quiet  for scripts: 0 as soon as it is in exchange, 1 if not\n"
      "dpctl status --wait 0 --quiet --drive    are all in exchange now, and do their drives answer?",
      status_arguments, do_status},
-    {"show", kLook, "All about a station: state, drive, what it emulates, lamps, TEC OPTION", kShowJson,
+    {"show", kLook, "Everything about a station: state, drive, emulated device, lamps, TEC OPTION", kShowJson,
      kShows, "", station_argument, do_show},
     {"io", kLook, "Inputs and outputs by tag: raw, scaled, state and age",
      "GetIo, with --follow those of Watch, one a line", kShows, "", io_arguments, do_io},
-    {"diag", kLook, "The diagnosis decoded, and the last refused telegram explained", "GetDiagnosis", kShows,
+    {"diag", kLook, "Decodes the diagnosis and explains the last refused telegram", "GetDiagnosis", kShows,
      "", station_argument, do_diag},
-    {"counters", kLook, "How often what happened", "GetCounters", kShows, "", no_arguments, do_counters},
+    {"counters", kLook, "Number of telegrams and line faults, and how long the replies took", "GetCounters",
+     kShows, "", no_arguments, do_counters},
     {"doctor", kLook, "Names the likely cause of a fault and the next step", kDoctorJson, kJudges,
      "dpctl doctor            every station\n"
      "dpctl doctor unwinder   this one\n"
-     "dpctl doctor --probe    looks for a drive that was never heard (root and the operator group)\n"
+     "dpctl doctor --probe    searches for a drive that never answered (root and the operator group)\n"
      "dpctl doctor --all      all rules, for lamps and symptoms that you see",
      doctor_arguments, do_doctor},
     {"read", kOperate, "Reads a tag from the drive now", "ReadTag", kShows,
@@ -64,7 +66,7 @@ constexpr std::array kCommands = std::to_array<Command>({
      "group)",
      kSurveyJson, kSurveys,
      "dpctl survey unwinder                          every tag once, into unwinder.csv\n"
-     "dpctl survey unwinder --resume                 goes on after Ctrl-C\n"
+     "dpctl survey unwinder --resume                 continues after Ctrl-C\n"
      "dpctl survey unwinder --tags 1-600 --for 10m   the extremes of ten minutes",
      survey_arguments, do_survey},
     {"reload", kOperate,
@@ -72,12 +74,11 @@ constexpr std::array kCommands = std::to_array<Command>({
      "Reload", kReloads,
      "dpctl reload --dry-run   what it would change, and which stations would leave the bus and why",
      reload_arguments, do_reload},
-    {"tune", kOperate, "What this machine can promise at each rate, and what would make it better", kTuneJson,
-     kTunes,
+    {"tune", kOperate, "Says which rates this machine can hold, and what would improve it", kTuneJson, kTunes,
      "dpctl tune               the port of the running daemon, with what was measured\n"
-     "dpctl tune /dev/ttyS1    this port, before there is a daemon",
+     "dpctl tune /dev/ttyS1    this port, if no daemon runs yet",
      port_argument, do_tune},
-    {"tag", kOffline, "Looks a parameter of a drive up in the tag tables, by number or by words", kTagJson,
+    {"tag", kOffline, "Looks up a parameter of a drive in the tag tables, by number or by words", kTagJson,
      kNeedsNone,
      "dpctl tag                            the tables that are shipped\n"
      "dpctl tag 270\n"
@@ -85,13 +86,13 @@ constexpr std::array kCommands = std::to_array<Command>({
      "dpctl tag program 1 segment 4 type   the address of a word of a program\n"
      "dpctl tag speed --profile 590plus",
      query_arguments, do_tag},
-    {"hex", kOffline, "Numbers of 16 bits in decimal and hexadecimal, with the octets for User_Prm_Data",
+    {"hex", kOffline, "16-bit numbers in decimal and hexadecimal, with the octets for User_Prm_Data",
      kHexJson, kNeedsNone,
      "dpctl hex 288 0x120\n"
      "dpctl hex -300.00       with two decimals, as it goes over the bus: 8AD0\n"
      "dpctl hex 0-559         the table of the manuals",
      number_arguments, do_hex},
-    {"decode", kOffline, "A PROFIBUS telegram or a diagnosis in words", kDecodeJson, kNeedsNone,
+    {"decode", kOffline, "Explains a PROFIBUS telegram or a diagnosis in words", kDecodeJson, kNeedsNone,
      "dpctl decode 68 05 05 68 85 82 6D 3C 3E EE 16\n"
      "dpctl decode --as prm 88 01 0A 0B 05 33 00    octets as dpctl diag prints them\n"
      "dpctl decode 00 0C 00 01 16 49 04 01 6A B5 --profile 605",
@@ -109,17 +110,18 @@ std::span<const Command> commands()
 
 const char* const kFooter =
     "STATION is a name or an address. Values are in the drive's displayed units: dpctl write 56 -12.5\n"
-    "--json prints the parameters of the daemon's reply as they come (an error with its name and "
+    "--json prints the unchanged parameters of the daemon's reply (an error with its name and "
     "parameters).\n"
     "The Varlink interface org.dpslaved.Control describes them: see\n" DPSLAVE_DATA_FOLDER
     "/org.dpslaved.Control.varlink, or ask the daemon:\n"
     "varlinkctl introspect /run/dpslaved/control.sock org.dpslaved.Control\n"
-    "show, doctor, survey, tune, tag, hex and decode have a form of their own: see their --help.\n"
-    "Exit codes, more exactly in the --help of each command:\n"
+    "show, doctor, survey, tune, tag, hex and decode have their own form: see their --help.\n"
+    "Exit codes; the --help of each command has the details:\n"
     "  0  fine\n"
-    "  1  refused by the daemon or the drive, a faulty answer or input, not found, or not so (status --wait, "
+    "  1  refused by the daemon or the drive, a faulty answer or input, not found, or the answer is no "
+    "(status --wait, "
     "doctor, survey, tune)\n"
-    "  2  usage, or there is no such station\n"
+    "  2  wrong usage, or no such station\n"
     "  3  no daemon";
 
 std::string footer_of(const Command& command)

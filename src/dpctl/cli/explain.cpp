@@ -48,7 +48,7 @@ std::string no_such_station(const report::NoSuchStation& p)
 }
 std::string station_required(const report::StationRequired& p)
 {
-    return fmt::format("there are several stations, say which one: {}", joined(p.known, ", "));
+    return fmt::format("there are several stations, name one: {}", joined(p.known, ", "));
 }
 std::string not_permitted(const report::NotPermitted& p)
 {
@@ -80,24 +80,23 @@ std::string would_silence(const report::WouldSilence& p)
 {
     return fmt::format(
         "{} = {} would take station '{}' off the bus while a master exchanges data with it ({}); "
-        "if that is wanted: --yes",
+        "to do it anyway, add --yes",
         p.parameter, p.value, p.station, p.reason);
 }
 std::string line_in_use(const report::LineInUse& p)
 {
-    return fmt::format(
-        "line {} works for {}, which a master exchanges data with: its drives would wait for up to a "
-        "minute; if that is wanted: --yes",
-        p.line, joined(p.stations, ", "));
+    return fmt::format("line {} serves {}, with which a master exchanges data: its drives would get no "
+                       "requests for up to a minute; to do it anyway, add --yes",
+                       p.line, joined(p.stations, ", "));
 }
 std::string busy(const Json&)
 {
-    return "the daemon has too many callers or orders at once; try again";
+    return "the daemon has too many connections or requests at once; try again";
 }
 std::string invalid_parameter(const InvalidParameter& p)
 {
     return fmt::format(
-        "the daemon does not take the parameter '{}': dpctl and dpslaved are of different versions",
+        "the daemon does not know the parameter '{}': dpctl and dpslaved are of different versions",
         p.parameter);
 }
 std::string method_not_found(const MethodNotFound& p)
@@ -106,7 +105,8 @@ std::string method_not_found(const MethodNotFound& p)
 }
 std::string interface_not_found(const InterfaceNotFound& p)
 {
-    return fmt::format("what answers on this socket does not know {}: it is no dpslaved", p.interface);
+    return fmt::format("the program that answers on this socket does not know {}: it is not dpslaved",
+                       p.interface);
 }
 
 struct Row {

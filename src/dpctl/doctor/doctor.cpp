@@ -131,19 +131,17 @@ std::string probe_text(const report::ProbeDriveReply& reply)
         out += fmt::format("a drive answers: {} unit {} at {}, {}\n", one.protocol, one.unit, rate(one.baud),
                            one.format);
     if (reply.answering.empty())
-        return out +
-               "nothing answers at any rate, format or unit: cable, power, or the drive's port is not set "
-               "to this protocol\n";
-    return out +
-           "Write what answers under [[line]] and [[station]], or set the drive to what stands there; then "
-           "dpctl reload.\n";
+        return out + "no drive answers at any rate, format or unit: check the cable, the power, and that the "
+                     "drive's port is set to this protocol\n";
+    return out + "Write these settings under [[line]] and [[station]], or set the drive to those that are "
+                 "there. Then: dpctl reload\n";
 }
 
 /// How long it takes at most, and then how far it is: on a terminal only, over the same line.
 void print_progress(const report::ProbeDriveReply& reply, bool is_first, Terminal& terminal)
 {
     if (is_first)
-        terminal.err << fmt::format("looking for the drive of {} on {}: {} s at most; Ctrl-C ends it\n",
+        terminal.err << fmt::format("searching for the drive of {} on {}: {} s at most; Ctrl-C ends it\n",
                                     reply.station, reply.port, reply.longest_s);
     else if (terminal.tty)
         terminal.err << fmt::format("\r{} of {} asked", reply.tried, reply.to_try);
@@ -162,7 +160,7 @@ int do_probe(const Options& options, Terminal& terminal)
         auto reply = client->next(end.fd());
         if (!reply) return print_error(reply.error(), terminal);
         if (!*reply) {
-            terminal.err << "\nended; the line goes back to its work\n";
+            terminal.err << "\nended; the line continues its normal work\n";
             return kNo;
         }
         if (!(*reply)->error.empty()) return print_error(**reply, options, terminal);

@@ -88,7 +88,7 @@ std::vector<Finding> diagnose(const Replies& replies, const std::string& station
 /// Trouble that was counted and has not come again for a minute.
 struct Earlier {
     std::string station; ///< empty = the bus
-    std::string what;    ///< "ways out of Data_Exch"
+    std::string what;    ///< "times that Data_Exch was left"
     std::int64_t count = 0;
     double age_ms = 0; ///< of the last one
 };

@@ -34,7 +34,7 @@ std::string seen_dark(const Facts& f)
 constexpr std::array kRules = std::to_array<Rule>({
     {"board.dark", Rank::stands, "red off, green off", "No power or major fault",
      "Check the power of the gateway and of its transceiver.\n"
-     "Run systemctl status dpslaved. Look why the station is not served: journalctl -u dpslaved",
+     "Run systemctl status dpslaved. Find out why the station is not served: journalctl -u dpslaved",
      kBoard, seen_dark},
     {"board.internal", Rank::checklist,
      "red on (620: flashing 2 Hz), green flashing 2 Hz: the drive does not answer",

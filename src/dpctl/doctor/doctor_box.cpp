@@ -154,7 +154,7 @@ constexpr std::array kRules = std::to_array<Rule>({
      "Read or write failure",
      "Refer to the internal diagnostics. INT DIAG SELECT 300 to 329 shows the access error of parameter 0 to "
      "29.\n"
-     "Look which tag it is: dpctl io, dpctl diag",
+     "See which tag it is: dpctl io, dpctl diag",
      kBox, seen_read_write},
     {"box.trip", Rank::stands, "HEALTH off: the drive reports a trip", "The drive has tripped",
      "Remove the cause at the drive and reset the trip there. The master reads it in the diagnosis of the "

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::string_view kDriverSteps =
     "Run gpioinfo. Check that gpio_chip under [bus] is there, and that no other program has gpio_line.\n"
-    "Look which values of [bus] direction this port can do: journalctl -u dpslaved\n"
-    "Look whether `driver_errors` and `driver_guarded` still grow: dpctl counters";
+    "See which values of [bus] direction this port can do: journalctl -u dpslaved\n"
+    "Check whether `driver_errors` and `driver_guarded` still grow: dpctl counters";
 
 constexpr std::int64_t kOften = 1000;  ///< one in so many is more than a sound machine has
 constexpr double kBurst = 2'000;       ///< ms: a plug or a switch makes flaws for less than that, once
@@ -157,7 +157,7 @@ std::string seen_port(const Facts& f)
 {
     const Count errors = counted(f.counters, "write_errors");
     if (errors.minute == 0) return {};
-    return fmt::format("the port did not take {} {}",
+    return fmt::format("the port did not accept {} {}",
                        errors.minute == 1 ? "1 reply" : fmt::format("{} replies", errors.minute),
                        lately(errors));
 }
@@ -166,21 +166,21 @@ std::string seen_driver(const Facts& f)
     const Count failed = counted(f.counters, "driver_errors"),
                 guarded = counted(f.counters, "driver_guarded");
     if (failed.minute + guarded.minute == 0) return {};
-    return fmt::format("{} failed, and the guard let the driver go {} {}", plural(failed.minute, "edge"),
+    return fmt::format("{} failed, and the guard released the driver {} {}", plural(failed.minute, "edge"),
                        plural(guarded.minute, "time"), lately(failed.minute > 0 ? failed : guarded));
 }
 
 constexpr std::array kRules = std::to_array<Rule>({
     {"bus.gone", Rank::gone, "the port of the bus has vanished",
-     "The port of the bus is gone: adapter pulled, or its driver failed",
-     "Check that the adapter is plugged in. Look where it is now: ls -l /dev/serial/by-id\n"
+     "The port of the bus is missing: the adapter was unplugged, or its driver failed",
+     "Check that the adapter is plugged in. See where it is now: ls -l /dev/serial/by-id\n"
      "Name the port under [bus] by its stable path in /dev/serial/by-id.\n"
-     "Look when it went: journalctl -u dpslaved. It is opened again as soon as it returns.",
+     "See when it went: journalctl -u dpslaved. It is opened again as soon as it returns.",
      kGateway, seen_gone},
     {"bus.driver_gone", Rank::gone, "the driver enable cannot be switched",
      "The transceiver cannot be switched to sending", kDriverSteps, kGateway, seen_driver_gone},
     {"bus.echo", Rank::stands, "each reply of the gateway comes back to it",
-     "The transceiver hears what it sends, and [bus] echo is off",
+     "The transceiver receives what it sends, and [bus] echo is off",
      "Set echo = \"on\" under [bus]. Then restart the service: systemctl restart dpslaved\n"
      "Or switch the echo off at the transceiver. Its receiver must be off while it sends.\n"
      "If echo is on already: find the other device that has the address of a station.",
@@ -197,7 +197,7 @@ constexpr std::array kRules = std::to_array<Rule>({
      "Give this station another address, in the configuration and in the master's project.",
      kBoard, seen_double},
     {"bus.silent", Rank::stands, "not one octet comes from the bus",
-     "Nothing is heard on the bus: cable, transceiver, or the master is off",
+     "Nothing is received from the bus: cable, transceiver, or the master is off",
      "Check that the master is on and its bus is running.\n"
      "Check the cable from A and B of the transceiver (D-sub 8 and 3) to the master. On the old board B was "
      "terminal 3 and A was terminal 4.\n"
@@ -206,9 +206,9 @@ constexpr std::array kRules = std::to_array<Rule>({
     {"bus.rate", Rank::stands, "octets come from the bus, but no telegram with a checksum",
      "The rate is wrong, or the two wires of the bus are swapped",
      "Compare [bus] baud with the rate in the master's project.\n"
-     "baud = \"auto\" finds each rate but 45.45 kbit/s. For that one set baud = 45450.\n"
+     "baud = \"auto\" finds every rate except 45.45 kbit/s. For this rate set baud = 45450.\n"
      "Check that A is D-sub 8 and B is D-sub 3. If not, swap the two wires at the transceiver.\n"
-     "Look which flaws grow: dpctl counters. If only bad characters grow, it is the rate or the wires.",
+     "See which flaws grow: dpctl counters. If only bad characters grow, it is the rate or the wires.",
      kGateway, seen_rate},
     {"bus.other_address", Rank::stands,
      "a master asks for an address where no station answers, and for none of ours",
@@ -219,29 +219,29 @@ constexpr std::array kRules = std::to_array<Rule>({
      kGateway, seen_other_address},
     {"bus.driver", Rank::recent, "the driver enable cannot be switched, or is released too late",
      "The transceiver is not switched as configured", kDriverSteps, kGateway, seen_driver},
-    {"bus.port", Rank::recent, "the port does not take replies", "The port of the bus fails",
-     "Look what the system answered: journalctl -u dpslaved. Check [bus] port.", kGateway, seen_port},
+    {"bus.port", Rank::recent, "the port does not accept replies", "The port of the bus fails",
+     "See what the system answered: journalctl -u dpslaved. Check [bus] port.", kGateway, seen_port},
     {"bus.flaws", Rank::recent, "five flaws in a minute: damaged telegrams, or noise between them",
      "The line of the bus is disturbed",
      "Check wiring, paying particular attention to the screening.\n"
      "Check that the line is not longer than the rate allows (below).\n"
      "Check that both ends of the segment are terminated, and no device between. Some equipment has "
      "resistors that can be switched in and out.\n"
-     "Look which flaws grow: dpctl counters",
+     "See which flaws grow: dpctl counters",
      kBox, seen_flaws},
     {"bus.late", Rank::recent,
      "more than one reply in a thousand came too late, or its request was overtaken",
      "This machine answers too late",
-     "Set priority, cpu and lock_memory under [realtime]. They keep the other work of the machine away.\n"
+     "Set priority, cpu and lock_memory under [realtime]. Then other programs delay the bus thread less.\n"
      "If the machine cannot be faster: set max_tsdr under [bus]. Give the master the GSD that `dpctl gsd "
      "make` then writes.\n"
      "Run dpctl tune. It says what delays this machine, and which rates it can serve.\n"
-     "Look whether `late`, `too_late` and `overtaken` still grow: dpctl counters",
+     "Check whether `late`, `too_late` and `overtaken` still grow: dpctl counters",
      kGateway, seen_late},
     {"bus.retries", Rank::recent, "the master repeats more than one request in a thousand",
-     "The master does not hear the replies",
+     "The master does not receive the replies",
      "Check [bus] direction: the transceiver must send in time, and receive at once afterwards.\n"
-     "Check wiring and termination. The master hears less than this gateway does.\n"
+     "Check wiring and termination. The signal can be worse at the master than at this gateway.\n"
      "Look at `late`: dpctl counters. If it is not 0, the machine answers too late.",
      kGateway, seen_retries},
 });

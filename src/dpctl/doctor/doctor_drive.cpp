@@ -16,7 +16,7 @@ constexpr std::string_view kNoiseSteps =
     "Check the cable to the drive: screen, routing away from motor cables, the common of the port (0 V).\n"
     "RS-485: check A and B, the bias, and a terminator at both ends of a long cable.\n"
     "A lower rate of drive and [[line]] is less sensitive.\n"
-    "Look whether drive_silences and drive_damaged still grow: dpctl counters";
+    "Check whether drive_silences and drive_damaged still grow: dpctl counters";
 
 constexpr std::int64_t kSome = 3;         ///< in a minute: a sound line has none
 constexpr std::int64_t kShare = 100;      ///< one in so many transactions
@@ -52,7 +52,7 @@ std::string seen_echo(const Facts& f)
 {
     const Count back = counted(f.station_counters, "drive_came_back");
     if (!is_echo(f)) return {};
-    return fmt::format("{} came back {}: the adapter of {} hears what it sends, and [[line]] echo is off",
+    return fmt::format("{} came back {}: the adapter of {} receives what it sends, and [[line]] echo is off",
                        plural(back.minute, "request"), lately(back), f.station.drive.port);
 }
 /// Is it the time-out, and not the drive, that is wrong? Then it is not silent.
@@ -193,30 +193,30 @@ std::string seen_unknown(const Facts& f)
 
 constexpr std::array kRules = std::to_array<Rule>({
     {"drive.gone", Rank::gone, "the port of the drive line has vanished",
-     "The port of the drive line is gone: adapter pulled, or its driver failed",
-     "Check that the adapter is plugged in. Look where it is now: ls -l /dev/serial/by-id\n"
+     "The port of the drive line is missing: the adapter was unplugged, or its driver failed",
+     "Check that the adapter is plugged in. See where it is now: ls -l /dev/serial/by-id\n"
      "Name the port under [[line]] by its stable path in /dev/serial/by-id.\n"
-     "Look what the system answered: journalctl -u dpslaved. It is tried again every second.",
+     "See what the system answered: journalctl -u dpslaved. It is tried again every second.",
      kGateway, seen_gone},
     {"drive.echo", Rank::stands, "requests to the drive come back from the line",
-     "The line of the drive hears itself: it has an echo",
+     "The transceiver of the drive line receives what it sends",
      "Set echo = \"on\" in the [[line]] of this drive. Then: dpctl reload\n"
      "Or switch the echo off at the adapter. Many two-wire RS-485 adapters have a switch for it.",
      kGateway, seen_echo},
     {"drive.unreadable", Rank::stands, "answers of the drive come, and none can be read",
      "The drive answers, but damaged: rate or format of the line, or a disturbed cable",
      "Compare rate and format of [[line]] with those of the drive.\n"
-     "Run dpctl doctor --probe. It tries other rates and formats, and names what answers.\n"
+     "Run dpctl doctor --probe. It tries other rates and formats, and names those that are answered.\n"
      "Check the cable to the drive: screen, routing away from motor cables, the common of the port (0 V), A "
      "and B.\n"
      "If only the checksums are wrong: look for a converter or a gateway between.",
      kGateway, seen_unreadable},
     {"drive.never", Rank::stands, "the drive has never answered",
-     "The drive was never heard: cable, unit, rate or format",
+     "The drive has never answered: cable, unit, rate or format",
      "Check the cable, its plug and the power of the drive. If there are several lines: check that their "
      "cables are not swapped.\n"
      "Compare the port of the drive with the configuration: protocol, group and unit, rate, format.\n"
-     "Run dpctl doctor --probe. It tries other rates, formats and units, and names what answers.",
+     "Run dpctl doctor --probe. It tries other rates, formats and units, and names those that are answered.",
      kGateway, seen_never},
     {"drive.late", Rank::stands, "answers of the drive come after timeout_ms",
      "The drive answers later than timeout_ms allows",
@@ -224,14 +224,14 @@ constexpr std::array kRules = std::to_array<Rule>({
      "Look for a response delay in the menu of the drive, and for a converter between.",
      kGateway, seen_late},
     {"drive.unsteady", Rank::stands, "the drive is lost and answers again, more than once",
-     "The drive comes and goes: a loose plug, its power, or a disturbed cable",
+     "The drive is lost from time to time: a loose plug, its power, or a disturbed cable",
      "Check the plugs at both ends. Check the supply of the drive, and of a converter between.\n"
      "Check the cable: screen, routing away from motor cables, the common of the port (0 V).\n"
-     "If one tag alone is not answered: take it out of the master's project. Look whether the rest is "
+     "If one tag alone is not answered: take it out of the master's project. Check whether the rest is "
      "steady.",
      kGateway, seen_unsteady},
     {"drive.silent", Rank::stands, "the drive answered once, and does not answer now",
-     "The drive has fallen silent: power, cable, or other settings of its port", kSilentSteps, kGateway,
+     "The drive no longer answers: power, cable, or changed settings of its port", kSilentSteps, kGateway,
      seen_silent},
     {"drive.not_asked", Rank::stands, "the drive was not asked yet", "The line has not asked this drive yet",
      kSilentSteps, kGateway, seen_unknown},
@@ -248,7 +248,7 @@ constexpr std::array kRules = std::to_array<Rule>({
      "Check the cable from the gateway to the drive. This direction is disturbed.\n"
      "RS-485: check A and B, the bias, and a terminator at both ends of a long cable. Check that the "
      "transceiver does not cut off the first character.\n"
-     "Look whether drive_not_accepted still grows: dpctl counters",
+     "Check whether drive_not_accepted still grows: dpctl counters",
      kGateway, seen_not_accepted},
     {"drive.not_understood", Rank::recent, "the drive cannot take requests for another reason",
      "The drive cannot read what it gets: format of the line, or a disturbed cable",

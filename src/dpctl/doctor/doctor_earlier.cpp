@@ -16,13 +16,13 @@ constexpr std::array kOfBus = std::to_array<Named>({
     {"late", "replies suppressed because they came too late"},
     {"too_late", "replies written too late"},
     {"echo_missing", "replies whose echo did not come"},
-    {"retries", "questions that the master repeated"},
-    {"write_errors", "replies that the port did not take"},
+    {"retries", "requests that the master repeated"},
+    {"write_errors", "replies that the port did not accept"},
     {"driver_errors", "edges of the driver enable that failed"},
 });
 constexpr std::array kOfStation = std::to_array<Named>({
-    {"left_data_exchange", "ways out of Data_Exch"},
-    {"foreign_prm", "Set_Prm of another master than the one that has this slave"},
+    {"left_data_exchange", "times that Data_Exch was left"},
+    {"foreign_prm", "Set_Prm from a master that does not own this slave"},
     {"watchdog_expired", "times that the watchdog expired"},
     {"drive_losses", "times that the drive was lost"},
     {"drive_silences", "requests that the drive did not answer"},

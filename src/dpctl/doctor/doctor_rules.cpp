@@ -96,8 +96,9 @@ std::string silence(const Facts& f)
         return octets.last_ms ? "the last octet from the bus was received " + age(octets.last_ms) + " ago"
                               : "not one octet has been received from the bus";
     if (checked.last_ms)
-        return fmt::format("the last telegram with a checksum was heard {} ago; {} came in the last minute",
-                           age(checked.last_ms), plural(octets.minute, "octet"));
+        return fmt::format(
+            "the last telegram with a checksum was received {} ago; {} came in the last minute",
+            age(checked.last_ms), plural(octets.minute, "octet"));
     return fmt::format("{} came in the last minute, but never a telegram with a checksum",
                        plural(octets.minute, "octet"));
 }
@@ -155,7 +156,7 @@ std::string no_exchange(const Facts& f)
 
 std::string not_asked(const Facts& f)
 {
-    return "telegrams are heard, but no master asks address " + std::to_string(f.station.address);
+    return "telegrams are received, but no master asks for address " + std::to_string(f.station.address);
 }
 
 bool is_of_bus(const Rule& rule)

@@ -64,7 +64,7 @@ std::string seen_asked_only(const Facts& f)
     if (!is_in(f, "Wait_Prm") || is_tried(f) || !is_asked(f.station_counters)) return {};
     const Count diag = counted(f.station_counters, "slave_diag");
     return fmt::format("{} for its diagnosis {} and no Set_Prm",
-                       diag.minute == 1 ? "1 question" : fmt::format("{} questions", diag.minute),
+                       diag.minute == 1 ? "1 request" : fmt::format("{} requests", diag.minute),
                        lately(diag));
 }
 
@@ -199,7 +199,8 @@ std::string seen_ride(const Facts& f)
 {
     if (!f.station.ride) return {};
     const auto ends = f.station.ride->ends_in_ms;
-    return ends ? "the outputs stand for " + age(ends) + " more" : "the outputs stand until it returns";
+    return ends ? "the outputs keep their values for " + age(ends) + " more"
+                : "the outputs keep their values until it returns";
 }
 std::string seen_unscaled(const Facts& f)
 {
@@ -213,7 +214,7 @@ std::string seen_unscaled(const Facts& f)
 }
 std::string seen_no_table(const Facts& f)
 {
-    return !f.info.name.empty() && f.info.tags_in_table == 0 ? f.info.tag_table + " holds no row"
+    return !f.info.name.empty() && f.info.tags_in_table == 0 ? f.info.tag_table + " has no rows"
                                                              : std::string{};
 }
 std::string seen_no_trip(const Facts& f)
@@ -238,7 +239,7 @@ constexpr std::array kRules = std::to_array<Rule>({
     {"station.prm_refused", Rank::stands, "the master's Set_Prm is refused",
      "The master's project does not fit this device: parameters",
      "Compare what came with what was expected, octet by octet: dpctl diag\n"
-     "Look what each octet means: dpctl decode --as prm OCTETS\n"
+     "See what each octet means: dpctl decode --as prm OCTETS\n"
      "Compare the slave in the master's project with the GSD that dpctl gsd make writes for this device.",
      kGateway, seen_prm},
     {"station.cfg_refused", Rank::stands, "the master's Chk_Cfg is refused",
@@ -258,12 +259,12 @@ constexpr std::array kRules = std::to_array<Rule>({
      "The master asks, but does not start this slave: it does not hear the replies, or it is a tool",
      "Check that the replies reach the master: driver enable ([bus] direction), power of the transceiver, "
      "both wires, termination.\n"
-     "Look whether a diagnosis tool asks (master class 2). It starts no slave.\n"
+     "Check whether a diagnosis tool asks (master class 2). It starts no slave.\n"
      "Check that the slave is switched on in the master's project and the master is not in STOP.",
      kGateway, seen_asked_only},
     {"station.two_masters", Rank::stands, "a second master sends Set_Prm to this slave",
      "Two masters have this slave in their projects",
-     "Look which master it is: journalctl -u dpslaved\n"
+     "See which master it is: journalctl -u dpslaved\n"
      "Take this slave out of the project of one of the two masters, or give it another address there.",
      kGateway, seen_two_masters},
     {"station.output_length", Rank::stands,
@@ -274,8 +275,8 @@ constexpr std::array kRules = std::to_array<Rule>({
      kGateway, seen_length},
     {"station.restarts", Rank::stands,
      "the master ends the exchange more than once in a minute, and starts again",
-     "The master ends the exchange by itself and starts again",
-     "Read the diagnosis buffer of the PLC. It says why the master ends the exchange.\n"
+     "The master itself stops data exchange and starts again",
+     "Read the diagnosis buffer of the PLC. It says why the master stops data exchange.\n"
      "Look for a download, for a change between STOP and RUN, and for a second master with this slave.",
      kGateway, seen_restarts},
     {"station.clear", Rank::stands, "Data_Exch, and the last Global_Control was Clear_Data",
@@ -285,28 +286,28 @@ constexpr std::array kRules = std::to_array<Rule>({
      "(Auto-Clear).",
      kGateway, seen_clear},
     {"station.stands", Rank::stands, "Data_Exch without watchdog, and no telegram for ten seconds",
-     "The master is gone and its outputs stand: the watchdog is off",
-     "Keep clear of the machine. The outputs of this master still stand at the drive.\n"
+     "The master is lost and its outputs keep their values: the watchdog is off",
+     "Keep clear of the machine. The drive still has the outputs of this master.\n"
      "Switch the watchdog of this slave on in the master's project. Then the outputs go to their safe state "
      "when the master is lost.\n"
-     "Look why the master is silent.\n"
+     "Find out why the master is silent.\n"
      "Put the outputs into their safe state: systemctl stop dpslaved",
      kGateway, seen_stands},
-    {"station.ride_through", Rank::stands, "the master is lost and the outputs stand",
+    {"station.ride_through", Rank::stands, "the master is lost and the outputs keep their values",
      "RIDE THROUGH is running",
-     "Keep clear of the machine. The outputs of the lost master still stand at the drive.\n"
+     "Keep clear of the machine. The drive still has the outputs of the lost master.\n"
      "End it with: dpctl tec set RIDE_THROUGH 0",
      "HA463561U002, MMI parameter descriptions", seen_ride},
     {"station.watchdog", Rank::stands, "the watchdog expires and the master starts again",
      "The watchdog of this slave is shorter than the master's cycle, or the master pauses",
      "Set the watchdog of this slave in the master's project to ten times the bus cycle.\n"
-     "Look whether the master pauses: a download, a restart, a slave that is missing.",
+     "Check whether the master pauses: a download, a restart, a slave that is missing.",
      kGateway, seen_watchdog},
     {"station.read_only", Rank::stands, "an output word belongs to a tag that is read only",
      "Modules in the wrong order, or an output module for a tag that is read only",
      "Put the modules in the master's project in the order of the tags. The first module is that of the "
      "first tag.\n"
-     "Take an input module for a tag that is read only: dpctl tag NUMBER",
+     "Use an input module for a tag that is read only: dpctl tag NUMBER",
      kGateway, seen_read_only},
     {"station.range", Rank::stands, "an output word is outside the limits of its tag",
      "The master sends a value outside the limits",
@@ -339,12 +340,12 @@ constexpr std::array kRules = std::to_array<Rule>({
      "dpctl reload",
      kGateway, seen_unscaled},
     {"station.sync", Rank::note, "the master has sent Sync", "The outputs are held by Sync",
-     "Wait for the next Sync or Unsync of the master. Until then new outputs do not count.\n"
-     "If that is not wanted: take this slave out of the group in the master's project.",
+     "Wait for the next Sync or Unsync of the master. Until then new outputs have no effect.\n"
+     "To avoid this, remove this slave from the group in the master's project.",
      kGateway, seen_sync},
     {"station.freeze", Rank::note, "the master has sent Freeze", "The inputs are held by Freeze",
      "Wait for the next Freeze or Unfreeze of the master. Until then the inputs are old.\n"
-     "If that is not wanted: take this slave out of the group in the master's project.",
+     "To avoid this, remove this slave from the group in the master's project.",
      kGateway, seen_freeze},
     {"station.no_table", Rank::note, "the station has no tag table",
      "The scale of the drive's numbers is not known",
@@ -352,17 +353,17 @@ constexpr std::array kRules = std::to_array<Rule>({
      "Then: dpctl reload",
      kGateway, seen_no_table},
     {"station.no_trip", Rank::note, "no tag reports the trip of the drive",
-     "Trips are not known: the diagnosis never says a trip",
+     "Trips are not known: the diagnosis never reports a trip",
      "Set trip_tag in [station.tec] to the tag of the trip code, or to a bit that is set while the drive has "
      "tripped (\"272.3\").",
      "HA463561U002, PROFIBUS Diagnostics", seen_no_trip},
     {"station.not_now", Rank::stands, "a tag cannot be written in this state of the drive",
-     "The drive takes this parameter only stopped, or in configuration mode",
-     "Stop the drive, or put it into its configuration mode. Look which of the two: dpctl tag NUMBER",
+     "The drive accepts this parameter only while it is stopped, or in configuration mode",
+     "Stop the drive, or put it into its configuration mode. See which of the two: dpctl tag NUMBER",
      kGateway, seen_not_now},
     {"station.refused", Rank::stands, "the drive refuses a tag for another reason",
      "The drive refuses a parameter",
-     "Look what the drive answered: dpctl diag\n"
+     "See what the drive answered: dpctl diag\n"
      "Check type, limits and access of the tag: dpctl tag NUMBER",
      kGateway, seen_other_refusal},
     {"station.restless", Rank::recent, "data exchange is left more than once in a minute",
@@ -375,7 +376,7 @@ constexpr std::array kRules = std::to_array<Rule>({
      kBox, seen_restless},
     {"station.address_pending", Rank::note, "the address was changed in the configuration file",
      "A changed address waits for the next start",
-     "Restart the service: systemctl restart dpslaved. Then the changed address counts.",
+     "Restart the service: systemctl restart dpslaved. Then the changed address takes effect.",
      "HA389815 chapter 5", seen_pending},
     {"station.low_address", Rank::note, "the address is 0, 1 or 2", "The address may be that of a master",
      "Choose another address if you can. 0, 1 and 2 are usually those of masters.",

@@ -31,7 +31,7 @@ void add_profiles(CLI::App& app, GsdOptions& options)
 
 void add_table(CLI::App& app, GsdOptions& options)
 {
-    app.add_option("--table", options.table, "A tag table of your own (CSV), whose names the file gets")
+    app.add_option("--table", options.table, "Your own tag table (CSV); the GSD file gets its names")
         ->type_name("FILE");
 }
 
@@ -45,13 +45,13 @@ void add_check(CLI::App& app, GsdOptions& options)
     app.add_option("FILE", options.file, "A GSD file")->required()->type_name("");
     app.add_flag("--strict", options.strict,
                  "Every deviation from the standard is an error, also those that many public files have and "
-                 "masters live with");
+                 "masters accept");
 }
 
 void add_show(CLI::App& app, GsdOptions& options)
 {
     app.add_option("FILE", options.file, "A GSD file")->required()->type_name("");
-    app.add_option("--profile", options.profile, "Name the tags as the tag table of this profile does")
+    app.add_option("--profile", options.profile, "Show the tags with the names of this profile's tag table")
         ->type_name("NAME");
     add_profiles(app, options);
     add_table(app, options);
@@ -62,30 +62,28 @@ void add_make(CLI::App& app, GsdOptions& options)
     app.add_option("--profile", options.profile, "Profile of the device")->type_name("NAME");
     add_profiles(app, options);
     add_table(app, options);
-    app.add_option(
-           "--mapping", options.mapping,
-           "A TOML file that says profile, in, out, in_out, demand, ident, max_tsdr, description, model; "
-           "what stands on the command line goes before")
+    app.add_option("--mapping", options.mapping,
+                   "A TOML file with profile, in, out, in_out, demand, ident, max_tsdr, description, model; "
+                   "the command line overrides it")
         ->type_name("FILE");
     add_tags(app, "--in", options.in, "Tags that the master reads, in the order of the telegram");
     add_tags(app, "--out", options.out, "Tags that the master writes");
-    add_tags(app, "--in-out", options.in_out, "Tags that it reads and writes, behind those");
-    app.add_flag("--demand", options.demand, "Demand Data in front of the parameters");
+    add_tags(app, "--in-out", options.in_out, "Tags that it reads and writes, after those");
+    app.add_flag("--demand", options.demand, "Puts Demand Data before the parameters");
     app.add_option("--ident", options.ident,
-                   "Ident_Number: 0x1649 or decimal; needed where the profile has none")
+                   "Ident_Number: 0x1649 or decimal; required if the profile has none")
         ->type_name("N");
-    app.add_option(
-           "--max-tsdr", options.max_tsdr,
-           "Bit times, as [bus] max_tsdr of the daemon says: where this machine needs more than the profile")
+    app.add_option("--max-tsdr", options.max_tsdr,
+                   "MaxTsdr in bit times, as [bus] max_tsdr of the daemon: if this machine needs more than "
+                   "the profile")
         ->type_name("N");
     app.add_option("--description", options.description,
                    "What the file is for, 56 characters at most (Info_Text)")
         ->type_name("TEXT");
     app.add_option("--model", options.model, "Name in the master's device list, 32 characters at most")
         ->type_name("TEXT");
-    app.add_option("--output", options.output, "File to write; without it: standard output")
-        ->type_name("FILE");
-    app.add_flag("--force", options.force, "Replace a file that is there already");
+    app.add_option("--output", options.output, "File to write; default: standard output")->type_name("FILE");
+    app.add_flag("--force", options.force, "Replace an existing file");
 }
 
 void add_types(CLI::App& app, GsdOptions& options)
@@ -94,9 +92,9 @@ void add_types(CLI::App& app, GsdOptions& options)
         ->required()
         ->type_name("DIR");
     app.add_flag("--brief", options.brief,
-                 "Type name in 17 characters, the width that STEP 7 has (V5); else in 21, as the manual has "
+                 "Type name in 17 characters, as in STEP 7 (V5); default: in 21, as the manual has "
                  "it (V4.0)");
-    app.add_flag("--force", options.force, "Replace files that are there already");
+    app.add_flag("--force", options.force, "Replace existing files");
 }
 
 } // namespace
@@ -114,9 +112,9 @@ void add_gsd(CLI::App& app, Action& chosen)
         void (*arguments)(CLI::App&, GsdOptions&);
         int (*run)(const GsdOptions&, Terminal&);
     } kCommands[] = {
-        {"check", "Is this file what a master's tool expects? Errors and warnings with their lines",
+        {"check", "Checks whether a master's tool accepts this file; errors and warnings with their lines",
          add_check, gsd_check},
-        {"show", "Where each value stands in the telegrams (I/O map)", add_show, gsd_show},
+        {"show", "Shows where each value is in the telegrams (I/O map)", add_show, gsd_show},
         {"make", "Writes the GSD file of a device, as it is or with your own mapping", add_make, gsd_make},
         {"types", "Writes the type files for COM ET200 in five languages", add_types, gsd_types},
     };

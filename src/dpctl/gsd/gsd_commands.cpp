@@ -53,7 +53,7 @@ std::string summary(const gsd::Findings& findings)
     std::size_t errors = 0;
     for (const gsd::Finding& finding : findings) errors += finding.severity == gsd::Severity::error ? 1 : 0;
     const std::size_t warnings = findings.size() - errors;
-    if (findings.empty()) return "nothing to complain about";
+    if (findings.empty()) return "no errors and no warnings";
     return fmt::format("{} error{}, {} warning{}", errors, errors == 1 ? "" : "s", warnings,
                        warnings == 1 ? "" : "s");
 }
@@ -68,7 +68,7 @@ bool any_error(const gsd::Findings& findings)
 std::optional<profile::Profile> load(const std::string& folder, const std::string& name, Terminal& terminal)
 {
     if (name.empty() || name.find('/') != std::string::npos) {
-        refused(terminal, name.empty() ? "--profile is missing: say which device the file is for."
+        refused(terminal, name.empty() ? "--profile is missing: name the device that the file is for."
                                        : "--profile is a name such as 590; the folder goes to --profiles.");
         return std::nullopt;
     }
@@ -172,10 +172,8 @@ void print_direction(std::ostream& out, const char* title, const std::vector<gsd
 
 void print_modules(std::ostream& out, const gsd::Document& document)
 {
-    fmt::print(
-        out,
-        "\nThe master's tool puts these modules together, {} at most; the map follows from their order:\n",
-        document.number("Max_Module").value_or(0));
+    fmt::print(out, "\nThe master's tool combines these modules, {} at most; their order gives the map:\n",
+               document.number("Max_Module").value_or(0));
     for (const gsd::Module& module : document.modules) {
         const auto sum = gsd::sum_of_identifiers(module.identifiers);
         fmt::print(out, "  {:<32} {:>3} octets in {:>3} out\n", printable(module.name), sum ? sum->in : 0,
@@ -232,7 +230,7 @@ int gsd_show(const GsdOptions& options, Terminal& terminal)
         print_direction(terminal.out, "Inputs, from the slave to the master", map.inputs, map.in_octets);
         print_direction(terminal.out, "Outputs, from the master to the slave", map.outputs, map.out_octets);
         fmt::print(terminal.out, "\noctets: places in the Data_Exchange telegram, counted from 0\n"
-                                 "word: counted from 1 behind Demand Data, as dpctl io and dpsim do; D1 to "
+                                 "word: counted from 1 after Demand Data, as dpctl io and dpsim do; D1 to "
                                  "D4 are Demand Data\n");
     } else {
         print_modules(terminal.out, document);
@@ -290,13 +288,13 @@ int gsd_types(const GsdOptions& options, Terminal& terminal)
     const Path folder{options.output};
     std::error_code error;
     if (!std::filesystem::is_directory(folder, error))
-        return refused(terminal, options.output + " is no folder: make it first, or name another.");
+        return refused(terminal, options.output + " is not a folder: create it first, or name another.");
     for (const gsd::TypeFile& file : files)
         if (!options.force &&
             std::filesystem::exists(std::filesystem::symlink_status(folder / file.name, error)))
             return refused(terminal,
                            (folder / file.name).string() +
-                               " is there already, so none is written: choose another folder, or replace "
+                               " is there already, so no file is written: choose another folder, or replace "
                                "them with --force.");
     for (const gsd::TypeFile& file : files)
         if (const auto wrong = write_file(folder / file.name, file.content, options.force))

@@ -52,7 +52,7 @@ bool write_all(int descriptor, std::string_view content)
 
 FileError is_there()
 {
-    return {"it is there already: choose another name, or replace it with --force"};
+    return {"it exists already: choose another name, or replace it with --force"};
 }
 
 /// Where a link leads, also where there is no file yet. A ring of links stays as it is: writing fails then.

@@ -13,7 +13,8 @@ std::string address(const report::Info& info)
     std::string result = std::to_string(info.address_active) + " active";
     if (pending && pending != info.address_active)
         result += fmt::format(
-            ", {} pending: the configuration file has it, the next start of dpslaved takes it", *pending);
+            ", {} pending: it is in the configuration file and takes effect at the next start of dpslaved",
+            *pending);
     return result;
 }
 

@@ -75,7 +75,7 @@ std::string state_of(const std::string& name, const std::vector<report::Station>
 std::string table_text(const std::vector<report::Word>& words, Look look)
 {
     const Table table = word_table(words);
-    return table.empty() ? "  no parameters: no master has chosen any\n" : table.str(look, 2);
+    return table.empty() ? "  no parameters: no master has chosen one\n" : table.str(look, 2);
 }
 
 } // namespace
@@ -103,8 +103,8 @@ std::string render_io(const Json& json, Look look)
                paragraph(
                    "",
                    "in: drive to master, out: master to drive; octet: place in the Data_Exchange telegram, "
-                   "counted from 0; word: place among the words of its direction, counted from 1 "
-                   "behind Demand Data, as gsd make and dpsim count",
+                   "counted from 0; word: place among the words of its direction, counted from 1 after "
+                   "Demand Data, as gsd make and dpsim count",
                    look.width);
     return out;
 }

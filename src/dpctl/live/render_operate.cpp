@@ -28,7 +28,7 @@ std::string render_reload(const report::ReloadReply& reply, bool is_dry_run)
     add(reply.warnings, "warning: ");
     if (!reply.faults.empty()) {
         add(reply.faults, "");
-        return out + "The new configuration is refused; the one until now runs on.\n";
+        return out + "The new configuration is refused; the old one stays in use.\n";
     }
     add(reply.changes, "");
     add(reply.pending, "pending: ");
@@ -37,7 +37,7 @@ std::string render_reload(const report::ReloadReply& reply, bool is_dry_run)
     for (const report::LeavingStation& one : reply.leaving)
         out += fmt::format("leaves the bus: {} ({})\n", one.station, one.reason);
     if (reply.leaving.empty()) out += "no station leaves the bus\n";
-    return out + "Nothing was done: this is what a reload would do.\n";
+    return out + "Nothing was changed: this is what a reload would do.\n";
 }
 
 } // namespace dpslave::dpctl

@@ -35,7 +35,7 @@ std::string diagnosis(const report::Station& station)
     std::string result;
     if (station.stat_diag) result = "static diagnosis: not ready for data yet";
     if (station.diag_pending)
-        result += std::string{result.empty() ? "" : "; "} + "new, the master has yet to read it";
+        result += std::string{result.empty() ? "" : "; "} + "new, not yet read by the master";
     return result.empty() ? "nothing new" : result;
 }
 

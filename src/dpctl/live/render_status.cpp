@@ -56,20 +56,21 @@ std::string link_text(const report::Drive& d)
 std::string ride_text(const report::Ride& ride)
 {
     const auto ends = ride.ends_in_ms;
-    if (!ends) return "the master is lost; its outputs stand until it returns";
-    return *ends <= 0 ? "over: 0 is written to the outputs as soon as the drive answers"
-                      : fmt::format("the master is lost; its outputs stand for {} more", age(ends));
+    if (!ends) return "the master is lost; its outputs keep their values until it returns";
+    return *ends <= 0
+               ? "over: 0 is written to the outputs as soon as the drive answers"
+               : fmt::format("the master is lost; its outputs keep their values for {} more", age(ends));
 }
 
 std::string bus_line(const report::Bus& bus)
 {
-    if (!bus.port_open) return bus.port + " has vanished; it is opened again as soon as it returns";
+    if (!bus.port_open) return bus.port + " is missing; it is opened again as soon as it returns";
     const bool is_search = bus.baud_state == "Baud_Search";
     std::string speed = rate(bus.baud);
     if (is_search) speed = "searching the rate" + (bus.baud > 0 ? ", now at " + speed : std::string{});
     const auto heard = bus.last_telegram_age_ms;
     return fmt::format("{}, {}{}, {}", bus.port, speed, is_search ? "" : " (" + bus.baud_state + ")",
-                       heard ? "last telegram " + age(heard) + " ago" : "no telegram heard yet");
+                       heard ? "last telegram " + age(heard) + " ago" : "no telegram received yet");
 }
 
 namespace {

@@ -12,10 +12,10 @@ constexpr std::int64_t kParameter = 1, kTypeMismatch = 2; // of FAULT
 
 constexpr const char* kSteps =
     "  not set up; in three steps (on the Operator Station: view level Advanced, block TEC OPTION):\n"
-    "    1. TYPE is to be PROFIBUS DP:  dpctl tec set TYPE \"PROFIBUS DP\"\n"
-    "    2. ADDRESS, 0 to 125; 0 to 2 are usually masters:  dpctl tec set ADDRESS 3\n"
-    "    3. look at FAULT: NONE is wanted\n"
-    "  What is set lasts until the next start; the configuration file has the start values.\n";
+    "    1. set TYPE to PROFIBUS DP:  dpctl tec set TYPE \"PROFIBUS DP\"\n"
+    "    2. set ADDRESS, 0 to 125; 0 to 2 are usually masters:  dpctl tec set ADDRESS 3\n"
+    "    3. check FAULT: it must be NONE\n"
+    "  Values that you set last until the next start; the configuration file has the start values.\n";
 
 Table row_table(const report::Tec& tec)
 {
@@ -40,7 +40,7 @@ bool is_set_up(const report::Tec& tec)
 std::string render_tec(const report::Tec& tec, Look look)
 {
     std::string out = fmt::format("{}: TEC OPTION{}\n", painted(tec.name, Tone::strong, look),
-                                  tec.view == "generic" ? ", in names that fit any option" : "");
+                                  tec.view == "generic" ? ", with the general names of any option" : "");
     out += row_table(tec).str(look, 2);
     if (tec.trip) out += "  trip " + *tec.trip + '\n';
     for (const std::string& note : tec.notes) out += "  " + painted(note, Tone::strong, look) + '\n';

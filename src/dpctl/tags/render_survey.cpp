@@ -63,7 +63,7 @@ std::string progress_line(const SurveyProgress& p)
     const std::string left = p.waits_for_drive ? std::string{"the drive does not answer, waiting for it"}
                              : p.left
                                  ? fmt::format("{}{} left", p.is_time_given ? "" : "about ", about(*p.left))
-                                 : std::string{"the pace is not measured yet"};
+                                 : std::string{"the speed is not measured yet"};
     return fmt::format("{} of {} asked: {} answer, {} denied, {} silent; {}", p.visited, count(p.tags, "tag"),
                        p.answering, p.denied, p.silent, left);
 }

@@ -264,7 +264,7 @@ std::string render_tables(const std::vector<TagFile>& files, Look look)
     if (!without.empty())
         out +=
             "\nOf these devices no public tag table exists. Their tags and scaling are those of the drive's "
-            "product manual,\nin decimal: write a table of the tags that you use and name it in the station "
+            "product manual,\nin decimal: write a table of the tags that you use, and name it in the station "
             "(tags = \"FILE.csv\").\n" +
             without.str(look, 2);
     return out;

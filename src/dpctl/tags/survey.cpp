@@ -91,7 +91,7 @@ int Run::go(const EndSignals& end)
 {
     if (!options_.json) {
         terminal_.out << fmt::format(
-            "{}: {} to ask; rows go to {}, the record to {}. Ctrl-C ends, --resume goes on.\n",
+            "{}: {} to ask; rows go to {}, the record to {}. Ctrl-C ends it, --resume continues it.\n",
             scope_.station, plural(static_cast<std::int64_t>(plan_.tags()), "tag"), files_.table(),
             files_.record());
         if (files_.rows_taken_over() > 0)
@@ -99,7 +99,7 @@ int Run::go(const EndSignals& end)
                                          plural(static_cast<std::int64_t>(files_.rows_taken_over()), "tag"),
                                          scope_.tag_table);
         if (!files_.not_taken_over().empty())
-            terminal_.out << fmt::format("{} begins without the rows of the table in force: {}\n",
+            terminal_.out << fmt::format("{} begins without the rows of the table in use: {}\n",
                                          files_.table(), files_.not_taken_over());
         if (scope_.protocol == "modbus-rtu")
             terminal_.out << "Modbus shows 16 bits of each tag and no text: every row will be a WORD; type "
@@ -249,7 +249,7 @@ void Run::save_now_and_then()
     saved_ = Clock::now();
     if (!failed.empty() && failed != not_saved_)
         terminal_.err << (terminal_.tty ? "\r\033[K" : "")
-                      << fmt::format("dpctl: {}\nThe survey goes on and tries again.\n", failed)
+                      << fmt::format("dpctl: {}\nThe survey continues and tries again.\n", failed)
                       << std::flush;
     not_saved_ = failed;
 }
@@ -258,10 +258,9 @@ int Run::report(End end)
 {
     say_progress(true);
     if (const auto failed = files_.save()) {
-        terminal_.err << fmt::format(
-            "dpctl: {}\nRemove the cause, then go on with the same command and --resume: "
-            "what {} does not have is asked again.\n",
-            *failed, files_.record());
+        terminal_.err << fmt::format("dpctl: {}\nRemove the cause, then continue with the same command and "
+                                     "--resume: it asks again for what {} does not have.\n",
+                                     *failed, files_.record());
         return kNo;
     }
     SurveyReport report{scope_.station, files_.table(), files_.record(), plan_.tags(), false, {},
@@ -275,10 +274,10 @@ int Run::report(End end)
         terminal_.err << fmt::format("dpctl: the drive of {} does not answer; see: dpctl doctor {}\n",
                                      scope_.station, scope_.station);
     if (end == End::other)
-        terminal_.err << fmt::format("dpctl: another survey of {} is under way: wait for its end\n",
+        terminal_.err << fmt::format("dpctl: another survey of {} is running: wait until it ends\n",
                                      scope_.station);
     if (!report.complete)
-        terminal_.err << "dpctl: not every tag was asked; go on with the same command and --resume\n";
+        terminal_.err << "dpctl: not every tag was asked; continue with the same command and --resume\n";
     return report.complete && report.joined.contradictions.empty() ? kFine : kNo;
 }
 
@@ -302,7 +301,7 @@ int do_survey(const Options& options, Terminal& terminal)
     if (scope.tags.empty()) {
         terminal.err << fmt::format(
             "dpctl: no rule of {} gives tags a mnemonic, and no row of {} has one: add rows with "
-            "tag and mnemonic, or say --tags\n",
+            "tag and mnemonic, or use --tags\n",
             scope.station, scope.tag_table);
         return kNo;
     }

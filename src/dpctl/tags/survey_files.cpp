@@ -22,7 +22,7 @@ std::optional<std::string> no_file(const std::filesystem::path& file)
     std::error_code ignored;
     const bool is_other =
         std::filesystem::exists(file, ignored) && !std::filesystem::is_regular_file(file, ignored);
-    return is_other ? std::optional{file.string() + ": it is no regular file: name another one"}
+    return is_other ? std::optional{file.string() + ": it is not a regular file: name another one"}
                     : std::nullopt;
 }
 
@@ -60,7 +60,7 @@ Result<SurveyFiles, std::string> SurveyFiles::open(const std::string& station, s
     auto lock = lock_on(files.record_);
     if (!lock)
         return Failure{
-            fmt::format("{}: another survey writes this file: wait for its end, or name another table "
+            fmt::format("{}: another survey writes this file: wait until it ends, or name another table "
                         "with --table",
                         files.record())};
     files.lock_ = *std::move(lock);
@@ -69,7 +69,7 @@ Result<SurveyFiles, std::string> SurveyFiles::open(const std::string& station, s
         const auto record = toml::read_text(io::read_regular_file, files.record());
         if (!record)
             return Failure{to_string(record.error()) +
-                           " There is no survey to go on with: leave --resume out to begin one."};
+                           " There is no survey to continue: leave out --resume to begin one."};
         auto seen = profile::read_record(*record, files.record(), station);
         if (!seen) return Failure{sentence(seen.error())};
         files.seen = *std::move(seen);

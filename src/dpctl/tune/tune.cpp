@@ -107,7 +107,7 @@ int do_tune(const Options& options, Terminal& terminal)
         if (!reply) {
             if (reply.error() == kNoDaemon)
                 terminal.err
-                    << "dpctl tune judges the port of the running dpslaved. Without one say which port: "
+                    << "dpctl tune checks the port of the running dpslaved. If none runs, name the port: "
                        "dpctl tune /dev/ttyS1\n";
             return reply.error();
         }

@@ -80,16 +80,16 @@ void configured_rate(const TuneFacts& facts, const std::vector<RateJudgment>& ra
         out.push_back({Severity::mend,
                        "rate.cannot",
                        fmt::format("The bus runs at {}: {}", at, now->reason),
-                       "the master waits, asks again, and gives the station up",
+                       "the master waits, asks again, and treats the station as lost",
                        {}});
         for (auto one = rates.rbegin(); one != rates.rend(); ++one)
             if (one->verdict == Verdict::holds) {
                 out.back().steps.push_back(
                     "Set the master to " + text_of(one->baud) +
-                    ", the highest rate that this machine holds, or mend what is named below");
+                    ", the highest rate that this machine holds, or correct what is named below");
                 break;
             }
-        if (out.back().steps.empty()) out.back().steps = {"Mend what is named below"};
+        if (out.back().steps.empty()) out.back().steps = {"Correct what is named below"};
     } else if (now->needed > now->promised && !facts.port.pty) { // no master waits for a pty
         out.push_back(
             {Severity::mend,
@@ -105,7 +105,7 @@ void configured_rate(const TuneFacts& facts, const std::vector<RateJudgment>& ra
         out.push_back({Severity::better,
                        "rate.doubtful",
                        fmt::format("{}: {}", at, now->reason),
-                       "a retry of the master, now and then",
+                       "a retry of the master, from time to time",
                        {"Let it run for a day, then ask again: dpctl tune"}});
     }
 }
@@ -120,8 +120,9 @@ void uart(const TuneFacts& facts, Findings& out)
              "uart.clock",
              fmt::format("The UART makes {} bit/s and whole fractions of it, nothing else (clock {} MHz)",
                          *port.uart_clock / 16, *port.uart_clock / 1e6),
-             "the rates that are no such fraction",
-             {"For more take a UART whose clock is a multiple of 24 MHz: its rates are exact from 93.75 "
+             "the rates that are not such a fraction",
+             {"For other rates use a UART whose clock is a multiple of 24 MHz: its rates are exact from "
+              "93.75 "
               "kbit/s up"}});
     const std::string trigger = "/sys/class/tty/" + port.name + "/rx_trig_bytes";
     if (io::is_8250(kind) && port.trigger.value_or(1) > 1) {
@@ -180,8 +181,8 @@ void usb(const TuneFacts& facts, Baud baud, Findings& out)
          fmt::format("A USB adapter (driver {}): USB moves characters once a frame of 1 ms, both ways",
                      port.driver.empty() ? "?" : port.driver),
          "about " + cost_of(4000, baud),
-         {"A UART on the board answers ten times sooner. For trying, and for 9.6 and 19.2 kbit/s, an FT232R "
-          "is the least bad"}});
+         {"A UART on the board answers ten times sooner. For tests, and for 9.6 and 19.2 kbit/s, an FT232R "
+          "is the best of these"}});
 }
 
 std::string rt_package(const std::string& release)
@@ -209,8 +210,8 @@ void kernel(const TuneFacts& facts, Baud baud, Findings& out)
     if (machine.virtual_machine)
         out.push_back({Severity::know,
                        "kernel.virtual",
-                       "This is a virtual machine: its host may take the processor away",
-                       "milliseconds, now and then",
+                       "This is a virtual machine: its host may stop it at any time",
+                       "milliseconds, from time to time",
                        {"Serve a real bus from real hardware"}});
     if (machine.rt_runtime_us == 0)
         out.push_back({Severity::mend,
@@ -239,7 +240,7 @@ void processors(const TuneFacts& facts, Baud baud, Findings& out)
         out.push_back(
             {Severity::better,
              "cpu.idle",
-             fmt::format("An idle processor may fall asleep so deeply ({}) that waking takes {} us",
+             fmt::format("An idle processor may enter an idle state ({}) that takes {} us to leave",
                          machine.deepest_idle, *machine.idle_exit_us),
              cost_of(static_cast<std::uint64_t>(sleeps), baud),
              {"cpupower idle-set -D 10   switches off the states that take more than 10 us to leave "
@@ -297,7 +298,8 @@ void threads(const TuneFacts& facts, Findings& out)
              "seen on PREEMPT_RT: 15 to 20 ms, two or three times in 1 to 2 hours. The master's retry covers "
              "it",
              {"Keep busy real-time programs off the processors where the workers run",
-              "for p in $(pgrep kworker/u); do chrt -f -p 60 $p; done   (workers come and go: again by a "
+              "for p in $(pgrep kworker/u); do chrt -f -p 60 $p; done   (workers end and new ones start: "
+              "again by a "
               "timer)"}});
     for (const io::ThreadFacts& one : machine.realtime_threads)
         if (bus && one.id != bus->id && one.priority >= ours)
@@ -354,7 +356,7 @@ void isolation(const TuneFacts& facts, Findings& out)
                                isolated->size() == 1 ? "Processor " + machine.isolated + " is"
                                                      : "Processors " + machine.isolated + " are",
                                runs_on),
-                   "the isolation is without use",
+                   "the isolation has no effect",
                    {fmt::format("cpu = {} under [realtime]", *isolated->begin())}});
 }
 
@@ -363,18 +365,20 @@ void daemon(const TuneFacts& facts, Findings& out)
     if (!facts.bus) return;
     const BusFacts& bus = *facts.bus;
     if (bus.thread && !bus.thread->is_realtime())
-        out.push_back({Severity::better,
-                       "daemon.ordinary",
-                       "The bus thread runs with ordinary scheduling",
-                       "a busy machine delays replies by whole time slices: 2500 us and more",
-                       {"priority = 80 under [realtime], and the right to it: LimitRTPRIO=80 in the unit"}});
+        out.push_back(
+            {Severity::better,
+             "daemon.ordinary",
+             "The bus thread runs with ordinary scheduling",
+             "a busy machine delays replies by whole time slices: 2500 us and more",
+             {"priority = 80 under [realtime], and the permission for it: LimitRTPRIO=80 in the unit"}});
     if (bus.locked_kib == std::uint64_t{0})
-        out.push_back({Severity::better,
-                       "daemon.not_locked",
-                       "The daemon's memory is not locked",
-                       "milliseconds when memory is short",
-                       {"lock_memory = true under [realtime], and the right to it: LimitMEMLOCK=infinity in "
-                        "the unit"}});
+        out.push_back(
+            {Severity::better,
+             "daemon.not_locked",
+             "The daemon's memory is not locked",
+             "milliseconds when memory is short",
+             {"lock_memory = true under [realtime], and the permission for it: LimitMEMLOCK=infinity in "
+              "the unit"}});
     const std::uint64_t faults = std::max(bus.traffic.page_faults, bus.thread ? bus.thread->major_faults : 0);
     if (faults > 0)
         out.push_back({Severity::better,

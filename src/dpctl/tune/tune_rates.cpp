@@ -49,7 +49,7 @@ std::optional<std::string> doubt(const TuneFacts& facts, Baud baud)
     const io::PortFacts& port = facts.port;
     const UartKind uart = uart_of(port);
     const auto rate = static_cast<std::uint32_t>(baud);
-    if (uart == UartKind::pty) return "a pty is no wire: for trying only";
+    if (uart == UartKind::pty) return "a pty is not a real line: for tests only";
     if (io::is_usb(uart)) return "USB gives no bound: measure it";
     if (facts.machine.virtual_machine) return "a virtual machine: measure it";
     if (uart == UartKind::unknown)

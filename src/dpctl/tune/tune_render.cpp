@@ -107,7 +107,7 @@ std::string port_words(const io::PortFacts& port)
 
 std::string bus_words(const std::optional<BusFacts>& bus)
 {
-    if (!bus) return "none on this port: judged by plan figures";
+    if (!bus) return "none on this port: planning figures are used";
     std::string out =
         fmt::format("pid {}, {}", bus->pid,
                     bus->baud ? rate(static_cast<std::uint32_t>(*bus->baud)) : "searching the rate");
@@ -264,7 +264,7 @@ std::string render_tune(const TuneFacts& facts, const std::vector<RateJudgment>&
     int number = 0;
     for (const TuneFinding& one : findings)
         if (one.severity != Severity::know) out += paragraph(one, ++number, look);
-    if (number == 0) out += '\n' + painted("nothing to mend", Tone::good, look) + '\n';
+    if (number == 0) out += '\n' + painted("nothing to correct", Tone::good, look) + '\n';
     for (const TuneFinding& one : findings)
         if (one.severity == Severity::know) out += paragraph(one, 0, look);
     return out;

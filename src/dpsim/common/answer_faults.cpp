@@ -26,8 +26,8 @@ bool AnswerFaults::knows(const std::string& name)
 std::vector<std::string> AnswerFaults::help()
 {
     return {
-        "  late MS[-MS] [WHICH]       replies come so much later, also behind the next question",
-        "  lose [WHICH]               replies get lost; what was asked is done",
+        "  late MS[-MS] [WHICH]       replies come this much later, even after the next request",
+        "  lose [WHICH]               replies are lost, but the request is carried out",
         "  spoil [WHICH]              a reply with a wrong checksum comes before the right one",
         "  instead OCTETS [WHICH]     these octets come in place of the reply, for example: instead 04 once",
         "                             WHICH: 1/N (one in N), every TIME, tag TAG, once; several may be "

@@ -8,12 +8,12 @@ namespace dpslave::sim {
 std::vector<std::string> DriveCommands::all_help()
 {
     std::vector<std::string> lines{
-        "  silence                    hears nothing, as if it were off",
+        "  silence                    answers nothing, as if it were off",
         "  nak [EE]                   refuses every write but that of EE; EE in hexadecimal, 02C2 if none is "
         "given",
         "  bad-bcc                    replies carry a wrong block check",
         "  garbage                    replies are random octets",
-        "  slow MS                    replies come so much later",
+        "  slow MS                    replies come this much later",
         "  text TAG [TEXT]            the tag answers with this text; without TEXT with its value again",
         "  ok                         ends all faults",
     };

@@ -8,13 +8,13 @@ namespace dpslave::sim {
 std::vector<std::string> InstrumentCommands::all_help()
 {
     std::vector<std::string> lines{
-        "  silence                    hears nothing, as if it were off",
-        "  exception 2|3              answers every request so: 2 illegal address, 3 illegal value",
+        "  silence                    answers nothing, as if it were off",
+        "  exception 2|3              answers every request with: 2 illegal address, 3 illegal value",
         "  refuse [2|3]               answers every write so, 3 if nothing is said",
         "  bad-crc                    replies carry a wrong CRC",
         "  garbage                    replies are random octets",
         "  short                      replies end one octet early",
-        "  slow MS                    replies come so much later",
+        "  slow MS                    replies come this much later",
         "  no-loopback                says nothing to function 8",
         "  ok                         ends all faults",
         "  panel TAG VALUE            as the operator does at the front panel: limits and access hold",

@@ -89,7 +89,7 @@ struct MasterCounters {
     std::uint64_t refused = 0;        ///< UE, RR, RS
     std::uint64_t diagnosis_reads = 0;
     std::uint64_t diagnosis_pending = 0; ///< Data_Exchange answers with DH
-    std::uint64_t exchanges_lost = 0;    ///< ways out of Data_Exch that were not ordered here
+    std::uint64_t exchanges_lost = 0;    ///< times that Data_Exch was left that were not ordered here
     /// Data_Exchange: handed over until answer whole.
     std::chrono::nanoseconds answer_min{0}, answer_max{0}, answer_sum{0};
 };

@@ -73,7 +73,7 @@ vanished_port_returns() {
     restarts=$(systemctl show dpslaved -P NRestarts)
     eventually exchanging
     echo "$card_slot" >/sys/bus/pci/drivers/serial/unbind
-    eventually logged "$card_port has gone"
+    eventually logged "$card_port is missing"
     is_active
     echo "$card_slot" >/sys/bus/pci/drivers/serial/bind
     goes_on

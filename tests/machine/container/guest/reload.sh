@@ -42,7 +42,7 @@ untouched() {
     goes_on_exchanging
     eventually has_lost_no_more_than "$before"
     expect_equal "what the master counts" "$(lost_exchanges)" "$exchanges"
-    expect_equal "ways out of Data_Exch" "$(counter unwinder left_data_exchange)" "$left"
+    expect_equal "times that Data_Exch was left" "$(counter unwinder left_data_exchange)" "$left"
     expect_equal "process" "$(main_pid)" "$pid"
 }
 
