@@ -183,8 +183,7 @@ private:
     std::string mnemonic()
     {
         const std::string_view word = text(kMnemonic);
-        const bool printable =
-            std::all_of(word.begin(), word.end(), [](char c) { return c > ' ' && c < '\x7F'; });
+        const bool printable = std::ranges::all_of(word, [](char c) { return c > ' ' && c < '\x7F'; });
         if (!word.empty() && (word.size() != 2 || !printable))
             fault(kMnemonic,
                   "mnemonic " + toml::in_quotes(word) +
