@@ -16,7 +16,7 @@ std::string_view trimmed(std::string_view text)
 
 namespace {
 
-char lower(char c)
+char lower_letter(char c)
 {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
@@ -26,14 +26,14 @@ char lower(char c)
 std::string lower(std::string_view text)
 {
     std::string out{text};
-    for (char& c : out) c = lower(c);
+    for (char& c : out) c = lower_letter(c);
     return out;
 }
 
 bool same(std::string_view a, std::string_view b)
 {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](char x, char y) { return lower(x) == lower(y); });
+                      [](char x, char y) { return lower_letter(x) == lower_letter(y); });
 }
 
 std::optional<std::uint32_t> parse_number(std::string_view text)

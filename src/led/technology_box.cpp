@@ -14,13 +14,13 @@ constexpr Pattern kShortFlash{milliseconds{1000}, milliseconds{100}};
 constexpr Pattern kFlash = kFlash1Hz;
 constexpr Pattern kLongFlash{milliseconds{1000}, milliseconds{900}};
 
-struct Row {
+struct ModuleRow {
     Pattern pattern;
     std::string_view meaning;
 };
 
 // In the order of OptionFault: the MODULE lamp.
-constexpr std::array kModule = std::to_array<Row>({
+constexpr std::array kModule = std::to_array<ModuleRow>({
     {kOn, "valid set-up, ready for external communications"},
     {kLongFlash, "set-up fault: a parameter of the TEC OPTION function block is out of range"},
     {kFlash, "wrong type or disabled: TYPE is not PROFIBUS DP"},
@@ -32,7 +32,7 @@ constexpr std::array kModule = std::to_array<Row>({
 static_assert(kModule.size() == static_cast<std::size_t>(OptionFault::missing) + 1);
 
 // In the order of NetworkState: the NETWORK lamp.
-constexpr std::array kNetwork = std::to_array<Row>({
+constexpr std::array kNetwork = std::to_array<ModuleRow>({
     {kOn, "data exchange with the master"},
     {kLongFlash, "data exchange with error: at least one parameter cannot be read or written"},
     {kFlash, "waiting for configuration by the master"},
@@ -56,8 +56,8 @@ Shown technology_box(const Condition& condition)
         return {{{"network", kOff}, {"module", kOff}, {"health", kOff}, {"run", kOff}},
                 "no power: this station is not served"};
 
-    const Row& module = kModule[static_cast<std::size_t>(condition.fault)];
-    const Row& network = kNetwork[static_cast<std::size_t>(condition.network)];
+    const ModuleRow& module = kModule[static_cast<std::size_t>(condition.fault)];
+    const ModuleRow& network = kNetwork[static_cast<std::size_t>(condition.network)];
     const bool ready = module.pattern == kOn; // else NETWORK is off whatever its state (B-032)
     // What a silent drive said last is no news of its health.
     const Pattern health = lamp(condition.drive_answers && condition.health);

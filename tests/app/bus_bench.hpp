@@ -22,6 +22,8 @@ namespace dpslave::test {
 
 using ::test::Octets;
 
+inline constexpr std::uint8_t kStation = 5; ///< the address of the station on this bus
+
 template <class Condition>
 bool eventually(Condition condition, std::chrono::nanoseconds within = std::chrono::seconds{10})
 {

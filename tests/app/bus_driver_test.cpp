@@ -13,7 +13,6 @@ using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-constexpr std::uint8_t kStation = 5;
 constexpr Tbit kStatusReply{6 * 11}; ///< SD1 has six octets
 
 class DriverEnableOfTheBus : public OnABus {

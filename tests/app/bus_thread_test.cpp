@@ -17,7 +17,6 @@ using testing::Ge;
 using testing::Le;
 using testing::StartsWith;
 
-constexpr std::uint8_t kStation = 5;
 constexpr std::size_t kTelegrams = 1500;
 
 class BusThread : public OnABus {

@@ -15,6 +15,9 @@ namespace dpslave::test {
 
 using control::Json;
 
+/// The group of the operators in these tests.
+inline constexpr gid_t kOperators = 4242;
+
 /// A folder that is removed after the test; readable for every user.
 class TempFolder {
 public:

@@ -15,10 +15,10 @@ namespace {
 
 using test::Bench;
 using test::call;
+using test::kOperators;
 using test::quiet_handlers;
 using test::RawCaller;
 
-constexpr gid_t kOperators = 4242;
 constexpr std::size_t kPlaces = 32, kShare = 8, kKept = 4;
 
 std::string many_calls(int count)

@@ -14,9 +14,9 @@ namespace {
 
 using test::Bench;
 using test::call;
+using test::kOperators;
 
 constexpr uid_t kUnprivileged = 65534;
-constexpr gid_t kOperators = 4242;
 
 Caller caller_with(uid_t uid, gid_t gid, std::vector<gid_t> groups)
 {

@@ -29,6 +29,16 @@ dpslave::dp::Personality technology_box();
 /// diagnosis.
 dpslave::dp::Personality controller();
 
+/// A tag that the master reads, and one that it writes.
+inline dpslave::Parameter input(std::uint16_t tag)
+{
+    return {tag, true, false};
+}
+inline dpslave::Parameter output(std::uint16_t tag)
+{
+    return {tag, false, true};
+}
+
 /// A DP master by the second hand. Requests are answered in a short form: "SC", "RS", "RR", "DL 12 34", "DH
 /// 12 34";
 /// "-" is silence.

@@ -21,7 +21,7 @@
 namespace dpslave::test {
 namespace {
 
-constexpr int kPatience = 20'000; ///< ms
+constexpr int kDpctlPatience = 20'000; ///< ms
 constexpr uid_t kUnprivileged = 65534;
 
 using control::Done;
@@ -103,7 +103,7 @@ void FixtureDaemon::set_state(const std::string& station, const std::string& sta
 bool FixtureDaemon::was_asked(const std::string& method)
 {
     std::unique_lock lock(mutex_);
-    return asked_.wait_for(lock, std::chrono::milliseconds{kPatience},
+    return asked_.wait_for(lock, std::chrono::milliseconds{kDpctlPatience},
                            [&] { return questions_.contains(method); });
 }
 
@@ -242,7 +242,7 @@ Dpctl::~Dpctl()
 bool Dpctl::read_some()
 {
     std::array<pollfd, 2> ready{{{out_, POLLIN, 0}, {err_, POLLIN, 0}}};
-    if (::poll(ready.data(), ready.size(), kPatience) <= 0) return false;
+    if (::poll(ready.data(), ready.size(), kDpctlPatience) <= 0) return false;
     std::array<char, 4096> chunk;
     bool more = false;
     for (std::size_t i = 0; i < ready.size(); ++i) {

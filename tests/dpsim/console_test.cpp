@@ -13,7 +13,8 @@ namespace {
 using namespace std::chrono_literals;
 using testing::HasSubstr;
 
-MasterSettings option_board()
+/// An option board whose process data is one input word.
+MasterSettings board_without_outputs()
 {
     MasterSettings s;
     s.cfg = {0x73, 0x50};
@@ -72,7 +73,7 @@ protected:
     }
 
     Instant now{1s};
-    Master master{option_board()};
+    Master master{board_without_outputs()};
     Console console{master, now};
     bool silent = false, high_priority = false;
     Octets diagnosis = wire("00 0C 00 02 05 33");

@@ -139,13 +139,13 @@ TEST_F(ModbusSlave, DropsAReplyThatIsOvertakenByANewRequest)
     EXPECT_FALSE(line.take_reply(now + 1s));
 }
 
-struct Refusal {
+struct ModbusRefused {
     const char* name;
     const char* request;
     const char* answer;
 };
 
-class ModbusRefusal : public InstrumentBench, public testing::WithParamInterface<Refusal> {};
+class ModbusRefusal : public InstrumentBench, public testing::WithParamInterface<ModbusRefused> {};
 
 TEST_P(ModbusRefusal, IsReportedByAnException)
 {
@@ -154,23 +154,23 @@ TEST_P(ModbusRefusal, IsReportedByAnException)
 }
 INSTANTIATE_TEST_SUITE_P(
     OfTheInstrument, ModbusRefusal,
-    testing::Values(Refusal{"ReadOfARegisterThatIsNotThere", "01 03 00 04 00 01", "01 83 02"},
-                    Refusal{"ReadOfABlockOverAHole", "01 03 00 01 00 05", "01 83 02"},
-                    Refusal{"ReadBeyondTheLastTag", "01 03 7F FF 00 02", "01 83 02"},
-                    Refusal{"ReadOfNothing", "01 03 00 01 00 00", "01 83 03"},
-                    Refusal{"ReadOf126Words", "01 03 20 88 00 7E", "01 83 03"},
-                    Refusal{"WriteToARegisterThatIsNotThere", "01 06 00 04 00 01", "01 86 02"},
-                    Refusal{"WriteToAReadOnlyRegister", "01 06 00 05 00 01", "01 86 03"},
-                    Refusal{"WriteAboveTheLimit", "01 06 00 18 13 89", "01 86 03"}, // 500.1
-                    Refusal{"WriteBelowTheLimit", "01 06 00 18 FF FF", "01 86 03"}, // -0.1
-                    Refusal{"BlockWriteWithAWrongCount", "01 10 00 A4 00 02 02 00 05", "01 90 03"},
-                    Refusal{"BlockWriteOfNothing", "01 10 00 A4 00 00 00", "01 90 03"},
-                    Refusal{"OutputPowerInAutomatic", "01 06 00 03 00 64", "01 86 03"},
-                    Refusal{"IeeeAreaByFunction6", "01 06 80 30 00 01", "01 86 02"},
-                    Refusal{"IeeeAreaAtAnOddAddress", "01 03 80 03 00 02", "01 83 02"},
-                    Refusal{"IeeeAreaHalfAValue", "01 03 80 02 00 01", "01 83 03"},
-                    Refusal{"IeeeAreaHalfAValueWritten", "01 10 80 30 00 01 02 42 48", "01 90 03"},
-                    Refusal{"IeeeAreaOfATagThatIsNotThere", "01 03 80 08 00 02", "01 83 02"}),
+    testing::Values(ModbusRefused{"ReadOfARegisterThatIsNotThere", "01 03 00 04 00 01", "01 83 02"},
+                    ModbusRefused{"ReadOfABlockOverAHole", "01 03 00 01 00 05", "01 83 02"},
+                    ModbusRefused{"ReadBeyondTheLastTag", "01 03 7F FF 00 02", "01 83 02"},
+                    ModbusRefused{"ReadOfNothing", "01 03 00 01 00 00", "01 83 03"},
+                    ModbusRefused{"ReadOf126Words", "01 03 20 88 00 7E", "01 83 03"},
+                    ModbusRefused{"WriteToARegisterThatIsNotThere", "01 06 00 04 00 01", "01 86 02"},
+                    ModbusRefused{"WriteToAReadOnlyRegister", "01 06 00 05 00 01", "01 86 03"},
+                    ModbusRefused{"WriteAboveTheLimit", "01 06 00 18 13 89", "01 86 03"}, // 500.1
+                    ModbusRefused{"WriteBelowTheLimit", "01 06 00 18 FF FF", "01 86 03"}, // -0.1
+                    ModbusRefused{"BlockWriteWithAWrongCount", "01 10 00 A4 00 02 02 00 05", "01 90 03"},
+                    ModbusRefused{"BlockWriteOfNothing", "01 10 00 A4 00 00 00", "01 90 03"},
+                    ModbusRefused{"OutputPowerInAutomatic", "01 06 00 03 00 64", "01 86 03"},
+                    ModbusRefused{"IeeeAreaByFunction6", "01 06 80 30 00 01", "01 86 02"},
+                    ModbusRefused{"IeeeAreaAtAnOddAddress", "01 03 80 03 00 02", "01 83 02"},
+                    ModbusRefused{"IeeeAreaHalfAValue", "01 03 80 02 00 01", "01 83 03"},
+                    ModbusRefused{"IeeeAreaHalfAValueWritten", "01 10 80 30 00 01 02 42 48", "01 90 03"},
+                    ModbusRefused{"IeeeAreaOfATagThatIsNotThere", "01 03 80 08 00 02", "01 83 02"}),
     [](const auto& test) { return test.param.name; });
 
 TEST_F(ModbusSlave, TakesTheLimitsThemselves)

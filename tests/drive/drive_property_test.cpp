@@ -38,7 +38,7 @@ TagTable make_table()
 constexpr std::array<const char*, 5> kMnemonics{"2s", "2t", "2u", "2v", "2w"};
 
 /// The counts of a text as the drive holds it, by the second hand.
-std::uint16_t held(const FakeDrive& drive, std::size_t tag)
+std::uint16_t counts_in(const FakeDrive& drive, std::size_t tag)
 {
     const std::string& text = drive.parameters.at(kMnemonics[tag]).text;
     if (tag == 4) return static_cast<std::uint16_t>(std::stoul(text.substr(1), nullptr, 16));
@@ -86,7 +86,7 @@ public:
         for (std::size_t unit = 0; unit < kUnits; ++unit)
             for (std::size_t tag = 0; tag < kTags.size(); ++tag)
                 if (masters_[unit].last[tag]) {
-                    EXPECT_EQ(held(drives_[unit], tag), *masters_[unit].last[tag])
+                    EXPECT_EQ(counts_in(drives_[unit], tag), *masters_[unit].last[tag])
                         << "drive " << unit << " tag " << kTags[tag];
                 }
     }

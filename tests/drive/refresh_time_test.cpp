@@ -17,13 +17,14 @@ using namespace std::chrono_literals;
 using std::chrono::nanoseconds;
 
 /// Two characters for each tag, 0 to 12.
-constexpr std::array kMnemonics{"a0", "a1", "a2", "a3", "a4", "a5", "a6", "a7", "a8", "a9", "b0", "b1", "b2"};
+constexpr std::array kRefreshedTags{"a0", "a1", "a2", "a3", "a4", "a5", "a6",
+                                    "a7", "a8", "a9", "b0", "b1", "b2"};
 constexpr std::uint16_t kDemandTag = 12;
 
-TagTable make_table()
+TagTable make_refreshed_table()
 {
     std::vector<Tag> rows;
-    for (const char* mnemonic : kMnemonics) {
+    for (const char* mnemonic : kRefreshedTags) {
         Tag tag;
         tag.number = static_cast<std::uint16_t>(rows.size());
         tag.decimals = 2;
@@ -49,7 +50,7 @@ protected:
     {
         line_.drives = {&drive_};
         drive_.turnaround = GetParam().turnaround;
-        for (const char* mnemonic : kMnemonics) drive_.parameters[mnemonic].text = "-327.67";
+        for (const char* mnemonic : kRefreshedTags) drive_.parameters[mnemonic].text = "-327.67";
         UnitSettings unit;
         unit.tags = &table_;
         unit.output_refresh = 0ns; // every parameter in every cycle
@@ -90,7 +91,7 @@ private:
         return true;
     }
 
-    const TagTable table_ = make_table();
+    const TagTable table_ = make_refreshed_table();
     test::FakeDrive drive_{'0', '0'};
     test::SimulatedLine line_{GetParam().baud};
     EiAsciiClient client_{line_, {.baud = GetParam().baud}, {{{}, MnemonicRule::none}}};

@@ -9,8 +9,6 @@ using namespace test;
 
 namespace {
 
-constexpr Instant kRead{std::chrono::seconds{5}};
-
 class Addresses : public testing::Test {
 protected:
     void attach(std::uint8_t first, std::uint8_t last)

@@ -87,6 +87,11 @@ inline constexpr std::uint8_t kSrdFcb1 = 0x7D;
 inline constexpr std::uint8_t kSrdUncounted = 0x4D;
 inline constexpr std::uint8_t kSdnHigh = 0x46;
 
+/// When the last octet of a request was read.
+inline constexpr dpslave::Instant kRead{std::chrono::seconds{5}};
+/// A request to slave 5 with two octets of data.
+inline const Octets kAsk = sd2(kUs, kMaster, kSrdFcb1, {0xAA, 0xBB});
+
 /// Slave 5 at 187.5 kbit/s with the class default of 60 T_bit.
 class FdlStation : public testing::Test {
 protected:

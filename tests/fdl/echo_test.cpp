@@ -24,8 +24,8 @@ constexpr Instant kStart{std::chrono::seconds{9}};
 constexpr Instant kQuiet = kStart + microseconds{330}; // until here no other station may send
 constexpr Instant kUntil = kStart + microseconds{5000};
 
-struct Line {
-    explicit Line(EchoMode mode) : echo(mode) {}
+struct EchoedLine {
+    explicit EchoedLine(EchoMode mode) : echo(mode) {}
 
     void send(const Octets& telegram = kReply) { echo.sent(telegram, kQuiet, kUntil); }
     /// What layer 2 gets of this.
@@ -65,7 +65,7 @@ Octets operator+(Octets a, const Octets& b)
 
 TEST(Echo, IsNotLookedForWhereItIsOff)
 {
-    Line line(EchoMode::off);
+    EchoedLine line(EchoMode::off);
     line.send();
 
     EXPECT_EQ(line.hears(kReply), kReply);
@@ -76,7 +76,7 @@ TEST(Echo, IsNotLookedForWhereItIsOff)
 
 TEST(Echo, IsRemovedWhole)
 {
-    Line line(EchoMode::on);
+    EchoedLine line(EchoMode::on);
     line.send();
 
     EXPECT_EQ(line.hears(kReply), Octets{});
@@ -86,7 +86,7 @@ TEST(Echo, IsRemovedWhole)
 
 TEST(Echo, IsRemovedOctetByOctet)
 {
-    Line line(EchoMode::on);
+    EchoedLine line(EchoMode::on);
     line.send();
     for (const std::uint8_t octet : kReply) EXPECT_EQ(line.hears({octet}), Octets{});
 
@@ -97,7 +97,7 @@ TEST(Echo, IsRemovedOctetByOctet)
 TEST(Echo, IsRemovedInTwoPiecesCutAnywhere)
 {
     for (std::size_t cut = 1; cut < kReply.size(); ++cut) {
-        Line line(EchoMode::on);
+        EchoedLine line(EchoMode::on);
         line.send();
         EXPECT_EQ(line.hears(part(kReply, 0, cut)), Octets{});
         EXPECT_EQ(line.hears(part(kReply, cut, kReply.size())), Octets{});
@@ -107,7 +107,7 @@ TEST(Echo, IsRemovedInTwoPiecesCutAnywhere)
 
 TEST(Echo, OfAShortAcknowledgeIsRemoved)
 {
-    Line line(EchoMode::on);
+    EchoedLine line(EchoMode::on);
     line.send(kShort);
 
     EXPECT_EQ(line.hears(kShort), Octets{});
@@ -118,7 +118,7 @@ TEST(Echo, OfAShortAcknowledgeIsRemoved)
 TEST(Echo, OfTheLongestTelegramIsRemoved)
 {
     Octets longest(255, 0xA5);
-    Line line(EchoMode::on);
+    EchoedLine line(EchoMode::on);
     line.send(longest);
 
     EXPECT_EQ(line.hears(longest), Octets{});
@@ -128,7 +128,7 @@ TEST(Echo, OfTheLongestTelegramIsRemoved)
 TEST(Echo, LeavesWhatFollowsItRightAway)
 {
     for (std::size_t cut = 0; cut <= kReply.size(); ++cut) {
-        Line line(EchoMode::on);
+        EchoedLine line(EchoMode::on);
         line.send();
         EXPECT_EQ(line.hears(part(kReply, 0, cut)), Octets{});
         EXPECT_EQ(line.hears(part(kReply, cut, kReply.size()) + kRequest), kRequest) << cut;
@@ -139,7 +139,7 @@ TEST(Echo, LeavesWhatFollowsItRightAway)
 
 TEST(Echo, ThatIsLongerLeavesWhatIsTooMuch)
 {
-    Line line(EchoMode::on);
+    EchoedLine line(EchoMode::on);
     line.send();
 
     EXPECT_EQ(line.hears(kReply + Octets{0x00}), (Octets{0x00}));
@@ -152,7 +152,7 @@ TEST(Echo, ThatDiffersInOneOctetIsGivenBackWholeAndCounted)
         for (std::size_t cut = 0; cut < kReply.size(); ++cut) {
             Octets heard = kReply;
             heard[bad] ^= 0x40;
-            Line line(EchoMode::on);
+            EchoedLine line(EchoMode::on);
             line.send();
             const Octets all = line.hears(part(heard, 0, cut)) + line.hears(part(heard, cut, heard.size()));
 
@@ -164,7 +164,7 @@ TEST(Echo, ThatDiffersInOneOctetIsGivenBackWholeAndCounted)
 
 TEST(Echo, ThatBrokeIsNotExpectedAnyMore)
 {
-    Line line(EchoMode::on);
+    EchoedLine line(EchoMode::on);
     line.send();
     line.hears({0x00});
 
@@ -174,7 +174,7 @@ TEST(Echo, ThatBrokeIsNotExpectedAnyMore)
 
 TEST(Echo, WithABadCharacterIsGivenBackInFrontOfIt)
 {
-    Line line(EchoMode::on);
+    EchoedLine line(EchoMode::on);
     line.send();
     EXPECT_EQ(line.hears(part(kReply, 0, 4)), Octets{});
     const Bytes withheld = line.echo.on_character_error(kStart + microseconds{200});
@@ -186,7 +186,7 @@ TEST(Echo, WithABadCharacterIsGivenBackInFrontOfIt)
 
 TEST(Echo, IsNotConcernedByABadCharacterOutsideIt)
 {
-    Line line(EchoMode::on);
+    EchoedLine line(EchoMode::on);
     EXPECT_TRUE(line.echo.on_character_error(kStart).empty()); // nothing was sent
     line.exchange_with_echo();
     EXPECT_TRUE(line.echo.on_character_error(kUntil).empty()); // it is through
@@ -196,7 +196,7 @@ TEST(Echo, IsNotConcernedByABadCharacterOutsideIt)
 
 TEST(Echo, ThatDoesNotComeIsCountedAndCostsNoRequest)
 {
-    Line line(EchoMode::on);
+    EchoedLine line(EchoMode::on);
     line.exchange_without_echo();
 
     EXPECT_EQ(line.echo.missing(), 1u);
@@ -206,7 +206,7 @@ TEST(Echo, ThatDoesNotComeIsCountedAndCostsNoRequest)
 TEST(Echo, ThatDoesNotComeCostsNoRequestThatComesInPieces)
 {
     for (std::size_t cut = 1; cut < kRequest.size(); ++cut) {
-        Line line(EchoMode::on);
+        EchoedLine line(EchoMode::on);
         line.send();
         const Instant at = kQuiet + microseconds{300};
         EXPECT_EQ(line.hears(part(kRequest, 0, cut), at) +
@@ -219,7 +219,7 @@ TEST(Echo, ThatDoesNotComeCostsNoRequestThatComesInPieces)
 
 TEST(Echo, IsBrokenUntilOthersMaySpeakAgainAndFromThenOnMissing)
 {
-    Line line(EchoMode::on);
+    EchoedLine line(EchoMode::on);
     line.send();
     line.hears(kRequest, kQuiet - std::chrono::nanoseconds{1});
     EXPECT_EQ(line.echo.broken(), 1u);
@@ -232,7 +232,7 @@ TEST(Echo, IsBrokenUntilOthersMaySpeakAgainAndFromThenOnMissing)
 
 TEST(Echo, ThatIsDueAndNeverCameIsMissingWhenTheNextReplyGoesOut)
 {
-    Line line(EchoMode::on);
+    EchoedLine line(EchoMode::on);
     line.send();
     line.send();
 
@@ -242,7 +242,7 @@ TEST(Echo, ThatIsDueAndNeverCameIsMissingWhenTheNextReplyGoesOut)
 
 TEST(Echo, ThatWasTornIsNoPartOfTheNextRequest)
 {
-    Line line(EchoMode::on);
+    EchoedLine line(EchoMode::on);
     line.send();
     EXPECT_EQ(line.hears(part(kReply, 0, 5)), Octets{});
 
@@ -252,7 +252,7 @@ TEST(Echo, ThatWasTornIsNoPartOfTheNextRequest)
 
 TEST(Echo, ThatComesAfterItsTimeIsNoEcho)
 {
-    Line line(EchoMode::on);
+    EchoedLine line(EchoMode::on);
     line.send();
 
     EXPECT_EQ(line.hears(kReply, kUntil + microseconds{1}), kReply);
@@ -261,7 +261,7 @@ TEST(Echo, ThatComesAfterItsTimeIsNoEcho)
 
 TEST(AutomaticEcho, IsRemovedFromTheFirstTelegramOn)
 {
-    Line line(EchoMode::automatic);
+    EchoedLine line(EchoMode::automatic);
     EXPECT_TRUE(line.echo.is_open());
     line.send();
 
@@ -272,7 +272,7 @@ TEST(AutomaticEcho, IsRemovedFromTheFirstTelegramOn)
 
 TEST(AutomaticEcho, IsFoundOutWithThreeTelegrams)
 {
-    Line with(EchoMode::automatic), without(EchoMode::automatic);
+    EchoedLine with(EchoMode::automatic), without(EchoMode::automatic);
     for (int i = 0; i < 3; ++i) {
         EXPECT_TRUE(with.echo.is_open());
         EXPECT_TRUE(without.echo.is_open());
@@ -289,7 +289,7 @@ TEST(AutomaticEcho, IsFoundOutWithThreeTelegrams)
 
 TEST(AutomaticEcho, CountsNoMissingOneWhereThereIsNone)
 {
-    Line line(EchoMode::automatic);
+    EchoedLine line(EchoMode::automatic);
     for (int i = 0; i < 20; ++i) line.exchange_without_echo();
 
     EXPECT_EQ(line.echo.missing() + line.echo.broken(), 0u);
@@ -297,7 +297,7 @@ TEST(AutomaticEcho, CountsNoMissingOneWhereThereIsNone)
 
 TEST(AutomaticEcho, HealsAFalseNo)
 {
-    Line line(EchoMode::automatic);
+    EchoedLine line(EchoMode::automatic);
     for (int i = 0; i < 5; ++i) line.exchange_without_echo(); // the receiver was off for a while
     ASSERT_FALSE(line.echo.is_heard());
 
@@ -308,7 +308,7 @@ TEST(AutomaticEcho, HealsAFalseNo)
 
 TEST(AutomaticEcho, HealsAFalseYes)
 {
-    Line line(EchoMode::automatic);
+    EchoedLine line(EchoMode::automatic);
     for (int i = 0; i < 5; ++i) line.exchange_with_echo();
     ASSERT_TRUE(line.echo.is_heard());
 
@@ -319,7 +319,7 @@ TEST(AutomaticEcho, HealsAFalseYes)
 
 TEST(AutomaticEcho, StaysFoundWhenOneIsBroken)
 {
-    Line line(EchoMode::automatic);
+    EchoedLine line(EchoMode::automatic);
     for (int i = 0; i < 3; ++i) line.exchange_with_echo();
     line.send();
     line.hears({0x68, 0x00});

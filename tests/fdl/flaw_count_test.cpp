@@ -9,8 +9,6 @@ using std::chrono::milliseconds;
 
 namespace {
 
-const Octets kAsk = sd2(kUs, kMaster, kSrdFcb1, {0xAA, 0xBB});
-
 class DamagedTelegram : public testing::TestWithParam<const char*> {
 protected:
     /// Wherever it is damaged and however it is read, with a good request behind it.

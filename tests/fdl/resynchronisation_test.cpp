@@ -10,9 +10,6 @@ using std::chrono::nanoseconds;
 
 namespace {
 
-constexpr Instant kRead{std::chrono::seconds{5}};
-const Octets kAsk = sd2(kUs, kMaster, kSrdFcb1, {0xAA, 0xBB});
-
 using Resynchronisation = FdlStation;
 
 TEST_F(Resynchronisation, ImpossibleOctetsAreSkippedOneByOne)

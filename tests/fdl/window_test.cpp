@@ -8,8 +8,6 @@ using std::chrono::nanoseconds;
 
 namespace {
 
-constexpr Instant kRead{std::chrono::seconds{5}};
-
 TEST_F(FdlStation, WaitsMinTsdrBeforeItAnswers)
 {
     bus.master_sends(sd1(kUs, kMaster, kFdlStatus));

@@ -15,7 +15,7 @@ using testing::IsEmpty;
 using testing::StartsWith;
 
 /// The definitions of wire reference 9.2, used by a device and by a module.
-const std::string kGood = R"(#Profibus_DP
+const std::string kGoodParameters = R"(#Profibus_DP
 PrmText=1
 Text(0)="off"
 Text(1)="on"
@@ -70,59 +70,60 @@ std::vector<std::string> strict_findings(const std::string& text)
 
 TEST(GsdParameters, OfTheReferenceAreGood)
 {
-    EXPECT_THAT(strict_findings(kGood), IsEmpty());
+    EXPECT_THAT(strict_findings(kGoodParameters), IsEmpty());
 }
 
-struct Bad {
+struct BadDefinition {
     const char* name;
     const char* from;
     const char* to;
     const char* finding;
 };
-void PrintTo(const Bad& bad, std::ostream* out)
+void PrintTo(const BadDefinition& bad, std::ostream* out)
 {
     *out << bad.name;
 }
 
-class BadParameter : public testing::TestWithParam<Bad> {};
+class BadParameter : public testing::TestWithParam<BadDefinition> {};
 
 TEST_P(BadParameter, IsReportedWithItsLine)
 {
-    EXPECT_THAT(strict_findings(with(kGood, GetParam().from, GetParam().to)),
+    EXPECT_THAT(strict_findings(with(kGoodParameters, GetParam().from, GetParam().to)),
                 ElementsAre(StartsWith(GetParam().finding)));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Gsd, BadParameter,
-    testing::Values(Bad{"DefaultAboveItsRange", "Unsigned16 100 0-1000", "Unsigned16 1001 0-1000",
-                        "11: error: the default 1001 is not among the legal values"},
-                    Bad{"DefaultNotInTheList", "BitArea(4-6) 2 0,1,2,5", "BitArea(4-6) 3 0,1,2,5",
-                        "14: error: the default 3 is not among the legal values"},
-                    Bad{"DefaultAboveItsType", "Bit(0) 0 0-1", "Bit(0) 2 0-2",
-                        "7: error: the default 2 is not among"},
-                    Bad{"DefaultBelowItsType", "Signed8 -5 -10-10", "Signed8 -129",
-                        "17: error: the default -129 is not among"},
-                    Bad{"UnknownType", "Unsigned16 100 0-1000", "Float32 100",
-                        "10: error: this ExtUserPrmData has no line with type"},
-                    Bad{"BitBeyondItsOctet", "Signed8 -5 -10-10", "Bit(8) 0 0-1",
-                        "16: error: this ExtUserPrmData has no line with type"},
-                    Bad{"NoNumber", "ExtUserPrmData=2", "PrmText=x\nEndPrmText\nExtUserPrmData=2",
-                        "10: error: PrmText has no number"},
-                    Bad{"RepeatedText", "ExtUserPrmData=2", "PrmText=1\nEndPrmText\nExtUserPrmData=2",
-                        "10: error: PrmText 1 is there already"},
-                    Bad{"RepeatedDefinition", "ExtUserPrmData=2",
-                        "ExtUserPrmData=1\nBit(0) 0\nEndExtUserPrmData\nExtUserPrmData=2",
-                        "10: error: ExtUserPrmData 1 is there already"},
-                    Bad{"UnknownText", "Prm_Text_Ref=1", "Prm_Text_Ref=2",
-                        "8: error: there is no PrmText 2 before this line"},
-                    Bad{"BeyondTheLength", "Ext_User_Prm_Data_Ref(1) = 2", "Ext_User_Prm_Data_Ref(3) = 2",
-                        "38: error: this reaches beyond Max_User_Prm_Data_Len = 4"},
-                    Bad{"OverlappingBits", "Ext_User_Prm_Data_Ref(1) = 2", "Ext_User_Prm_Data_Ref(0) = 2",
-                        "38: error: this parameter lies on bits that another one has already"},
-                    Bad{"ConstantsBeyondTheLength", "= 0,0,0,0", "= 0,0,0,0,0",
-                        "35: error: this reaches beyond Max_User_Prm_Data_Len"},
-                    Bad{"NoLengthInTheModule", "Ext_Module_Prm_Data_Len = 1\n", "",
-                        "42: error: Ext_Module_Prm_Data_Len is missing"}),
+    testing::Values(
+        BadDefinition{"DefaultAboveItsRange", "Unsigned16 100 0-1000", "Unsigned16 1001 0-1000",
+                      "11: error: the default 1001 is not among the legal values"},
+        BadDefinition{"DefaultNotInTheList", "BitArea(4-6) 2 0,1,2,5", "BitArea(4-6) 3 0,1,2,5",
+                      "14: error: the default 3 is not among the legal values"},
+        BadDefinition{"DefaultAboveItsType", "Bit(0) 0 0-1", "Bit(0) 2 0-2",
+                      "7: error: the default 2 is not among"},
+        BadDefinition{"DefaultBelowItsType", "Signed8 -5 -10-10", "Signed8 -129",
+                      "17: error: the default -129 is not among"},
+        BadDefinition{"UnknownType", "Unsigned16 100 0-1000", "Float32 100",
+                      "10: error: this ExtUserPrmData has no line with type"},
+        BadDefinition{"BitBeyondItsOctet", "Signed8 -5 -10-10", "Bit(8) 0 0-1",
+                      "16: error: this ExtUserPrmData has no line with type"},
+        BadDefinition{"NoNumber", "ExtUserPrmData=2", "PrmText=x\nEndPrmText\nExtUserPrmData=2",
+                      "10: error: PrmText has no number"},
+        BadDefinition{"RepeatedText", "ExtUserPrmData=2", "PrmText=1\nEndPrmText\nExtUserPrmData=2",
+                      "10: error: PrmText 1 is there already"},
+        BadDefinition{"RepeatedDefinition", "ExtUserPrmData=2",
+                      "ExtUserPrmData=1\nBit(0) 0\nEndExtUserPrmData\nExtUserPrmData=2",
+                      "10: error: ExtUserPrmData 1 is there already"},
+        BadDefinition{"UnknownText", "Prm_Text_Ref=1", "Prm_Text_Ref=2",
+                      "8: error: there is no PrmText 2 before this line"},
+        BadDefinition{"BeyondTheLength", "Ext_User_Prm_Data_Ref(1) = 2", "Ext_User_Prm_Data_Ref(3) = 2",
+                      "38: error: this reaches beyond Max_User_Prm_Data_Len = 4"},
+        BadDefinition{"OverlappingBits", "Ext_User_Prm_Data_Ref(1) = 2", "Ext_User_Prm_Data_Ref(0) = 2",
+                      "38: error: this parameter lies on bits that another one has already"},
+        BadDefinition{"ConstantsBeyondTheLength", "= 0,0,0,0", "= 0,0,0,0,0",
+                      "35: error: this reaches beyond Max_User_Prm_Data_Len"},
+        BadDefinition{"NoLengthInTheModule", "Ext_Module_Prm_Data_Len = 1\n", "",
+                      "42: error: Ext_Module_Prm_Data_Len is missing"}),
     [](const auto& one) { return std::string{one.param.name}; });
 
 TEST(GsdParameters, ThatOverlapOrLackTheirLengthAreAWarningInFilesOfOthers)
@@ -132,18 +133,19 @@ TEST(GsdParameters, ThatOverlapOrLackTheirLengthAreAWarningInFilesOfOthers)
         for (const char each : text) out += each == '\n' ? std::string{"\r\n"} : std::string{each};
         return findings_of(out, gsd::Reading::tolerant);
     };
-    EXPECT_THAT(tolerant(with(kGood, "Ext_User_Prm_Data_Ref(1) = 2", "Ext_User_Prm_Data_Ref(0) = 2")),
-                ElementsAre(StartsWith("38: warning: this parameter lies on bits")));
-    EXPECT_THAT(tolerant(with(kGood, "Ext_Module_Prm_Data_Len = 1\n", "")),
+    EXPECT_THAT(
+        tolerant(with(kGoodParameters, "Ext_User_Prm_Data_Ref(1) = 2", "Ext_User_Prm_Data_Ref(0) = 2")),
+        ElementsAre(StartsWith("38: warning: this parameter lies on bits")));
+    EXPECT_THAT(tolerant(with(kGoodParameters, "Ext_Module_Prm_Data_Len = 1\n", "")),
                 ElementsAre(StartsWith("42: warning: Ext_Module_Prm_Data_Len is missing")));
 }
 
 TEST(GsdParameters, MustBeDefinedBeforeTheyAreUsed)
 {
     const std::string late = "ExtUserPrmData=2 \"Limit\"\nUnsigned16 100 0-1000\nEndExtUserPrmData\n";
-    EXPECT_THAT(strict_findings(with(kGood, late, "") + late),
+    EXPECT_THAT(strict_findings(with(kGoodParameters, late, "") + late),
                 ElementsAre(StartsWith("35: error: there is no ExtUserPrmData 2 before this line")));
-    EXPECT_THAT(strict_findings(with(kGood, late, "")),
+    EXPECT_THAT(strict_findings(with(kGoodParameters, late, "")),
                 ElementsAre(StartsWith("35: error: there is no ExtUserPrmData 2 before this line")));
 }
 

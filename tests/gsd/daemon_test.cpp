@@ -9,8 +9,6 @@
 
 #include <gmock/gmock.h>
 
-#include <numeric>
-
 namespace dpslave {
 namespace {
 
@@ -56,13 +54,6 @@ struct Case {
 void PrintTo(const Case& one, std::ostream* out)
 {
     *out << one.profile << one.name;
-}
-
-std::vector<std::uint16_t> tags(std::uint16_t first, std::size_t count)
-{
-    std::vector<std::uint16_t> out(count);
-    std::iota(out.begin(), out.end(), first);
-    return out;
 }
 
 class Daemon : public testing::TestWithParam<Case> {
@@ -172,22 +163,28 @@ std::vector<Case> cases()
         out.push_back({profile, "InAndOut", {.in = {11, 1127}, .out = {13}}});
         out.push_back({profile, "WithDemandData", {.in = {11}, .out = {12, 2047}, .demand = true}});
         out.push_back({profile, "DemandDataAlone", {.demand = true}});
-        out.push_back(
-            {profile, "AsManyAsAnOptionBoardHas", {.in = tags(100, 6), .out = tags(300, 6), .demand = true}});
+        out.push_back({profile,
+                       "AsManyAsAnOptionBoardHas",
+                       {.in = test::tags(100, 6), .out = test::tags(300, 6), .demand = true}});
     }
     for (const char* profile : {"2408f", "2404f"}) { // without tags they have their own mapping, EURD2400
         for (Case& one : out)
             if (one.profile == profile && std::string{one.name} == "DemandDataAlone")
                 one = {profile, "EURD2400", {.in = {1, 5, 3, 75}, .out = {24, 25, 15, 274}, .demand = true}};
         out.push_back({profile, "GainScheduling", {.in = {1}, .out = {6, 8, 9, 18, 17}}});
-        out.push_back({profile, "With117Words", {.in = tags(500, 54), .out = tags(300, 55), .demand = true}});
+        out.push_back({profile,
+                       "With117Words",
+                       {.in = test::tags(500, 54), .out = test::tags(300, 55), .demand = true}});
     }
     for (const char* profile : {"584sv", "590plus", "605", "690plus"}) {
         out.push_back(
             {profile, "BothWays", {.in = {271}, .out = {269}, .in_out = {272, 255}, .demand = true}});
         out.push_back({profile,
                        "With30Parameters",
-                       {.in = tags(1, 10), .out = tags(20, 10), .in_out = tags(40, 10), .demand = true}});
+                       {.in = test::tags(1, 10),
+                        .out = test::tags(20, 10),
+                        .in_out = test::tags(40, 10),
+                        .demand = true}});
     }
     return out;
 }

@@ -7,8 +7,6 @@
 
 #include <gmock/gmock.h>
 
-#include <numeric>
-
 namespace dpslave {
 namespace {
 
@@ -18,18 +16,12 @@ using test::kOwnIdent;
 using test::load;
 using test::made;
 using test::second_hand;
+using test::tags;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
-
-std::vector<std::uint16_t> tags(std::uint16_t first, std::size_t count)
-{
-    std::vector<std::uint16_t> out(count);
-    std::iota(out.begin(), out.end(), first);
-    return out;
-}
 
 /// The sentences that say why there is no file.
 std::vector<std::string> refusals(const std::string& name, Selection selection)

@@ -5,6 +5,7 @@
 #include "dpslave/io/file.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace dpslave::test {
 namespace {
@@ -105,6 +106,13 @@ std::vector<std::string> findings_of(const std::string& content, gsd::Reading re
                                      const std::string& file_name)
 {
     return findings_of(gsd::check(gsd::parse(content), reading, file_name));
+}
+
+std::vector<std::uint16_t> tags(std::uint16_t first, std::size_t count)
+{
+    std::vector<std::uint16_t> out(count);
+    std::iota(out.begin(), out.end(), first);
+    return out;
 }
 
 } // namespace dpslave::test

@@ -57,4 +57,7 @@ std::vector<std::string> findings_of(const std::string& content,
                                      gsd::Reading reading = gsd::Reading::tolerant,
                                      const std::string& file_name = {});
 
+/// `count` tags from `first` on.
+std::vector<std::uint16_t> tags(std::uint16_t first, std::size_t count);
+
 } // namespace dpslave::test

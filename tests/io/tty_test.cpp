@@ -26,8 +26,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-constexpr TtySettings kBus{.baud = 187'500, .mark_errors = true};
-constexpr TtySettings kDrive{.baud = 9'600, .data_bits = 7};
+constexpr TtySettings kBusLine{.baud = 187'500, .mark_errors = true};
+constexpr TtySettings kDriveLine{.baud = 9'600, .data_bits = 7};
 
 Tty opened(const std::string& path, const TtySettings& settings)
 {
@@ -71,7 +71,7 @@ TEST(TtyOpen, LetsTheKernelDropRtsAtTheCloseUnlessThatWouldMeanSending)
 TEST(TtyOpen, SetsARawLineThatTheOtherEndSeesUnchanged)
 {
     Pty cable;
-    Tty tty = opened(cable.path(), kDrive);
+    Tty tty = opened(cable.path(), kDriveLine);
 
     ASSERT_FALSE(tty.write(std::vector<std::uint8_t>{0x0A, 0x0D, 0x03, 0x11, 0x13, 0x04, 0x00, 0x7F}));
 
@@ -81,7 +81,7 @@ TEST(TtyOpen, SetsARawLineThatTheOtherEndSeesUnchanged)
 TEST(TtyOpen, DoesNotEchoWhatComes)
 {
     Pty cable;
-    Tty tty = opened(cable.path(), kDrive);
+    Tty tty = opened(cable.path(), kDriveLine);
 
     cable.send({0x41, 0x0D});
     ASSERT_TRUE(tty.wait_readable(1s));
@@ -95,14 +95,14 @@ TEST(TtyOpen, ThrowsAwayWhatCameBefore)
     const Fd keeps_it_alive{::open(cable.path().c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC)};
     cable.send({0x01, 0x02, 0x0A});
 
-    Tty tty = opened(cable.path(), kDrive);
+    Tty tty = opened(cable.path(), kDriveLine);
 
     EXPECT_FALSE(tty.wait_readable(0s));
 }
 
 TEST(TtyOpen, RefusesAPortThatIsNotThere)
 {
-    const auto tty = Tty::open("/dev/no-such-port", kBus);
+    const auto tty = Tty::open("/dev/no-such-port", kBusLine);
 
     ASSERT_FALSE(tty);
     EXPECT_THAT(tty.error(),
@@ -111,8 +111,8 @@ TEST(TtyOpen, RefusesAPortThatIsNotThere)
 
 TEST(TtyOpen, RefusesWhatIsNoSerialPort)
 {
-    const auto null = Tty::open("/dev/null", kBus);
-    const auto folder = Tty::open("/dev", kBus);
+    const auto null = Tty::open("/dev/null", kBusLine);
+    const auto folder = Tty::open("/dev", kBusLine);
 
     ASSERT_FALSE(null);
     EXPECT_THAT(null.error(), AllOf(StartsWith("/dev/null is no serial port"), HasSubstr("check `port`")));
@@ -125,29 +125,29 @@ TEST(TtyOpen, SaysTheSameOfAPortThatIsOnlyLookedAt)
     const Pty cable;
     EXPECT_EQ(port_trouble(cable.path()), std::nullopt);
     for (const std::string path : {"/dev/no-such-port", "/proc/version"})
-        EXPECT_EQ(port_trouble(path), Tty::open(path, kBus).error()) << path;
+        EXPECT_EQ(port_trouble(path), Tty::open(path, kBusLine).error()) << path;
 }
 
 TEST(TtyOpen, RefusesAPortThatIsInUseAndTakesItWhenItIsFreeAgain)
 {
     Pty cable;
     {
-        const Tty first = opened(cable.path(), kBus);
-        const auto second = Tty::open(cable.path(), kBus);
+        const Tty first = opened(cable.path(), kBusLine);
+        const auto second = Tty::open(cable.path(), kBusLine);
         ASSERT_FALSE(second);
         EXPECT_THAT(second.error(), AllOf(StartsWith(cable.path()), HasSubstr("used by another program")));
     }
 
-    EXPECT_TRUE(Tty::open(cable.path(), kBus));
+    EXPECT_TRUE(Tty::open(cable.path(), kBusLine));
 }
 
 TEST(TtyOpen, ASecondOpenerDoesNotDisturbTheFirst)
 {
     Pty cable;
-    Tty first = opened(cable.path(), kDrive);
+    Tty first = opened(cable.path(), kDriveLine);
     cable.send({0x41});
 
-    static_cast<void>(Tty::open(cable.path(), kBus));
+    static_cast<void>(Tty::open(cable.path(), kBusLine));
 
     std::array<std::uint8_t, 8> room{};
     const auto chunk = first.read(room);
@@ -165,7 +165,7 @@ std::string refusal_for_unprivileged(const std::string& path)
         constexpr unsigned kUnprivileged = 65534;
         std::string sentence = "no way to become an ordinary user";
         if (::setgid(kUnprivileged) == 0 && ::setuid(kUnprivileged) == 0) {
-            const auto tty = Tty::open(path, kBus);
+            const auto tty = Tty::open(path, kBusLine);
             sentence = tty ? "opened" : tty.error();
         }
         const bool is_written = ::write(channel[1], sentence.data(), sentence.size()) > 0;
@@ -193,7 +193,7 @@ TEST(TtyOpen, NamesTheGroupThatAUserWithoutRightsNeeds)
 
 TEST(TtyRead, GivesNothingWhenNothingCame)
 {
-    for (const TtySettings& settings : {kBus, kDrive}) {
+    for (const TtySettings& settings : {kBusLine, kDriveLine}) {
         Pty cable;
         Tty tty = opened(cable.path(), settings);
         std::array<std::uint8_t, 8> room{};
@@ -209,7 +209,7 @@ TEST(TtyRead, GivesNothingWhenNothingCame)
 
 TEST(TtyRead, NeverWaitsAlsoWhereTheDescriptorWouldBlock)
 {
-    for (const TtySettings& settings : {kBus, kDrive}) {
+    for (const TtySettings& settings : {kBusLine, kDriveLine}) {
         Pty cable;
         Tty tty = opened(cable.path(), settings);
         ASSERT_EQ(::fcntl(tty.fd(), F_SETFL, 0), 0); // VMIN 0 and VTIME 0 alone
@@ -224,7 +224,7 @@ TEST(TtyRead, NeverWaitsAlsoWhereTheDescriptorWouldBlock)
 
 TEST(TtyRead, GivesEveryOctetValueOnce)
 {
-    for (const TtySettings& settings : {kBus, kDrive}) {
+    for (const TtySettings& settings : {kBusLine, kDriveLine}) {
         Pty cable;
         Tty tty = opened(cable.path(), settings);
         std::vector<std::uint8_t> every(256);
@@ -246,7 +246,7 @@ TEST(TtyRead, GivesEveryOctetValueOnce)
 
 TEST(TtyRead, SaysThatThereIsMoreUntilAllWasGiven)
 {
-    for (const TtySettings& settings : {kBus, kDrive}) {
+    for (const TtySettings& settings : {kBusLine, kDriveLine}) {
         Pty cable;
         Tty tty = opened(cable.path(), settings);
         cable.send({1, 2, 3, 4, 5});
@@ -268,7 +268,7 @@ TEST(TtyRead, SaysThatThereIsMoreUntilAllWasGiven)
 TEST(TtyRead, OctetsThatWereReadAheadCountAsReadable)
 {
     Pty cable;
-    Tty tty = opened(cable.path(), kBus);
+    Tty tty = opened(cable.path(), kBusLine);
     cable.send({1, 2});
     ASSERT_TRUE(tty.wait_readable(1s));
     std::array<std::uint8_t, 1> room{};
@@ -281,7 +281,7 @@ TEST(TtyRead, OctetsThatWereReadAheadCountAsReadable)
 TEST(TtyRead, AfterDiscardingNothingOldComes)
 {
     Pty cable;
-    Tty tty = opened(cable.path(), kBus);
+    Tty tty = opened(cable.path(), kBusLine);
     std::array<std::uint8_t, 1> room{};
     cable.send({1, 2, 3});
     ASSERT_TRUE(tty.wait_readable(1s));
@@ -299,7 +299,7 @@ TEST(TtyRead, AfterDiscardingNothingOldComes)
 
 TEST(TtyRead, AHangUpIsAnErrorAndNotSilence)
 {
-    for (const TtySettings& settings : {kBus, kDrive}) {
+    for (const TtySettings& settings : {kBusLine, kDriveLine}) {
         Pty cable;
         Tty tty = opened(cable.path(), settings);
         std::array<std::uint8_t, 8> room{};
@@ -356,7 +356,7 @@ TEST(TtySend, ATelegramThatDoesNotFitIsThrownAwayWholeAndWithoutWaiting)
 TEST(TtyBaud, IsChangedAndWhatCameBeforeIsThrownAway)
 {
     Pty cable;
-    Tty tty = opened(cable.path(), kBus);
+    Tty tty = opened(cable.path(), kBusLine);
     std::array<std::uint8_t, 4> room{};
     cable.send({1, 2, 3, 4, 0xFF, 6});
     ASSERT_TRUE(tty.wait_readable(1s));
@@ -379,7 +379,7 @@ TEST(TtyBaud, IsChangedAndWhatCameBeforeIsThrownAway)
 TEST(TtyBaud, ChangeDoesNotWaitForOctetsThatAreNotTaken)
 {
     Pty cable;
-    Tty tty = opened(cable.path(), kBus);
+    Tty tty = opened(cable.path(), kBusLine);
     const std::vector<std::uint8_t> telegram(255, 0x55);
     while (!tty.send(telegram)) {
     }
@@ -391,7 +391,7 @@ TEST(TtyBaud, ChangeDoesNotWaitForOctetsThatAreNotTaken)
 TEST(TtyBaud, ChangeOfAPortThatHasGoneIsRefusedWithASentence)
 {
     Pty cable;
-    Tty tty = opened(cable.path(), kBus);
+    Tty tty = opened(cable.path(), kBusLine);
     cable.hang_up();
 
     // A pty keeps its settings longer than its line; a UART that has gone does not.
@@ -404,21 +404,21 @@ TEST(TtyBaud, ChangeOfAPortThatHasGoneIsRefusedWithASentence)
 TEST(TtyBaud, APtyCanDoThemAllAndStaysAtItsOwn)
 {
     Pty cable;
-    Tty tty = opened(cable.path(), kBus);
+    Tty tty = opened(cable.path(), kBusLine);
     cable.send({1});
 
     const TtyBauds bauds = tty.bauds();
 
     EXPECT_TRUE(bauds.can.all());
     EXPECT_EQ(bauds.why_not, "");
-    EXPECT_EQ(cable.rate(), kBus.baud);
+    EXPECT_EQ(cable.rate(), kBusLine.baud);
     EXPECT_FALSE(tty.wait_readable(0s)) << "what came while it tried is noise";
 }
 
 TEST(TtyTransmitter, ADriverThatCannotReportItIsNotAskedAgain)
 {
     Pty cable;
-    const Tty tty = opened(cable.path(), kBus);
+    const Tty tty = opened(cable.path(), kBusLine);
 
     EXPECT_EQ(tty.transmitter_empty(), std::nullopt);
     EXPECT_EQ(tty.transmitter_empty(), std::nullopt);

@@ -41,4 +41,10 @@ inline Seen watch(const Pattern& pattern, std::chrono::nanoseconds from)
     return seen;
 }
 
+/// Does the meaning of the lamps contain `words`?
+inline bool says(Language language, const Condition& condition, std::string_view words)
+{
+    return meaning(language, condition).find(words) != std::string_view::npos;
+}
+
 } // namespace dpslave::led

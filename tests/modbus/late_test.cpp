@@ -15,12 +15,12 @@ using namespace std::chrono_literals;
 using testing::ElementsAre;
 using testing::SizeIs;
 
-/// Short enough to be waited for, long enough for the slave of a test to answer within it.
-constexpr auto kTimeout = 400ms;
+/// The time-out of the late answers: the slave of a test answers within it, or after it.
+constexpr auto kLateTimeout = 400ms;
 
 TEST(ModbusLateAnswer, IsNotTakenForTheOneToTheNextRequest)
 {
-    Bench line{kTimeout};
+    Bench line{kLateTimeout};
     line.drive().set_units({{.unit = 1, .reads_by_4 = true, .has_loopback = false}});
     line.slave().answers("01 03 02 00 07");
     ASSERT_EQ(line.read(number(2)), AccessError::none);
@@ -38,7 +38,7 @@ TEST(ModbusLateAnswer, IsNotTakenForTheOneToTheNextRequest)
 
 TEST(ModbusLateAnswer, IsNotTakenForTheAnswerToAWriteEither)
 {
-    Bench line{kTimeout};
+    Bench line{kLateTimeout};
     line.slave().is_silent();
     ASSERT_EQ(line.write(number(1), 5), AccessError::no_answer);
 
@@ -48,7 +48,7 @@ TEST(ModbusLateAnswer, IsNotTakenForTheAnswerToAWriteEither)
 
 TEST(ModbusLateAnswer, ThatIsTornKeepsNothingFromTheNextRequest)
 {
-    Bench line{kTimeout};
+    Bench line{kLateTimeout};
     line.drive().set_units({{.unit = 1, .reads_by_4 = true, .has_loopback = false}});
     line.slave().answers("01 03 02 00 07");
     ASSERT_EQ(line.read(number(2)), AccessError::none);
@@ -76,7 +76,7 @@ TEST(ModbusLateAnswer, OfAnotherLengthIsPassedOverWhileTheRightOneIsAwaited)
 
 TEST(ModbusLateAnswer, OfAnotherUnitIsPassedOver)
 {
-    Bench line{kTimeout};
+    Bench line{kLateTimeout};
     line.slave().is_silent();
     ASSERT_EQ(line.read(number(1), 1), AccessError::no_answer);
     Octets both = framed("01 03 02 11 11"); // unit 1, late

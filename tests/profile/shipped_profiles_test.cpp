@@ -22,11 +22,11 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
 
-const std::filesystem::path kShipped = std::filesystem::path{DPSLAVE_SOURCE_DIR} / "config/profiles";
+const std::filesystem::path kProfiles = std::filesystem::path{DPSLAVE_SOURCE_DIR} / "config/profiles";
 
-Profile load(const std::string& name)
+Profile load_shipped(const std::string& name)
 {
-    auto profile = profile::load_profile(io::read_regular_file, kShipped.string(), name);
+    auto profile = profile::load_profile(io::read_regular_file, kProfiles.string(), name);
     if (profile) return *std::move(profile);
     for (const auto& fault : profile.error()) ADD_FAILURE() << to_string(fault);
     return {};
@@ -47,23 +47,23 @@ std::string identifiers_of(const Profile& profile)
 
 TEST(ShippedProfiles, are_these_sorted_and_an_absent_folder_has_none)
 {
-    EXPECT_THAT(io::names_in(kShipped, ".toml"),
+    EXPECT_THAT(io::names_in(kProfiles, ".toml"),
                 ElementsAre("2404f", "2408f", "584s", "584sv", "590", "590plus", "605", "620", "690plus"));
-    EXPECT_TRUE(io::names_in(kShipped / "absent", ".toml").empty());
+    EXPECT_TRUE(io::names_in(kProfiles / "absent", ".toml").empty());
 }
 
 TEST(ShippedProfiles, support_the_six_rates_of_the_boards_and_the_fixed_one)
 {
-    for (const std::string& name : io::names_in(kShipped, ".toml"))
-        EXPECT_THAT(load(name).personality.max_tsdr,
+    for (const std::string& name : io::names_in(kProfiles, ".toml"))
+        EXPECT_THAT(load_shipped(name).personality.max_tsdr,
                     ElementsAre(60_tbit, 60_tbit, 60_tbit, 60_tbit, 60_tbit, 100_tbit, 150_tbit))
             << name;
 }
 
 TEST(ShippedProfiles, name_an_ident_only_where_a_manual_prints_one)
 {
-    for (const std::string& name : io::names_in(kShipped, ".toml")) {
-        const Profile profile = load(name);
+    for (const std::string& name : io::names_in(kProfiles, ".toml")) {
+        const Profile profile = load_shipped(name);
         const bool is_board = name == "584s" || name == "590" || name == "620";
         EXPECT_EQ(profile.ident, is_board        ? std::optional<std::uint16_t>{0x0533}
                                  : name == "605" ? std::optional<std::uint16_t>{0x1649}
@@ -72,7 +72,7 @@ TEST(ShippedProfiles, name_an_ident_only_where_a_manual_prints_one)
         EXPECT_EQ(profile.personality.ident, profile.ident.value_or(0)) << name;
         EXPECT_EQ(profile.gsd.file.empty(), !profile.ident.has_value()) << name << ": no ident, no GSD";
         if (!profile.ident) {
-            EXPECT_THAT(test::content_of(kShipped / (name + ".toml")), HasSubstr("(Ident_Number")) << name;
+            EXPECT_THAT(test::content_of(kProfiles / (name + ".toml")), HasSubstr("(Ident_Number")) << name;
         }
     }
 }
@@ -83,7 +83,7 @@ class OptionBoard : public testing::TestWithParam<const char*> {};
 
 TEST_P(OptionBoard, is_that_of_HA389815)
 {
-    const Profile profile = load(GetParam());
+    const Profile profile = load_shipped(GetParam());
     const dp::Personality& personality = profile.personality;
 
     EXPECT_EQ(profile.name, GetParam());
@@ -112,13 +112,13 @@ TEST_P(OptionBoard, is_that_of_HA389815)
     EXPECT_THAT(profile.never_written, IsEmpty());
     EXPECT_TRUE(profile.option_software.empty());
     EXPECT_THAT(profile.protocols, ElementsAre("ei-ascii"));
-    EXPECT_EQ(profile.tag_file, kShipped.parent_path() / "tags/empty.csv");
+    EXPECT_EQ(profile.tag_file, kProfiles.parent_path() / "tags/empty.csv");
     EXPECT_TRUE(profile.tags.all().empty()) << "no public table: no tag is made up";
 }
 
 TEST_P(OptionBoard, has_the_gsd_facts_of_appendix_A)
 {
-    const Profile profile = load(GetParam());
+    const Profile profile = load_shipped(GetParam());
     const bool is_620 = profile.name == "620";
 
     EXPECT_EQ(profile.gsd.vendor, "EUROTHERM");
@@ -140,9 +140,9 @@ INSTANTIATE_TEST_SUITE_P(hosts, OptionBoard, testing::Values("584s", "590", "620
 
 TEST(ShippedProfiles, of_the_option_board_differ_in_order_code_firmware_addresses_and_lamps)
 {
-    const Profile p584 = load("584s");
-    const Profile p590 = load("590");
-    const Profile p620 = load("620");
+    const Profile p584 = load_shipped("584s");
+    const Profile p590 = load_shipped("590");
+    const Profile p620 = load_shipped("620");
 
     EXPECT_THAT(p584.order_code, HasSubstr("/PR00/"));
     EXPECT_THAT(p590.order_code, StartsWith("590/XXXX/X/X/X/X/X/2/"));
@@ -167,7 +167,7 @@ class TechnologyBox : public testing::TestWithParam<const char*> {};
 
 TEST_P(TechnologyBox, is_that_of_HA463561U002)
 {
-    const Profile profile = load(GetParam());
+    const Profile profile = load_shipped(GetParam());
     const dp::Personality& personality = profile.personality;
 
     EXPECT_EQ(profile.manual, "HA463561U002");
@@ -200,7 +200,7 @@ TEST_P(TechnologyBox, is_that_of_HA463561U002)
 
 TEST_P(TechnologyBox, has_gsd_facts_of_a_drive_with_all_four_modules)
 {
-    const profile::GsdFacts gsd = load(GetParam()).gsd;
+    const profile::GsdFacts gsd = load_shipped(GetParam()).gsd;
 
     EXPECT_THAT(gsd.model, StartsWith("SSD Drives "));
     EXPECT_EQ(gsd.family, 1) << "drives";
@@ -216,10 +216,10 @@ INSTANTIATE_TEST_SUITE_P(hosts, TechnologyBox, testing::Values("584sv", "590plus
 
 TEST(ShippedProfiles, of_the_technology_box_have_the_order_codes_and_firmware_of_page_3)
 {
-    const Profile p584 = load("584sv");
-    const Profile p590 = load("590plus");
-    const Profile p605 = load("605");
-    const Profile p690 = load("690plus");
+    const Profile p584 = load_shipped("584sv");
+    const Profile p590 = load_shipped("590plus");
+    const Profile p605 = load_shipped("605");
+    const Profile p690 = load_shipped("690plus");
 
     EXPECT_EQ(p584.firmware, "V4.x onwards");
     EXPECT_EQ(p590.firmware, "V5.x onwards");
@@ -247,43 +247,43 @@ TEST(ShippedProfiles, of_the_technology_box_have_the_order_codes_and_firmware_of
 TEST(ShippedProfiles, of_the_technology_box_report_the_trip_code_where_the_drive_has_it)
 {
     for (const char* name : {"584sv", "605", "690plus"})
-        EXPECT_EQ(load(name).diagnosis, DiagForm::trip_code) << name;
-    EXPECT_EQ(load("590plus").diagnosis, DiagForm::tripped) << "0 or 31 only";
+        EXPECT_EQ(load_shipped(name).diagnosis, DiagForm::trip_code) << name;
+    EXPECT_EQ(load_shipped("590plus").diagnosis, DiagForm::tripped) << "0 or 31 only";
 }
 
 TEST(ShippedProfiles, of_the_technology_box_mirror_the_lamps_that_are_known)
 {
-    const Profile p690 = load("690plus");
+    const Profile p690 = load_shipped("690plus");
     EXPECT_EQ(p690.health, (MirroredLamp{272, 0x0008, true})) << "COMMS STATUS bit 3: tripped";
     EXPECT_EQ(p690.run, (MirroredLamp{272, 0x0004, false})) << "bit 2: running";
     for (const char* name : {"584sv", "590plus", "605"}) {
-        EXPECT_EQ(load(name).health, MirroredLamp{}) << name;
-        EXPECT_EQ(load(name).run, MirroredLamp{}) << name;
+        EXPECT_EQ(load_shipped(name).health, MirroredLamp{}) << name;
+        EXPECT_EQ(load_shipped(name).run, MirroredLamp{}) << name;
     }
 }
 
 TEST(ShippedProfiles, of_the_technology_box_name_their_tables_and_their_mnemonic_rule)
 {
     for (const char* name : {"584sv", "605", "690plus"})
-        EXPECT_EQ(load(name).mnemonics, drive::MnemonicRule::ac) << name;
-    EXPECT_EQ(load("590plus").mnemonics, drive::MnemonicRule::dc_590plus);
+        EXPECT_EQ(load_shipped(name).mnemonics, drive::MnemonicRule::ac) << name;
+    EXPECT_EQ(load_shipped("590plus").mnemonics, drive::MnemonicRule::dc_590plus);
     for (const char* name : {"584sv", "605"}) {
-        EXPECT_THAT(load(name).tag_file, EndsWith("tags/empty.csv"));
-        EXPECT_TRUE(load(name).tags.all().empty()) << "no public table: nothing is made up";
+        EXPECT_THAT(load_shipped(name).tag_file, EndsWith("tags/empty.csv"));
+        EXPECT_TRUE(load_shipped(name).tags.all().empty()) << "no public table: nothing is made up";
     }
-    EXPECT_NE(load("590plus").tags.find(537), nullptr);
-    EXPECT_NE(load("690plus").tags.find(272), nullptr);
+    EXPECT_NE(load_shipped("590plus").tags.find(537), nullptr);
+    EXPECT_NE(load_shipped("690plus").tags.find(272), nullptr);
 }
 
 TEST(ShippedProfiles, of_the_605_and_584SV_have_the_names_of_the_figures)
 {
-    EXPECT_EQ(load("605").gsd.model, "SSD Drives 605");
-    EXPECT_EQ(load("584sv").gsd.model, "SSD Drives 584SV");
+    EXPECT_EQ(load_shipped("605").gsd.model, "SSD Drives 605");
+    EXPECT_EQ(load_shipped("584sv").gsd.model, "SSD Drives 584SV");
 }
 
 TEST(ShippedProfiles, of_the_590plus_reach_PNO_0_to_127_as_tags_1000_to_1127_by_their_own_mnemonics)
 {
-    const drive::MnemonicRule rule = load("590plus").mnemonics;
+    const drive::MnemonicRule rule = load_shipped("590plus").mnemonics;
     const auto mnemonic = [rule](std::uint16_t tag) {
         const auto two = drive::mnemonic_of(drive::unlisted_tag(tag), rule);
         return two ? std::string{two->begin(), two->end()} : "";
@@ -304,7 +304,7 @@ class Controller : public testing::TestWithParam<const char*> {};
 
 TEST_P(Controller, is_that_of_the_handbook)
 {
-    const Profile profile = load(GetParam());
+    const Profile profile = load_shipped(GetParam());
     const dp::Personality& personality = profile.personality;
 
     EXPECT_EQ(profile.manual, "HA026290");
@@ -347,7 +347,7 @@ TEST_P(Controller, is_that_of_the_handbook)
 
 TEST_P(Controller, counts_the_bits_of_table_4_2_that_are_faults)
 {
-    const Profile profile = load(GetParam());
+    const Profile profile = load_shipped(GetParam());
 
     unsigned faults = 0;
     for (const unsigned bit : {0U, 1U, 2U, 3U, 5U, 6U, 7U, 10U, 11U, 13U, 14U}) faults |= 1U << bit;
@@ -361,7 +361,7 @@ TEST_P(Controller, counts_the_bits_of_table_4_2_that_are_faults)
 
 TEST_P(Controller, maps_what_EURO2400_maps)
 {
-    const Profile profile = load(GetParam());
+    const Profile profile = load_shipped(GetParam());
 
     EXPECT_THAT(profile.gsd.in_tags, ElementsAre(1, 5, 3, 75));
     EXPECT_THAT(profile.gsd.out_tags, ElementsAre(24, 25, 15, 274));

@@ -22,7 +22,7 @@ using testing::HasSubstr;
 
 const std::filesystem::path kTags = std::filesystem::path{DPSLAVE_SOURCE_DIR} / "config/tags";
 
-drive::TagTable load(const std::string& file)
+drive::TagTable load_table(const std::string& file)
 {
     auto tags = profile::load_tags(io::read_regular_file, kTags / file);
     EXPECT_TRUE(tags) << to_string(tags.error().at(0));
@@ -69,12 +69,13 @@ TEST(ShippedTables, are_these_and_no_others)
         if (entry.path().extension() == ".csv") names.push_back(entry.path().filename().string());
     EXPECT_THAT(names, testing::UnorderedElementsAre("2400.csv", "590plus.csv", "690plus.csv", "650v.csv",
                                                      "empty.csv", "example.csv"));
-    EXPECT_TRUE(load("empty.csv").all().empty()) << "no table of a 605 or 584SV is public: no tag is made up";
+    EXPECT_TRUE(load_table("empty.csv").all().empty())
+        << "no table of a 605 or 584SV is public: no tag is made up";
 }
 
 TEST(ShippedTables, of_the_590plus_have_the_tags_and_mnemonics_that_its_manual_prints)
 {
-    const drive::TagTable tags = load("590plus.csv");
+    const drive::TagTable tags = load_table("590plus.csv");
     struct Row {
         std::uint16_t number;
         const char* name;
@@ -109,7 +110,7 @@ TEST(ShippedTables, of_the_590plus_have_the_tags_and_mnemonics_that_its_manual_p
 TEST(ShippedTables, of_the_ac_drives_have_the_command_and_status_words)
 {
     for (const char* file : {"690plus.csv", "650v.csv"}) {
-        const drive::TagTable tags = load(file);
+        const drive::TagTable tags = load_table(file);
         for (const std::uint16_t number : std::initializer_list<std::uint16_t>{271, 272, 273}) {
             const Tag* found = tags.find(number);
             ASSERT_NE(found, nullptr) << file << ' ' << number;
@@ -119,14 +120,14 @@ TEST(ShippedTables, of_the_ac_drives_have_the_command_and_status_words)
                 << "whether 271 can be read is not said: the drive decides";
         }
     }
-    EXPECT_EQ(displayed(*load("690plus.csv").find(272), 0x0008), ">0008 (Tripped)");
+    EXPECT_EQ(displayed(*load_table("690plus.csv").find(272), 0x0008), ">0008 (Tripped)");
     EXPECT_EQ(mnemonic(271, MnemonicRule::ac), "7j");
     EXPECT_EQ(mnemonic(272, MnemonicRule::ac), "7k");
 }
 
 TEST(ShippedTables, of_the_650V_keep_the_printed_mnemonic_and_say_where_decimals_are_not_known)
 {
-    const drive::TagTable tags = load("650v.csv");
+    const drive::TagTable tags = load_table("650v.csv");
     ASSERT_NE(tags.find(348), nullptr);
     EXPECT_EQ(tags.find(348)->mnemonic, "9o");
     EXPECT_EQ(tags.find(348)->decimals, 2);

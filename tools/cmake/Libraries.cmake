@@ -17,8 +17,8 @@ include(Hardening)
 target_link_libraries(dpslave_flags INTERFACE dpslave_hardening)
 
 # CMAKE_UNITY_BUILD compiles several files of a library at once, which more than halves the time. ALONE names those that
-# share the name of something local with a neighbour.
-set(CMAKE_UNITY_BUILD_BATCH_SIZE 6)
+# cannot stand beside a neighbour, each with its reason.
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 12)
 function(dpslave_alone)
   if(ARGN)
     set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
@@ -65,16 +65,38 @@ function(dpslave_program name)
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
 
-# dpslave_test(NAME SOURCES ... LINKS ... ALONE ...) makes the program test_<name> and its ctest entries.
-# What is judged is optimised, its judge is not: that would cost more time than it saves.
+# The headers that every test includes, compiled once. Only beside CMAKE_UNITY_BUILD: without it each file proves that it
+# includes what it uses.
+function(dpslave_test_headers target)
+  if(NOT CMAKE_UNITY_BUILD)
+    return()
+  endif()
+  if(NOT TARGET dpslave_test_headers)
+    file(WRITE ${PROJECT_BINARY_DIR}/test_headers.cpp "")
+    add_library(dpslave_test_headers OBJECT ${PROJECT_BINARY_DIR}/test_headers.cpp)
+    target_link_libraries(dpslave_test_headers PRIVATE dpslave_flags GTest::gmock)
+    target_compile_options(dpslave_test_headers PRIVATE -O0 -g1)
+    target_precompile_headers(dpslave_test_headers PRIVATE <gmock/gmock.h> <gtest/gtest.h>
+      <array> <chrono> <filesystem> <functional> <map> <random> <span> <sstream>)
+  endif()
+  target_precompile_headers(${target} REUSE_FROM dpslave_test_headers)
+endfunction()
+
+# dpslave_test(NAME SOURCES ... LINKS ... ALONE ... [OPTIMISED]) makes the program test_<name> and its ctest entries.
+# What is judged is optimised. Its judge is only if it says so: that mostly costs more time than it saves.
 function(dpslave_test name)
-  cmake_parse_arguments(arg "" "" "SOURCES;LINKS;ALONE" ${ARGN})
+  cmake_parse_arguments(arg "OPTIMISED" "" "SOURCES;LINKS;ALONE" ${ARGN})
   dpslave_alone(${arg_ALONE})
   add_executable(test_${name} ${arg_SOURCES})
   target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(test_${name} PRIVATE dpslave_flags ${arg_LINKS} GTest::gmock GTest::gtest_main)
   set_target_properties(test_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
-  target_compile_options(test_${name} PRIVATE -O0 -g1)
+  if(arg_OPTIMISED)
+    target_compile_options(test_${name} PRIVATE -O2)
+  else()
+    target_compile_options(test_${name} PRIVATE -O0 -g1)
+    dpslave_test_headers(test_${name})
+  endif()
   target_compile_definitions(test_${name} PRIVATE DPSLAVE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   gtest_discover_tests(test_${name} TEST_PREFIX "${name}." NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 120)
 endfunction()

@@ -31,7 +31,7 @@ std::string seen_dark(const Facts& f)
     return is_board(f) && is_in(f, "Power_On") ? "the station is in Power_On: it is not served" : "";
 }
 
-constexpr std::array kRules = std::to_array<Rule>({
+constexpr std::array kBoardRules = std::to_array<Rule>({
     {"board.dark", Rank::stands, "red off, green off", "No power or major fault",
      "Check the power of the gateway and of its transceiver.\n"
      "Run systemctl status dpslaved. Find out why the station is not served: journalctl -u dpslaved",
@@ -66,7 +66,7 @@ constexpr std::array kRules = std::to_array<Rule>({
 
 std::span<const Rule> board_rules()
 {
-    return kRules;
+    return kBoardRules;
 }
 
 } // namespace dpslave::dpctl

@@ -100,7 +100,7 @@ std::string seen_tec_notes(const Facts& f)
     return joined(f.tec.notes, " ");
 }
 
-constexpr std::array kRules = std::to_array<Rule>({
+constexpr std::array kBoxRules = std::to_array<Rule>({
     {"box.no_power", Rank::checklist, "NETWORK off, MODULE off (FAULT is HARDWARE or MISSING)",
      "No power, not installed correctly, or hardware fault",
      "No power at the drive: check and apply power to the drive.\n"
@@ -172,7 +172,7 @@ constexpr std::array kRules = std::to_array<Rule>({
 
 std::span<const Rule> box_rules()
 {
-    return kRules;
+    return kBoxRules;
 }
 
 } // namespace dpslave::dpctl

@@ -170,7 +170,7 @@ std::string seen_driver(const Facts& f)
                        plural(guarded.minute, "time"), lately(failed.minute > 0 ? failed : guarded));
 }
 
-constexpr std::array kRules = std::to_array<Rule>({
+constexpr std::array kBusRules = std::to_array<Rule>({
     {"bus.gone", Rank::gone, "the port of the bus has vanished",
      "The port of the bus is missing: the adapter was unplugged, or its driver failed",
      "Check that the adapter is plugged in. See where it is now: ls -l /dev/serial/by-id\n"
@@ -250,7 +250,7 @@ constexpr std::array kRules = std::to_array<Rule>({
 
 std::span<const Rule> bus_rules()
 {
-    return kRules;
+    return kBusRules;
 }
 
 } // namespace dpslave::dpctl

@@ -41,7 +41,7 @@ std::string seen_format(const Facts& f)
                                                                    : std::string{};
 }
 
-constexpr std::array kRules = std::to_array<Rule>({
+constexpr std::array kControllerRules = std::to_array<Rule>({
     {"controller.no_communications", Rank::checklist, "status rdY, REM dark: no data exchange",
      "No communications",
      "Check the wiring: continuity of A (HE) and B (HD) to the master, the correct terminals.\n"
@@ -87,7 +87,7 @@ constexpr std::array kRules = std::to_array<Rule>({
 
 std::span<const Rule> controller_rules()
 {
-    return kRules;
+    return kControllerRules;
 }
 
 } // namespace dpslave::dpctl

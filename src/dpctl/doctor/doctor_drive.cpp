@@ -37,21 +37,21 @@ std::string settings_of(const report::Drive& d)
                        d.format);
 }
 
-std::string seen_gone(const Facts& f)
+std::string seen_drive_port_gone(const Facts& f)
 {
     const report::Drive& d = f.station.drive;
     return !d.port_open ? fmt::format("{} of line {} is not there", d.port, d.line) : "";
 }
 /// Do we hear ourselves? Then what else is heard says nothing of the drive.
-bool is_echo(const Facts& f)
+bool is_drive_echo(const Facts& f)
 {
     const Count back = counted(f.station_counters, "drive_came_back");
     return back.minute >= kSome && back.within(kOfNow);
 }
-std::string seen_echo(const Facts& f)
+std::string seen_drive_echo(const Facts& f)
 {
     const Count back = counted(f.station_counters, "drive_came_back");
-    if (!is_echo(f)) return {};
+    if (!is_drive_echo(f)) return {};
     return fmt::format("{} came back {}: the adapter of {} receives what it sends, and [[line]] echo is off",
                        plural(back.minute, "request"), lately(back), f.station.drive.port);
 }
@@ -75,7 +75,7 @@ std::string damaged_words(const Facts& f)
 bool is_unreadable(const Facts& f)
 {
     const Count damaged = counted(f.station_counters, "drive_damaged");
-    return is_silent(f) && !is_echo(f) && damaged.minute >= kSome && damaged.within(kOfNow);
+    return is_silent(f) && !is_drive_echo(f) && damaged.minute >= kSome && damaged.within(kOfNow);
 }
 std::string seen_unreadable(const Facts& f)
 {
@@ -87,7 +87,7 @@ std::string seen_unreadable(const Facts& f)
 std::string seen_never(const Facts& f)
 {
     const report::Drive& d = f.station.drive;
-    if (!is_silent(f) || d.ever_answered || is_late(f) || is_unreadable(f) || is_echo(f)) return {};
+    if (!is_silent(f) || d.ever_answered || is_late(f) || is_unreadable(f) || is_drive_echo(f)) return {};
     return fmt::format("{}; {} and never an answer", settings_of(d), plural(d.silences, "request"));
 }
 /// Was it lost more than once, and not for a reason that has a rule of its own?
@@ -95,7 +95,7 @@ bool is_unsteady(const Facts& f)
 {
     const Count lost = counted(f.station_counters, "drive_losses");
     return f.station.drive.port_open && lost.minute >= 2 && lost.within(kComesBack) && !is_late(f) &&
-           !is_unreadable(f) && !is_echo(f);
+           !is_unreadable(f) && !is_drive_echo(f);
 }
 /// "; tag 57 was not read for 14.6 s": where others were.
 std::string unread(const Facts& f)
@@ -118,16 +118,17 @@ std::string seen_unsteady(const Facts& f)
     return fmt::format("{}; it was lost {} {}{}", settings_of(f.station.drive), plural(lost.minute, "time"),
                        lately(lost), unread(f));
 }
-std::string seen_silent(const Facts& f)
+std::string seen_drive_silent(const Facts& f)
 {
     const report::Drive& d = f.station.drive;
-    if (is_unsteady(f) || !is_silent(f) || !d.ever_answered || is_late(f) || is_unreadable(f) || is_echo(f))
+    if (is_unsteady(f) || !is_silent(f) || !d.ever_answered || is_late(f) || is_unreadable(f) ||
+        is_drive_echo(f))
         return {};
     const Count lost = counted(f.station_counters, "drive_losses");
     return fmt::format("{}; it does not answer{}", settings_of(d),
                        lost.last_ms ? " since " + age(lost.last_ms) : std::string{});
 }
-std::string seen_late(const Facts& f)
+std::string seen_drive_late(const Facts& f)
 {
     const Count late = counted(f.station_counters, "drive_late");
     if (late.minute < kSome || !is_late(f)) return {};
@@ -141,7 +142,7 @@ std::string seen_late(const Facts& f)
 }
 std::string seen_damaged(const Facts& f)
 {
-    if (counted(f.station_counters, "drive_damaged").minute < kSome || is_unreadable(f) || is_echo(f))
+    if (counted(f.station_counters, "drive_damaged").minute < kSome || is_unreadable(f) || is_drive_echo(f))
         return {};
     if (!f.station.drive.ever_answered) return {};
     const std::int64_t good = counted(f.station_counters, "drive_reads").minute +
@@ -151,7 +152,7 @@ std::string seen_damaged(const Facts& f)
 std::string seen_foreign(const Facts& f)
 {
     const Count foreign = counted(f.station_counters, "drive_foreign");
-    if (foreign.minute < kSome || is_echo(f)) return {};
+    if (foreign.minute < kSome || is_drive_echo(f)) return {};
     return fmt::format("{} not to what was asked, {}",
                        foreign.minute == 1 ? "1 answer was" : fmt::format("{} answers were", foreign.minute),
                        lately(foreign));
@@ -178,7 +179,7 @@ std::string seen_noise(const Facts& f)
     const std::int64_t all = silences.minute + counted(f.station_counters, "drive_reads").minute +
                              counted(f.station_counters, "drive_writes").minute;
     const bool is_known = counted(f.station_counters, "drive_late").minute >= kSome ||
-                          counted(f.station_counters, "drive_damaged").minute >= kSome || is_echo(f) ||
+                          counted(f.station_counters, "drive_damaged").minute >= kSome || is_drive_echo(f) ||
                           is_unsteady(f);
     if (is_known || silences.minute < kSome || silences.minute * kShare < all) return {};
     return fmt::format("{} of {} were not answered {}", silences.minute, plural(all, "request"),
@@ -191,18 +192,18 @@ std::string seen_unknown(const Facts& f)
     return settings_of(d) + "; it was not asked yet";
 }
 
-constexpr std::array kRules = std::to_array<Rule>({
+constexpr std::array kDriveRules = std::to_array<Rule>({
     {"drive.gone", Rank::gone, "the port of the drive line has vanished",
      "The port of the drive line is missing: the adapter was unplugged, or its driver failed",
      "Check that the adapter is plugged in. See where it is now: ls -l /dev/serial/by-id\n"
      "Name the port under [[line]] by its stable path in /dev/serial/by-id.\n"
      "See what the system answered: journalctl -u dpslaved. It is tried again every second.",
-     kGateway, seen_gone},
+     kGateway, seen_drive_port_gone},
     {"drive.echo", Rank::stands, "requests to the drive come back from the line",
      "The transceiver of the drive line receives what it sends",
      "Set echo = \"on\" in the [[line]] of this drive. Then: dpctl reload\n"
      "Or switch the echo off at the adapter. Many two-wire RS-485 adapters have a switch for it.",
-     kGateway, seen_echo},
+     kGateway, seen_drive_echo},
     {"drive.unreadable", Rank::stands, "answers of the drive come, and none can be read",
      "The drive answers, but damaged: rate or format of the line, or a disturbed cable",
      "Compare rate and format of [[line]] with those of the drive.\n"
@@ -222,7 +223,7 @@ constexpr std::array kRules = std::to_array<Rule>({
      "The drive answers later than timeout_ms allows",
      "Set timeout_ms of its [[line]] above what was measured. Then: dpctl reload\n"
      "Look for a response delay in the menu of the drive, and for a converter between.",
-     kGateway, seen_late},
+     kGateway, seen_drive_late},
     {"drive.unsteady", Rank::stands, "the drive is lost and answers again, more than once",
      "The drive is lost from time to time: a loose plug, its power, or a disturbed cable",
      "Check the plugs at both ends. Check the supply of the drive, and of a converter between.\n"
@@ -232,7 +233,7 @@ constexpr std::array kRules = std::to_array<Rule>({
      kGateway, seen_unsteady},
     {"drive.silent", Rank::stands, "the drive answered once, and does not answer now",
      "The drive no longer answers: power, cable, or changed settings of its port", kSilentSteps, kGateway,
-     seen_silent},
+     seen_drive_silent},
     {"drive.not_asked", Rank::stands, "the drive was not asked yet", "The line has not asked this drive yet",
      kSilentSteps, kGateway, seen_unknown},
     {"drive.foreign", Rank::recent, "answers of the drive are not to what was asked",
@@ -264,7 +265,7 @@ constexpr std::array kRules = std::to_array<Rule>({
 
 std::span<const Rule> drive_rules()
 {
-    return kRules;
+    return kDriveRules;
 }
 
 } // namespace dpslave::dpctl

@@ -235,7 +235,7 @@ std::string seen_low_address(const Facts& f)
                : std::string{};
 }
 
-constexpr std::array kRules = std::to_array<Rule>({
+constexpr std::array kStationRules = std::to_array<Rule>({
     {"station.prm_refused", Rank::stands, "the master's Set_Prm is refused",
      "The master's project does not fit this device: parameters",
      "Compare what came with what was expected, octet by octet: dpctl diag\n"
@@ -387,7 +387,7 @@ constexpr std::array kRules = std::to_array<Rule>({
 
 std::span<const Rule> station_rules()
 {
-    return kRules;
+    return kStationRules;
 }
 
 } // namespace dpslave::dpctl

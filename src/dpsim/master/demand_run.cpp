@@ -17,7 +17,7 @@ constexpr std::size_t kMostValues = 16'384;
 /// Values a line of an upload shows: a block of the program store.
 constexpr std::size_t kValuesPerLine = 8;
 
-constexpr std::string_view kUsage =
+constexpr std::string_view kDemandUsage =
     "write it as: demand read 55, demand write 56 1000, demand none (tags 0 to 2047), demand read-ext 8328, "
     "demand "
     "write-ext 8328 3, demand raw 8462 0 0 1, demand upload 8328 136 or demand download 8328";
@@ -66,7 +66,7 @@ DemandRun::Step DemandRun::show() const
 DemandRun::Step DemandRun::raw(const Words& words)
 {
     DemandRegisters registers{};
-    if (words.size() < 3 || words.size() > 6) return failed(kUsage);
+    if (words.size() < 3 || words.size() > 6) return failed(kDemandUsage);
     for (std::size_t i = 2; i < words.size(); ++i) {
         const auto value = value_in(words, i);
         if (!value) return failed("a register is -32768 to 65535, or 0x0000 to 0xFFFF");
@@ -85,12 +85,12 @@ DemandRun::Step DemandRun::order(const Words& words, Instant now)
     if (name == "read" || writes) {
         const auto tag = word_in(words, 2, 0, extended ? 65535 : 2047);
         const auto value = writes ? value_in(words, 3) : std::optional<std::uint16_t>{0};
-        if (!tag || !value || words.size() != (writes ? 4U : 3U)) return failed(kUsage);
+        if (!tag || !value || words.size() != (writes ? 4U : 3U)) return failed(kDemandUsage);
         order_ = {extended ? (writes ? DemandCommand::extended_write : DemandCommand::extended_read)
                            : (writes ? DemandCommand::write : DemandCommand::read),
                   *tag, *value};
     } else if (words[1] != "none" || words.size() != 2) {
-        return failed(kUsage);
+        return failed(kDemandUsage);
     }
     return ask(false, now);
 }
@@ -100,7 +100,7 @@ DemandRun::Step DemandRun::transfer(const Words& words, Instant now)
 {
     transfer_ = {.down = words[1] == "download"};
     const auto first = word_in(words, 2, 0, 65535);
-    if (!first) return failed(kUsage);
+    if (!first) return failed(kDemandUsage);
     transfer_.first = *first;
     if (transfer_.down) {
         if (words.size() > 3) block_.clear();
@@ -113,7 +113,7 @@ DemandRun::Step DemandRun::transfer(const Words& words, Instant now)
         transfer_.count = block_.size();
     } else {
         const auto count = word_in(words, 3, 1, kMostValues);
-        if (!count || words.size() != 4) return failed(kUsage);
+        if (!count || words.size() != 4) return failed(kDemandUsage);
         transfer_.count = *count;
         block_.clear();
     }

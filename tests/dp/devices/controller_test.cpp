@@ -11,11 +11,6 @@ using dpslave::dp::Refusal;
 using dpslave::dp::RefusalDetail;
 using dpslave::dp::State;
 
-Parameter output(std::uint16_t tag)
-{
-    return {tag, false, true};
-}
-
 class Controller : public DpBench {
 protected:
     Controller() : DpBench(controller()) {}

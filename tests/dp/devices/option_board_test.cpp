@@ -14,15 +14,6 @@ constexpr std::string_view kDiagFree = "DL 00 0C 00 02 05 33";
 constexpr std::string_view kPrmFault = "DL 42 05 00 FF 05 33";
 constexpr std::string_view kCfgFault = "DL 06 05 00 FF 05 33";
 
-Parameter input(std::uint16_t tag)
-{
-    return {tag, true, false};
-}
-Parameter output(std::uint16_t tag)
-{
-    return {tag, false, true};
-}
-
 TEST_F(OptionBoard, AnswersWithItsIdentNumber)
 {
     EXPECT_EQ(master.slave_diag(), "DL 02 05 00 FF 05 33");

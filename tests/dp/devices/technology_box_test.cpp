@@ -11,15 +11,6 @@ using dpslave::dp::Refusal;
 using dpslave::dp::RefusalDetail;
 using dpslave::dp::State;
 
-Parameter input(std::uint16_t tag)
-{
-    return {tag, true, false};
-}
-Parameter output(std::uint16_t tag)
-{
-    return {tag, false, true};
-}
-
 class TechnologyBox : public DpBench {
 protected:
     TechnologyBox() : DpBench(technology_box()) {}
