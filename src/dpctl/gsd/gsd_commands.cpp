@@ -5,6 +5,7 @@
 #include "gsd_files.hpp"
 
 #include "dpslave/base/printable.hpp"
+#include "dpslave/configurator/configurator.hpp"
 #include "dpslave/gsd/check.hpp"
 #include "dpslave/gsd/identifier.hpp"
 #include "dpslave/gsd/io_map.hpp"
@@ -38,6 +39,13 @@ std::optional<std::uint32_t> number_of(std::string_view text)
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, hex ? 16 : 10);
     if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
     return value;
+}
+
+int print(const configurator::Outcome& outcome, Terminal& terminal)
+{
+    for (const std::string& line : outcome.lines) fmt::print(terminal.out, "{}\n", line);
+    for (const std::string& line : outcome.messages) fmt::print(terminal.err, "{}\n", line);
+    return outcome.exit;
 }
 
 /// "FILE:12: warning: sentence", as compilers do.
@@ -187,14 +195,7 @@ int gsd_check(const GsdOptions& options, Terminal& terminal)
 {
     const auto content = read_file(options.file);
     if (!content) return refused(terminal, options.file + " cannot be read: " + content.error().why + '.');
-    const auto reading = options.strict ? gsd::Reading::strict : gsd::Reading::tolerant;
-    const gsd::Document document = gsd::parse(*content);
-    gsd::Findings findings = gsd::check(document, reading, Path{options.file}.filename().string());
-    if (!document.has_section) // no GSD file at all: what is remarkable about its lines is beside the point
-        std::erase_if(findings, [](const gsd::Finding& one) { return one.severity != gsd::Severity::error; });
-    for (const gsd::Finding& finding : findings) print(terminal.out, options.file, finding);
-    fmt::print(terminal.out, "{}: {}\n", options.file, summary(findings));
-    return any_error(findings) ? kNo : kFine;
+    return print(configurator::check(*content, options.file, options.strict), terminal);
 }
 
 int gsd_show(const GsdOptions& options, Terminal& terminal)

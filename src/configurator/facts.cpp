@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "facts.hpp"
+
+#include "dpslave/base/printable.hpp"
+
+#include <algorithm>
+
+namespace dpslave::configurator {
+namespace {
+
+constexpr std::string_view kSixBits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+std::string parameter(std::string_view direction, std::uint16_t tag)
+{
+    return std::string{direction} + ':' + std::to_string(tag);
+}
+
+Json list_of(const std::vector<std::uint16_t>& in, const std::vector<std::uint16_t>& out,
+             const std::vector<std::uint16_t>& in_out)
+{
+    Json list = Json::array();
+    for (const std::uint16_t tag : in) list.push_back(parameter("in", tag));
+    for (const std::uint16_t tag : out) list.push_back(parameter("out", tag));
+    for (const std::uint16_t tag : in_out) list.push_back(parameter("in-out", tag));
+    return list;
+}
+
+std::string name_of(const std::string& path)
+{
+    return path.substr(path.rfind('/') + 1); // npos + 1 is 0
+}
+
+Json lists_of(const dp::Personality& personality)
+{
+    Json lists = Json::array();
+    for (const auto& [reads, writes, name] :
+         {std::tuple{true, false, "in"}, std::tuple{false, true, "out"}, std::tuple{true, true, "in-out"}})
+        if (std::any_of(personality.identifiers.begin(), personality.identifiers.end(),
+                        [&, r = reads, w = writes](const dp::Identifier& each) {
+                            return each.reads == r && each.writes == w;
+                        }))
+            lists.push_back(name);
+    return lists;
+}
+
+} // namespace
+
+std::string text_of(const Json& value)
+{
+    return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Json findings_of(const gsd::Findings& findings)
+{
+    Json all = Json::array();
+    for (const gsd::Finding& finding : findings)
+        all.push_back({{"severity", finding.severity == gsd::Severity::error ? "error" : "warning"},
+                       {"line", finding.line},
+                       {"text", printable(finding.what)}});
+    return all;
+}
+
+Json mapping_of(const profile::Mapping& mapping)
+{
+    const profile::Selection& selection = mapping.selection;
+    Json all{{"profile", mapping.profile},
+             {"list", list_of(selection.in, selection.out, selection.in_out)},
+             {"demand", selection.demand}};
+    if (selection.ident) all["ident"] = *selection.ident;
+    if (selection.max_tsdr) all["max_tsdr"] = *selection.max_tsdr;
+    if (selection.description) all["description"] = *selection.description;
+    if (selection.model) all["model"] = *selection.model;
+    return all;
+}
+
+Json profile_of(const profile::Profile& profile)
+{
+    const dp::Personality& personality = profile.personality;
+    Json rates = Json::array();
+    for (const Baud baud : kBauds)
+        if (const Tbit bits = personality.max_tsdr[index_of(baud)]; bits.count > 0)
+            rates.push_back({{"baud", static_cast<std::uint32_t>(baud)}, {"bits", bits.count}});
+    return {{"name", profile.name},
+            {"device", profile.device},
+            {"model", profile.gsd.model},
+            {"manual", profile.manual},
+            {"ident", profile.ident ? Json(*profile.ident) : Json()},
+            {"file", profile.gsd.file},
+            {"table", name_of(profile.tag_file)},
+            {"own_table", !profile.tags.all().empty() && name_of(profile.tag_file) != "example.csv"},
+            {"max_parameters", personality.max_parameters},
+            {"max_words", personality.max_words > 0 ? Json(personality.max_words) : Json()},
+            {"demand", personality.demand_identifier != 0},
+            {"max_tag", personality.prm.max_tag},
+            {"may_have_no_parameters", personality.may_have_no_parameters},
+            {"lists", lists_of(personality)},
+            {"no_tags", personality.prm.list == dp::TagList::none},
+            {"only_listed_tags", profile.tags_only_from_table},
+            {"default_list", list_of(profile.gsd.in_tags, profile.gsd.out_tags, {})},
+            {"max_tsdr", rates}};
+}
+
+std::string base64(std::string_view octets)
+{
+    std::string out;
+    for (std::size_t at = 0; at < octets.size(); at += 3) {
+        const std::string_view three = octets.substr(at, 3);
+        std::uint32_t bits = 0;
+        for (std::size_t i = 0; i < 3; ++i)
+            bits = bits << 8U | (i < three.size() ? static_cast<std::uint8_t>(three[i]) : 0U);
+        for (std::size_t i = 0; i < 4; ++i)
+            out += i <= three.size() ? kSixBits[bits >> (18U - 6U * i) & 63U] : '=';
+    }
+    return out;
+}
+
+std::optional<std::string> octets_of_base64(std::string_view text)
+{
+    if (text.size() % 4 != 0) return std::nullopt;
+    while (text.ends_with('=') && text.size() % 4 != 1) text.remove_suffix(1);
+    if (text.size() % 4 == 1) return std::nullopt;
+    std::string out;
+    std::uint32_t bits = 0;
+    unsigned held = 0;
+    for (const char c : text) {
+        const auto value = kSixBits.find(c);
+        if (value == std::string_view::npos) return std::nullopt;
+        bits = (bits << 6U | static_cast<std::uint32_t>(value)) & 0xFFFFU;
+        held += 6;
+        if (held < 8) continue;
+        held -= 8;
+        out += static_cast<char>(bits >> held & 0xFFU);
+    }
+    return out;
+}
+
+} // namespace dpslave::configurator

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Pieces of the replies that several requests have.
+#pragma once
+
+#include "dpslave/base/bytes.hpp"
+#include "dpslave/gsd/check.hpp"
+#include "dpslave/profile/gsd_device.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace dpslave::configurator {
+
+using Json = nlohmann::ordered_json;
+
+/// The text of `value`; octets that are no UTF-8 are replaced.
+std::string text_of(const Json& value);
+
+/// "FILE:12: warning: sentence", as compilers do.
+std::string line_of(std::string_view path, const gsd::Finding& finding);
+/// "1 error, 2 warnings".
+std::string summary(const gsd::Findings& findings);
+
+Json findings_of(const gsd::Findings& findings);
+Json mapping_of(const profile::Mapping& mapping);
+Json profile_of(const profile::Profile& profile);
+
+std::string base64(std::string_view octets);
+/// Nothing: the text is no base64.
+std::optional<std::string> octets_of_base64(std::string_view text);
+
+} // namespace dpslave::configurator
