@@ -76,6 +76,31 @@ TEST(CountersReport, HasWhatTheEdgeCounted)
     EXPECT_EQ(counter(reply, "page_faults"), 7u);
 }
 
+TEST(CountersReport, HasWhatTheControlSocketCountedBehindAllStations)
+{
+    View view;
+    Station station{};
+    station.config = std::make_shared<const config::StationConfig>();
+    view.stations = {&station, 1};
+    view.calls = {.connections = 1,
+                  .calls = 2,
+                  .errors = 3,
+                  .turned_away = 4,
+                  .displaced = 5,
+                  .malformed = 6,
+                  .too_slow = 7,
+                  .not_permitted = 8,
+                  .handler_failures = 9};
+    const json reply = json_of(counters_report(view, Instant{}));
+    EXPECT_EQ(control::reply_mismatch("GetCounters", reply), std::nullopt);
+    const json& group = reply.at("groups").at(2);
+
+    EXPECT_EQ(group.at("name"), "control socket");
+    int value = 0;
+    for (const json& one : group.at("counters")) EXPECT_EQ(one.at("value"), ++value) << one.at("name");
+    EXPECT_EQ(value, 9);
+}
+
 TEST(CountersReport, HasTheDelayOfADriveThatIsAlwaysLateAndTheTimeOutThatItNeeds)
 {
     config::StationConfig config;

@@ -114,6 +114,7 @@ void MainThread::tick(Instant now)
 {
     reload_.advance();
     monitor_.refresh();
+    monitor_.set_calls(replies_.server->counters());
     monitor_.sample(now);
     log_news();
     const auto& stations = runtime_.stations();

@@ -38,6 +38,8 @@ public:
 
     /// Fetches the newest snapshots and publishes the orders that follow from them.
     void refresh();
+    /// What the control socket has counted up to now.
+    void set_calls(const control::ServerCounters& calls) { view_.calls = calls; }
     /// The same for the device of one station, after a setting of it has changed.
     void update_device(const Station& station);
     /// Counts for the last minute; does nothing more often than once a second.

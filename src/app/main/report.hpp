@@ -7,6 +7,7 @@
 
 #include "dpslave/base/recent_count.hpp"
 #include "dpslave/config/config.hpp"
+#include "dpslave/control/server.hpp"
 #include "dpslave/report/replies.hpp"
 
 #include <limits>
@@ -30,8 +31,9 @@ constexpr std::int64_t integer(auto value)
 /// How each counter of the control interface has grown within the last minute.
 class CounterHistory {
 public:
-    /// Stands for the bus where else the number of a station stands.
+    /// Stand for the bus and the control socket where else the number of a station stands.
     static constexpr std::uint32_t kOfBus = std::numeric_limits<std::uint32_t>::max();
+    static constexpr std::uint32_t kOfControl = kOfBus - 1;
 
     /// All counters as they are now; to be called about once a second. A station that has gone is forgotten.
     void sample(const View& view, Instant now);
@@ -49,6 +51,7 @@ struct View {
     BusSnapshot bus{};
     std::span<const Station> stations; ///< in the order of config.stations
     std::uint64_t lost_events = 0;     ///< events that no log could take
+    control::ServerCounters calls{};   ///< of the control socket
     CounterHistory history;
 };
 

@@ -16,6 +16,7 @@ struct Counter {
     std::string_view meaning;
 };
 struct Group {
+    std::uint32_t owner = 0; ///< the number of a station; CounterHistory::kOfBus, kOfControl
     std::string name;
     std::vector<Counter> counters; ///< the same in the same order each time
 };
@@ -61,7 +62,7 @@ Group bus_counters(const View& view)
     add(c, "search_flaws", fdl.search_flaws,
         "the same while the rate was searched: at a rate that is not the bus's nothing is a telegram");
     add(c, "lost_events", view.lost_events, "events that did not fit into the log");
-    return {"bus", std::move(c)};
+    return {CounterHistory::kOfBus, "bus", std::move(c)};
 }
 
 Group station_counters(const Station& station)
@@ -110,14 +111,30 @@ Group station_counters(const Station& station)
     add(c, "demand_orders_lost", dp.orders_lost, "Demand Data orders that the bus side had no room for");
     add(c, "drive_orders_dropped", drive.orders_dropped,
         "Demand Data writes that the master withdrew before they could be carried out");
-    return {station.config->name, std::move(c)};
+    return {station.number, station.config->name, std::move(c)};
 }
 
-/// The bus first, then each station.
+Group control_counters(const control::ServerCounters& calls)
+{
+    std::vector<Counter> c;
+    add(c, "connections", calls.connections, "accepted");
+    add(c, "calls", calls.calls, "");
+    add(c, "errors", calls.errors, "calls answered with an error");
+    add(c, "turned_away", calls.turned_away, "connections refused: all places were taken");
+    add(c, "displaced", calls.displaced, "idle connections ended to make room for another one");
+    add(c, "malformed", calls.malformed, "connections ended because what came was no call");
+    add(c, "too_slow", calls.too_slow, "connections ended because replies were not fetched");
+    add(c, "not_permitted", calls.not_permitted, "calls of users who may not operate");
+    add(c, "handler_failures", calls.handler_failures, "faults of the daemon: report them");
+    return {CounterHistory::kOfControl, "control socket", std::move(c)};
+}
+
+/// The bus first, then each station, then the control socket.
 std::vector<Group> groups_of(const View& view)
 {
     std::vector<Group> groups{bus_counters(view)};
     for (const Station& one : view.stations) groups.push_back(station_counters(one));
+    groups.push_back(control_counters(view.calls));
     return groups;
 }
 
@@ -157,16 +174,15 @@ report::Distribution distribution(const char* unit, const Histogram& counted)
 void CounterHistory::sample(const View& view, Instant now)
 {
     std::vector<std::vector<RecentCount>> next;
-    const std::vector<Group> groups = groups_of(view);
-    std::vector<std::uint32_t> owners{kOfBus};
-    for (const Station& one : view.stations) owners.push_back(one.number);
-    for (std::size_t i = 0; i < groups.size(); ++i) {
-        const auto known = std::find(owners_.begin(), owners_.end(), owners[i]);
+    std::vector<std::uint32_t> owners;
+    for (const Group& group : groups_of(view)) {
+        owners.push_back(group.owner);
+        const auto known = std::find(owners_.begin(), owners_.end(), group.owner);
         std::vector<RecentCount>& counts = next.emplace_back(
             known != owners_.end() ? std::move(counts_[static_cast<std::size_t>(known - owners_.begin())])
                                    : std::vector<RecentCount>{});
-        counts.resize(groups[i].counters.size());
-        for (std::size_t k = 0; k < counts.size(); ++k) counts[k].sample(groups[i].counters[k].value, now);
+        counts.resize(group.counters.size());
+        for (std::size_t k = 0; k < counts.size(); ++k) counts[k].sample(group.counters[k].value, now);
     }
     owners_ = std::move(owners);
     counts_ = std::move(next);
@@ -183,13 +199,11 @@ const RecentCount* CounterHistory::find(std::uint32_t owner, std::size_t counter
 report::GetCountersReply counters_report(const View& view, Instant now)
 {
     report::GetCountersReply result;
-    const std::vector<Group> all = groups_of(view);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        const std::uint32_t owner = i == 0 ? CounterHistory::kOfBus : view.stations[i - 1].number;
+    for (const Group& one : groups_of(view)) {
         report::CounterGroup& group = result.groups.emplace_back();
-        group.name = all[i].name;
-        for (std::size_t k = 0; k < all[i].counters.size(); ++k)
-            group.counters.push_back(counter_report(all[i].counters[k], view.history.find(owner, k), now));
+        group.name = one.name;
+        for (std::size_t k = 0; k < one.counters.size(); ++k)
+            group.counters.push_back(counter_report(one.counters[k], view.history.find(one.owner, k), now));
     }
     result.turnaround = {distribution("us", view.bus.turnaround_us),
                          distribution("T_bit", view.bus.turnaround_tbit)};
