@@ -5,7 +5,7 @@ namespace dpslave::report {
 
 std::string take_name(std::string_view& names)
 {
-    const std::string name{names.substr(0, names.find(','))};
+    std::string name{names.substr(0, names.find(','))};
     names.remove_prefix(name.size() == names.size() ? name.size() : name.size() + 2);
     return name;
 }

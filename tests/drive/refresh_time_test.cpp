@@ -63,8 +63,9 @@ protected:
         OutputImage image;
         image.layout.generation = ++generation_;
         image.may_write = true;
-        for (std::uint16_t tag = 0; tag < parameters; ++tag)
-            image.layout.parameters[image.layout.count++] = {tag, tag % 2 == 0, tag % 2 != 0};
+        for (std::size_t tag = 0; tag < parameters; ++tag)
+            image.layout.parameters[image.layout.count++] = {static_cast<std::uint16_t>(tag), tag % 2 == 0,
+                                                             tag % 2 != 0};
         image.words.fill(0x8001); // -327.67
         poller_->set_outputs(0, image);
         if (demand) poller_->set_demand(0, {DemandOrder::Kind::read, kDemandTag, 0, 1, generation_});

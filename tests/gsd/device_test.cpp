@@ -24,7 +24,7 @@ using testing::IsEmpty;
 using testing::SizeIs;
 
 /// The sentences that say why there is no file.
-std::vector<std::string> refusals(const std::string& name, Selection selection)
+std::vector<std::string> refusals(const std::string& name, const Selection& selection)
 {
     const auto device = device_of(load(name), selection);
     return device ? std::vector<std::string>{} : device.error();

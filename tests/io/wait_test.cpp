@@ -55,7 +55,7 @@ TEST(Fd, ClosesWhatItOwnsAndOnlyOnce)
     Fd second = std::move(first);
     const Fd other{ends[1]};
 
-    EXPECT_FALSE(first);
+    EXPECT_FALSE(first); // NOLINT(bugprone-use-after-move): that it is empty is the promise
     EXPECT_EQ(second.get(), ends[0]);
     second.reset();
 

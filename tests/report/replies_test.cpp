@@ -74,7 +74,7 @@ template <class... T>
 Described described(const std::string& suffix = "")
 {
     Described all;
-    const auto add = [&](std::string name, WrittenFields fields) {
+    const auto add = [&](const std::string& name, WrittenFields fields) {
         all[name.substr(0, name.size() - suffix.size())] = std::move(fields);
     };
     (add(name_of<T>(), fields_of<T>()), ...);

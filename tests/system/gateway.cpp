@@ -338,7 +338,7 @@ Arguments master_command(const Gateway& gateway, const Arguments& settings, unsi
 
 } // namespace
 
-Master::Master(const Gateway& gateway, Arguments settings, unsigned slave)
+Master::Master(const Gateway& gateway, const Arguments& settings, unsigned slave)
     : Process(master_command(gateway, settings, slave))
 {}
 

@@ -126,7 +126,7 @@ class Master : public Process {
 public:
     /// `settings`: options of dpsim master beside port, rate and slave. The watchdog is a long one unless
     /// they say otherwise.
-    Master(const Gateway& gateway, Arguments settings, unsigned slave = 5);
+    Master(const Gateway& gateway, const Arguments& settings, unsigned slave = 5);
 
     /// Gives a command and waits until it is done; a failure is what the master itself calls one.
     ::testing::AssertionResult does(const std::string& command);

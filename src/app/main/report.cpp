@@ -105,7 +105,7 @@ std::string demand_words(const config::StationConfig& station, const std::array<
     const std::string asked = reads    ? fmt::format("read tag {}", tag)
                               : writes ? fmt::format("write {} to tag {}", value(request[3]), tag)
                                        : fmt::format("command {} with tag {}", command, tag);
-    const std::string none_yet = asked + ": not answered yet";
+    std::string none_yet = asked + ": not answered yet";
     const unsigned answer = reply[0] >> 12;
     const unsigned echo = extended ? reply[1] : reply[0] & 0x07FF;
     if (answer == 0 || echo != tag) return none_yet;

@@ -30,8 +30,7 @@ std::vector<std::string> AnswerFaults::help()
         "  lose [WHICH]               replies are lost, but the request is carried out",
         "  spoil [WHICH]              a reply with a wrong checksum comes before the right one",
         "  instead OCTETS [WHICH]     these octets come in place of the reply, for example: instead 04 once",
-        "                             WHICH: 1/N (one in N), every TIME, tag TAG, once; several may be "
-        "joined",
+        "                             WHICH: 1/N (one in N), every TIME, tag TAG, once; can be joined",
     };
 }
 
@@ -87,7 +86,7 @@ std::string AnswerFaults::add(const std::vector<std::string>& words)
         fault.octets = *octets;
         rest = 2;
     }
-    const std::string wrong = choose(fault, words, rest);
+    std::string wrong = choose(fault, words, rest);
     if (wrong.empty()) faults_.push_back(std::move(fault));
     return wrong;
 }

@@ -9,8 +9,7 @@ std::vector<std::string> DriveCommands::all_help()
 {
     std::vector<std::string> lines{
         "  silence                    answers nothing, as if it were off",
-        "  nak [EE]                   refuses every write but that of EE; EE in hexadecimal, 02C2 if none is "
-        "given",
+        "  nak [EE]                   refuses every write but that of EE; EE is hexadecimal, else 02C2",
         "  bad-bcc                    replies carry a wrong block check",
         "  garbage                    replies are random octets",
         "  slow MS                    replies come this much later",

@@ -31,7 +31,7 @@ UnitSettings unit(std::chrono::nanoseconds refresh = 1s)
 
 class PollerOfOne : public testing::Test {
 protected:
-    explicit PollerOfOne(UnitSettings settings = unit()) : bench({settings})
+    explicit PollerOfOne(const UnitSettings& settings = unit()) : bench({settings})
     {
         for (int tag = 0; tag < 100; ++tag) drive().words[tag] = static_cast<std::uint16_t>(1000 + tag);
     }
@@ -362,7 +362,7 @@ TEST_F(PollerOfOne, ShowsARefusedWriteOfAParameterThatIsAlsoRead)
     EXPECT_EQ(seen().words[0], 1010);
 }
 
-TEST_F(PollerOfOne, DecidesByTheTableWhatTheTableKnows)
+TEST_F(PollerOfOne, DecidesByTheTableWhatItHas)
 {
     bench.layout(0, 1, {91, 92, 5}, {90, 92});
     bench.master_writes(0, 90, 1);
