@@ -27,7 +27,7 @@ std::string lines(const std::vector<std::string>& all)
 void add_line(CLI::App& app, LineOptions& o)
 {
     CLI::App& line =
-        *app.add_subcommand("line", "joins two ptys as a serial line with the timing of its rate");
+        *app.add_subcommand("line", "Joins two ptys as a serial line with the timing of its rate");
     line.add_option("--baud", o.baud, "bit/s")->required()->check(CLI::Range(50, 12'000'000));
     line.add_option("--bits", o.bits, "bit times of a character: 11 (PROFIBUS, 8E1) or 10 (7E1)")
         ->check(CLI::IsMember({10, 11}));
@@ -52,7 +52,7 @@ void add_line(CLI::App& app, LineOptions& o)
 void add_drive(CLI::App& app, DriveOptions& o)
 {
     CLI::App& drive =
-        *app.add_subcommand("drive", "simulates a drive (EI-ASCII) or an instrument (Modbus RTU)");
+        *app.add_subcommand("drive", "Simulates a drive (EI-ASCII) or an instrument (Modbus RTU)");
     drive
         .add_option("--profile", o.profile,
                     "name of the device, as in config/profiles. EI-ASCII: 590, 584s, 620, 590plus, 584sv, "
@@ -92,7 +92,7 @@ void add_drive(CLI::App& app, DriveOptions& o)
 
 void add_master(CLI::App& app, MasterOptions& o, MasterTexts& t)
 {
-    CLI::App& master = *app.add_subcommand("master", "simulates a DP master (class 1) for one slave");
+    CLI::App& master = *app.add_subcommand("master", "Simulates a DP master (class 1) for one slave");
     master.add_option("--port", o.port, "tty or end of a simulated line")->required();
     master.add_option("--baud", t.baud, "9600, 19200, 45450, 93750, 187500, 500000 or 1500000")->required();
     master.add_option("--master", t.address, "address of the master")

@@ -252,8 +252,8 @@ private:
     }
 
     /// The mapping as it was chosen: User_Prm_Data holds the tags, the modules all identifiers in their
-    /// order. Up to 17 octets they are one module of a compact station, which every tool knows and no one can
-    /// plug in a wrong order (two inputs that change places have the same identifiers, so the slave could not
+    /// order. Up to 17 octets they are one module of a compact station, which every tool supports and which
+    /// has no wrong order (two inputs that change places have the same identifiers, so the slave could not
     /// see it). More become several modules in a fixed order.
     void fixed()
     {

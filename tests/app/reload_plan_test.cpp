@@ -74,7 +74,7 @@ TEST_F(ReloadPlan, DoesNotLookAtCommentsAtThePlaceOfAKeyOrAtADefaultThatIsWritte
     EXPECT_THAT(stays(same), ElementsAre(0U, 1U));
 }
 
-TEST_F(ReloadPlan, KnowsAStationByItsNameWhereverItStands)
+TEST_F(ReloadPlan, RecognisesAStationByItsNameWhereverItStands)
 {
     const std::string turned =
         one.substr(0, one.find("[[station]]")) + test::kSecondStation + one.substr(one.find("[[station]]"));
@@ -328,7 +328,7 @@ TEST_F(ReloadPlan, DoesTheRestOfAChangeAtTheOldAddressOfAnOptionBoard)
     EXPECT_EQ(plan.config.stations[1].address, 6);
 }
 
-TEST_F(ReloadPlan, ForgetsAPendingAddressThatIsTakenBack)
+TEST_F(ReloadPlan, DropsAPendingAddressThatIsTakenBack)
 {
     const config::Config present = good(two);
     const Plan first = app::plan_reload(present, {{5}, {6}}, good(with(two, "address = 6", "address = 7")));

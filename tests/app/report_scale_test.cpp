@@ -66,7 +66,7 @@ TEST_F(UnknownScale, ThatHoldsTheStartIsReportedWithTagAnswerAndWhatToDo)
               HasSubstr("dpctl reload")));
 }
 
-TEST_F(UnknownScale, IsReportedOnceAndAsAHoldAlsoInTheMomentBeforeTheBusSideKnows)
+TEST_F(UnknownScale, IsReportedOnceAndAsAHoldAlsoInTheMomentBeforeTheBusSideHasIt)
 {
     EXPECT_THAT(news(), ElementsAre(HasSubstr("Data exchange does not start")));
     bench.view.bus.holds = true;

@@ -21,7 +21,7 @@ TEST(SelfTest, PassesWhereTelegramsAndClockAreSound)
     EXPECT_THAT(self_test(kKnownTelegram, kEarlier, kLater), IsEmpty());
 }
 
-TEST(SelfTest, KnowsASlaveDiagRequestOfMaster2ToStation5)
+TEST(SelfTest, RecognisesASlaveDiagRequestOfMaster2ToStation5)
 {
     EXPECT_THAT(kKnownTelegram,
                 ElementsAre(0x68, 0x05, 0x05, 0x68, 0x85, 0x82, 0x6D, 0x3C, 0x3E, 0xEE, 0x16));

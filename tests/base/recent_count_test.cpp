@@ -10,7 +10,7 @@ using std::chrono::seconds;
 
 constexpr Instant kStart{seconds{1000}};
 
-TEST(RecentCount, KnowsNothingOfACounterThatNeverGrew)
+TEST(RecentCount, HasNothingOfACounterThatNeverGrew)
 {
     RecentCount count;
     count.sample(0, kStart);
@@ -20,7 +20,7 @@ TEST(RecentCount, KnowsNothingOfACounterThatNeverGrew)
     EXPECT_EQ(count.since(), Instant{});
 }
 
-TEST(RecentCount, ForgetsAfterAMinuteWhatItCountedAndKeepsWhenThatWas)
+TEST(RecentCount, DropsAfterAMinuteWhatItCountedAndKeepsWhenThatWas)
 {
     RecentCount count;
     count.sample(5, kStart);

@@ -282,8 +282,9 @@ int main(int argc, char** argv)
     using namespace dpslave::bench;
     Options options;
     CLI::App app{"Turnaround of dpslaved against a minimal null responder, over ptys.", "bench_turnaround"};
-    app.footer("Exit status: 0 all limits kept (or --quick) · 1 a limit broken · 2 usage · 3 the bench could "
-               "not run");
+    app.footer(
+        "Exit status: 0 all limits kept (or --quick) · 1 a limit broken · 2 wrong usage · 3 the bench could "
+        "not run");
     app.add_option("--daemon", options.daemon, "The program dpslaved")->required()->check(CLI::ExistingFile);
     app.add_option("--profiles", options.profiles, "Its profile folder")
         ->required()

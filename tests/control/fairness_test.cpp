@@ -176,7 +176,7 @@ TEST_F(Fairness, HalfCallsAndWatchesAreEndedAsAnyIdleConnection)
 TEST_F(Fairness, AUserNeverDisplacesAnotherOneThatHasLess)
 {
     std::vector<RawCaller> other = callers(3, 1001);
-    std::vector<RawCaller> greedy = callers(100, 1000);
+    std::vector<RawCaller> many = callers(100, 1000);
 
     for (RawCaller& one : other) EXPECT_TRUE(is_served(one));
     EXPECT_EQ(bench.server->clients(), kShare + 3);

@@ -82,7 +82,7 @@ TEST(ServiceInterface, IsThatOfVarlink)
         EXPECT_EQ(interface->errors.count(error), 1u) << error;
 }
 
-TEST(InterfaceParser, KnowsEveryFormOfAType)
+TEST(InterfaceParser, RecognisesEveryFormOfAType)
 {
     const Interface i = read("type T (a: bool, b: ?int, c: []float, d: [string]string, e: object, f: (one, "
                              "two), g: [](x: int), h: T)\n");

@@ -195,7 +195,7 @@ TEST_F(ControlServer, ShowsAHandlerNoNullParameters)
 
 // ---------------------------------------------------------------- answers that come later
 
-TEST_F(ControlServer, AnswersLaterWhenTheApplicationKnows)
+TEST_F(ControlServer, AnswersLaterWhenTheApplicationHasTheAnswer)
 {
     auto caller = bench.caller();
     caller.write(call("ReadTag", R"({"tag":56})"));

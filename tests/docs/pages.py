@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""pages.py links|sentences ROOT, pages.py commands ROOT PROGRAM...: fails if a page for people
+"""pages.py links|sentences ROOT, pages.py commands ROOT PROGRAM...: fails if a page
 
 links      leads to a file or a heading that does not exist
 commands   shows a command of these programs with a subcommand or an option that its --help does not know
@@ -14,7 +14,7 @@ import subprocess
 import sys
 
 LONGEST = 33  # words of a sentence
-# Written for people who install, operate and repair. The reference and the table of promises are for those who change the code.
+# For those who install, operate and repair. The reference and the table of promises are for those who change the code.
 PAGES = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md", "debian/README.md", "gsd/README.md",
          "config/tags/README.md", "docs/**/*.md", "docs/man/*.scd"]
 NOT_SENTENCES = ["docs/reference/manual-coverage.md", "docs/reference/profibus-dp.md", "docs/reference/drive-protocols.md",

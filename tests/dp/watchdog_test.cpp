@@ -119,61 +119,61 @@ protected:
     {
         const Octets data = octets("00 00");
         dpslave::fdl::ReplyData reply;
-        return lonely.srd({.sa = 2, .dsap = {}, .ssap = {}, .data = data, .at = start + after_start}, reply);
+        return alone.srd({.sa = 2, .dsap = {}, .ssap = {}, .data = data, .at = start + after_start}, reply);
     }
     void SetUp() override
     {
         const Octets prm = octets(kPrm);
         const Octets cfg = octets(kCfg);
         dpslave::fdl::ReplyData reply;
-        lonely.start(start);
-        lonely.srd({.sa = 2, .dsap = 61, .ssap = 62, .data = prm, .at = start}, reply);
-        lonely.srd({.sa = 2, .dsap = 62, .ssap = 62, .data = cfg, .at = start}, reply);
-        ASSERT_EQ(lonely.state(), State::data_exch);
+        alone.start(start);
+        alone.srd({.sa = 2, .dsap = 61, .ssap = 62, .data = prm, .at = start}, reply);
+        alone.srd({.sa = 2, .dsap = 62, .ssap = 62, .data = cfg, .at = start}, reply);
+        ASSERT_EQ(alone.state(), State::data_exch);
     }
 
     dpslave::Instant start{1000s};
-    dpslave::dp::Slave lonely{personality, kUs};
+    dpslave::dp::Slave alone{personality, kUs};
 };
 
 TEST_F(LateWakeUp, C13_ARequestReceivedAfterTheExpiryIsTooLate)
 {
     EXPECT_EQ(request_at(200ms), dpslave::fdl::Answer::not_activated);
-    EXPECT_EQ(lonely.state(), State::wait_prm);
-    EXPECT_TRUE(lonely.take_left());
+    EXPECT_EQ(alone.state(), State::wait_prm);
+    EXPECT_TRUE(alone.take_left());
 }
 
 TEST_F(LateWakeUp, C13_ARequestReceivedBeforeTheExpiryIsInTimeHoweverLateItIsProcessed)
 {
     EXPECT_EQ(request_at(199ms), dpslave::fdl::Answer::high);
-    lonely.on_time(start + 398ms);
-    EXPECT_EQ(lonely.state(), State::data_exch);
-    lonely.on_time(start + 399ms);
-    EXPECT_EQ(lonely.state(), State::wait_prm);
+    alone.on_time(start + 398ms);
+    EXPECT_EQ(alone.state(), State::data_exch);
+    alone.on_time(start + 399ms);
+    EXPECT_EQ(alone.state(), State::wait_prm);
 }
 
 TEST_F(LateWakeUp, C13_ARetryReceivedAfterTheExpiryIsTooLateToo)
 {
-    lonely.heard(2, start + 200ms);
+    alone.heard(2, start + 200ms);
 
-    EXPECT_EQ(lonely.state(), State::wait_prm);
+    EXPECT_EQ(alone.state(), State::wait_prm);
 }
 
 TEST_F(LateWakeUp, C13_AGlobalControlReceivedAfterTheExpiryIsIgnored)
 {
     const Octets clear = octets("02 00");
-    lonely.sdn({.sa = 2, .dsap = 58, .ssap = 62, .data = clear, .at = start + 200ms});
+    alone.sdn({.sa = 2, .dsap = 58, .ssap = 62, .data = clear, .at = start + 200ms});
 
-    EXPECT_EQ(lonely.state(), State::wait_prm);
+    EXPECT_EQ(alone.state(), State::wait_prm);
 }
 
 TEST_F(LateWakeUp, ReportsItsNextDeadline)
 {
-    EXPECT_EQ(lonely.next_deadline(), start + 200ms);
+    EXPECT_EQ(alone.next_deadline(), start + 200ms);
     request_at(100ms);
-    EXPECT_EQ(lonely.next_deadline(), start + 300ms);
-    lonely.stop(start + 100ms);
-    EXPECT_EQ(lonely.next_deadline(), dpslave::kNever);
+    EXPECT_EQ(alone.next_deadline(), start + 300ms);
+    alone.stop(start + 100ms);
+    EXPECT_EQ(alone.next_deadline(), dpslave::kNever);
 }
 
 TEST_F(WatchdogBench, C13_ARetryBehindAnExpiryIsAnsweredFromMemoryAndTheSlaveStaysReleased)

@@ -591,7 +591,7 @@ INSTANTIATE_TEST_SUITE_P(
                     RefusedTag{"Refused", "refused", "unsupported_type", "station.refused"}),
     [](const auto& row) { return row.param.name; });
 
-TEST_F(Doctor, ADriveThatKnowsNoneOfTheTagsIsAnotherOne)
+TEST_F(Doctor, ADriveThatHasNoneOfTheTagsIsAnotherOne)
 {
     word_is(0, "invalid_tag");
     EXPECT_THAT(found(), ElementsAre("station.tags")) << "one tag alone may be a wrong number";

@@ -331,7 +331,8 @@ TEST(GsdCommand, NeedsASubcommandAndHelpsWithEach)
     for (const char* command : {"check", "show", "make", "types"}) {
         const Ran help = gsd_command({command, "--help"});
         EXPECT_EQ(help.exit, dpctl::kFine) << command;
-        EXPECT_THAT(help.out, HasSubstr("Exit codes: 0 fine, 1 faulty or refused, 2 usage")) << command;
+        EXPECT_THAT(help.out, HasSubstr("Exit codes: 0 success, 1 faulty or refused, 2 wrong usage"))
+            << command;
     }
 }
 

@@ -76,7 +76,7 @@ TEST(DpctlHelp, ShowsExitCodesAndWhereTheSchemaIs)
     const Ran ran = dpctl({"--help"});
 
     EXPECT_EQ(ran.exit, 0);
-    EXPECT_THAT(ran.out, HasSubstr("  0  fine\n"));
+    EXPECT_THAT(ran.out, HasSubstr("  0  success\n"));
     EXPECT_THAT(ran.out, HasSubstr("  1  refused by the daemon or the drive, a faulty answer or input, not "
                                    "found, or the answer is no (status --wait, doctor, survey, tune)\n"));
     EXPECT_THAT(ran.out, HasSubstr("  2  wrong usage, or no such station\n"));
@@ -111,24 +111,28 @@ TEST_P(DpctlOwnHelp, ShowsExitCodesAndWhatJsonPrints)
     EXPECT_THAT(own, HasSubstr("--json prints "));
 }
 
-constexpr const char* kShows = "0 fine, 1 refused or faulty, 2 usage or no such station, 3 no daemon.";
-constexpr const char* kNeedsNone = "0 fine, 1 not found or faulty, 2 usage; no daemon is needed.";
+constexpr const char* kShows =
+    "0 success, 1 refused or faulty, 2 wrong usage or no such station, 3 no daemon.";
+constexpr const char* kNeedsNone = "0 success, 1 not found or faulty, 2 wrong usage; no daemon is needed.";
 INSTANTIATE_TEST_SUITE_P(
     All, DpctlOwnHelp,
     testing::Values(
-        std::pair{"status", "0 fine, with --wait: in exchange; 1 refused or faulty, with --wait: not in "
-                            "exchange;\n2 usage or no such station; 3 no daemon."},
+        std::pair{"status", "0 success, with --wait: in exchange; 1 refused or faulty, with --wait: not in "
+                            "exchange;\n2 wrong usage or no such station; 3 no daemon."},
         std::pair{"show", kShows}, std::pair{"io", kShows}, std::pair{"diag", kShows},
         std::pair{"counters", kShows}, std::pair{"read", kShows}, std::pair{"write", kShows},
         std::pair{"tec", kShows},
-        std::pair{"doctor", "0 all is well, 1 something was found, 2 usage or no such station, 3 no daemon."},
-        std::pair{"survey",
-                  "0 complete, 1 refused, faulty or not complete, 2 usage or no such station, 3 no daemon."},
-        std::pair{"reload", "0 applied, or can be; 1 refused or faulty; 2 usage; 3 no daemon."},
-        std::pair{"tune", "0 fine, 1 the rate of the bus cannot be held or something must be corrected,\n"
-                          "2 usage, 3 no PORT and no daemon."},
-        std::pair{"version", "0 fine, also without a daemon; 1 a faulty answer; 2 usage; 3 this user may not "
-                             "open the socket."},
+        std::pair{"doctor",
+                  "0 all is well, 1 something was found, 2 wrong usage or no such station, 3 no daemon."},
+        std::pair{
+            "survey",
+            "0 complete, 1 refused, faulty or not complete, 2 wrong usage or no such station, 3 no daemon."},
+        std::pair{"reload", "0 applied, or can be; 1 refused or faulty; 2 wrong usage; 3 no daemon."},
+        std::pair{"tune", "0 success, 1 the rate of the bus cannot be held or something must be corrected,\n"
+                          "2 wrong usage, 3 no PORT and no daemon."},
+        std::pair{"version",
+                  "0 success, also without a daemon; 1 a faulty answer; 2 wrong usage; 3 this user may not "
+                  "open the socket."},
         std::pair{"tag", kNeedsNone}, std::pair{"hex", kNeedsNone}, std::pair{"decode", kNeedsNone}),
     [](const auto& row) { return std::string{row.param.first}; });
 

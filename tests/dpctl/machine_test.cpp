@@ -35,7 +35,7 @@ TEST_F(Machine, ReadsAStockKernel)
     EXPECT_FALSE(facts.virtual_machine);
 }
 
-TEST_F(Machine, KnowsPreemptRtByTheVersionAndByTheKernelsOwnFile)
+TEST_F(Machine, RecognisesPreemptRtByTheVersionAndByTheKernelsOwnFile)
 {
     tree.kernel("5.10", "#1 SMP PREEMPT_RT Debian");
     EXPECT_TRUE(machine().preempt_rt);
@@ -48,7 +48,7 @@ TEST_F(Machine, KnowsPreemptRtByTheVersionAndByTheKernelsOwnFile)
     EXPECT_TRUE(machine().preempt_rt);
 }
 
-TEST_F(Machine, KnowsThreadedInterruptsOfAStockKernelByItsCommandLine)
+TEST_F(Machine, RecognisesThreadedInterruptsOfAStockKernelByItsCommandLine)
 {
     tree.kernel("6.1", "#1 SMP PREEMPT_DYNAMIC", "root=/dev/sda1 threadirqs quiet");
     EXPECT_TRUE(machine().threaded_irqs);
@@ -91,7 +91,7 @@ TEST_F(Machine, ReportsTheLatencyLimitOnlyWhereAProcessHoldsOne)
     EXPECT_EQ(machine().latency_limit_us, 0);
 }
 
-TEST_F(Machine, KnowsAVirtualMachine)
+TEST_F(Machine, RecognisesAVirtualMachine)
 {
     test::virtual_machine(tree);
     EXPECT_TRUE(machine().virtual_machine);
@@ -130,7 +130,7 @@ TEST_F(Machine, ReadsAThreadWhoseNameHasBracketsAndBlanks)
     EXPECT_EQ(machine().realtime_threads[0].priority, 7);
 }
 
-TEST_F(Machine, KnowsNothingOfAnEmptyTree)
+TEST_F(Machine, FindsNothingInAnEmptyTree)
 {
     const MachineFacts facts = machine();
 
@@ -233,7 +233,7 @@ TEST_F(Machine, FollowsTheNamesOfUdevToAUsbAdapter)
     EXPECT_EQ(facts.latency_timer_ms, 16);
 }
 
-TEST_F(Machine, KnowsAPtyAndWhatIsNoSerialPort)
+TEST_F(Machine, RecognisesAPtyAndWhatIsNoSerialPort)
 {
     test::virtual_machine(tree);
     tree.file("dev/null", "");

@@ -187,7 +187,7 @@ TEST_F(Drive, IsSilentForAnotherAddressAndForAMalformedMessage)
     EXPECT_TRUE(hears("04 30 30 30 30 62 05").empty()) << "one character is no mnemonic";
 }
 
-TEST_F(Drive, ForgetsAMessageThatStopsInItsMiddle)
+TEST_F(Drive, DropsAMessageThatStopsInItsMiddle)
 {
     hears("04 30 30 30 30 02 62 6B 31 2E 03"); // the check never comes
     now += 600ms;

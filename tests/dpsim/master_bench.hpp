@@ -83,7 +83,7 @@ protected:
             if (event.kind == kind) text += event.words;
         return text;
     }
-    std::string complaints() { return all_of(MasterEvent::Kind::complaint); }
+    std::string violations() { return all_of(MasterEvent::Kind::violation); }
     std::string refusal() { return all_of(MasterEvent::Kind::refused); }
     std::string losses() { return all_of(MasterEvent::Kind::lost); }
     std::string answer_words() { return all_of(MasterEvent::Kind::answer); }

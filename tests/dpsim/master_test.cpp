@@ -27,7 +27,7 @@ TEST_F(MasterTest, StartsUpWithTheTelegramsOfTheReference)
     expect("68 05 05 68 05 02 5D 00 00 64 16", "68 05 05 68 02 05 08 12 34 55 16");
     EXPECT_EQ(master.state(), MasterState::data_exchange);
     EXPECT_EQ(hex(master.inputs()), "12 34");
-    EXPECT_TRUE(complaints().empty());
+    EXPECT_TRUE(violations().empty());
 }
 
 TEST_F(MasterTest, ReadsTheDiagnosisWhenTheAnswerIsOfHighPriority)
@@ -78,7 +78,7 @@ TEST_F(MasterTest, RepeatsARequestWhoseAnswerIsBroken)
     expect("68 05 05 68 05 02 7D 00 00 84 16", "68 05 05 68 02 05 08 12 34 54 16");
     expect("68 05 05 68 05 02 7D 00 00 84 16", "68 05 05 68 02 05 08 12 34 55 16");
     EXPECT_EQ(master.counters().invalid, 1U);
-    EXPECT_THAT(complaints(), HasSubstr("FCS"));
+    EXPECT_THAT(violations(), HasSubstr("FCS"));
 }
 
 TEST_F(MasterTest, WaitsTheSlotTimeAndTheAllowanceForAnAnswer)
@@ -169,7 +169,7 @@ TEST_F(MasterTest, ReportsAnAnswerFromAnotherStation)
     exchanging();
     expect("68 05 05 68 05 02 7D 00 00 84 16", "68 05 05 68 02 06 08 12 34 56 16");
     expect("68 05 05 68 05 02 7D 00 00 84 16", "68 05 05 68 02 05 08 12 34 55 16");
-    EXPECT_THAT(complaints(), HasSubstr("comes from station 6"));
+    EXPECT_THAT(violations(), HasSubstr("comes from station 6"));
 }
 
 TEST_F(MasterTest, ReportsTheStationTypeOfAMaster)
@@ -177,7 +177,7 @@ TEST_F(MasterTest, ReportsTheStationTypeOfAMaster)
     master.start();
     expect("10 05 02 49 50 16", "10 02 05 20 27 16");
     idle_out();
-    EXPECT_THAT(complaints(), HasSubstr("station type"));
+    EXPECT_THAT(violations(), HasSubstr("station type"));
     EXPECT_EQ(master.state(), MasterState::searching);
 }
 
@@ -193,7 +193,7 @@ TEST_F(MasterTest, ReportsOctetsWithoutARequest)
 {
     exchanging();
     master.on_bytes(wire("E5"), now);
-    EXPECT_THAT(complaints(), HasSubstr("not asked for"));
+    EXPECT_THAT(violations(), HasSubstr("not asked for"));
     EXPECT_EQ(master.counters().unasked_octets, 1U);
 }
 

@@ -125,7 +125,7 @@ TEST_F(ModbusSlave, TakesARequestThatComesInPieces)
     EXPECT_EQ(line.instruments()[0].find(164)->value.counts, 5);
 }
 
-TEST_F(ModbusSlave, ForgetsARequestThatStopsInItsMiddle)
+TEST_F(ModbusSlave, DropsARequestThatStopsInItsMiddle)
 {
     line.on_bytes(wire("01 03 00 01"), now);
     EXPECT_EQ(asks("01 03 00 01 00 01"), "01 03 02 00 B7");

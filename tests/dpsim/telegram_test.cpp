@@ -105,7 +105,7 @@ TEST(Telegram, NeedsFourOctetsOfAnSd2ForItsLength)
     EXPECT_EQ(*frame_length(wire("68 05 05")), 0U);
 }
 
-TEST(Telegram, KnowsTokenAndShortAcknowledgement)
+TEST(Telegram, RecognisesTokenAndShortAcknowledgement)
 {
     const auto token = decode(wire("DC 04 02"));
     EXPECT_EQ(token->kind, FrameKind::token);

@@ -255,7 +255,7 @@ TEST_F(EiClient, SkipsTheNoiseOfATransceiver)
     EXPECT_EQ(word, 0x1B0B);
 }
 
-TEST_F(EiClient, ForgetsWhatCameBeforeItsRequest)
+TEST_F(EiClient, DropsWhatCameBeforeItsRequest)
 {
     line.comes_by_itself("\x02ox>0001\x03\x2C");
     line.time += 1s;

@@ -2,8 +2,8 @@
 /// Every answer of a drive belongs to its question: section 4 of the rules of the drive line, with 10^6
 /// transactions for each protocol. Longer runs: DRIVE_LINE_TRANSACTIONS=10000000 DRIVE_LINE_SEED=1000000; one
 /// run with its trace: DRIVE_LINE_ONLY=SEED.
-#include "naive_clients.hpp"
 #include "random_runs.hpp"
+#include "unjudged_clients.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -75,17 +75,17 @@ TEST(ModbusAnswers, BelongToTheirQuestions)
 
 TEST(Judge, FindsViolationsOfAClientThatTakesTheFirstAnswerThatLooksRight)
 {
-    EXPECT_GE(runs_with_a_violation(run_ei, naive_ei, 40), 20);
-    EXPECT_GE(runs_with_a_violation(run_modbus, naive_modbus, 40), 10);
+    EXPECT_GE(runs_with_a_violation(run_ei, unjudged_ei, 40), 20);
+    EXPECT_GE(runs_with_a_violation(run_modbus, unjudged_modbus, 40), 10);
 }
 
 /// Drives that die, deny tags and refuse writes excuse no violation.
 TEST(Judge, FindsNoViolationOfThatClientWhereNothingIsLateOrLost)
 {
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-        RunResult result = run_ei(seed, naive_ei, {.calm = true, .traces = true});
+        RunResult result = run_ei(seed, unjudged_ei, {.calm = true, .traces = true});
         EXPECT_EQ(result.violation, "") << "EI-ASCII, seed " << seed << ": " << story(result);
-        result = run_modbus(seed, naive_modbus, {.calm = true, .traces = true});
+        result = run_modbus(seed, unjudged_modbus, {.calm = true, .traces = true});
         EXPECT_EQ(result.violation, "") << "Modbus, seed " << seed << ": " << story(result);
     }
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Order and cost on a drive line: what dead drives, losses and the judgement of answers cost the living
 /// ones. Times are those of the simulated clock.
-#include "naive_clients.hpp"
 #include "random_runs.hpp"
+#include "unjudged_clients.hpp"
 
 #include <gtest/gtest.h>
 
@@ -224,28 +224,28 @@ std::string shown_without_function_8(const Make& make)
 TEST(LateAnswers, WhereFunction8IsNotAnsweredNeverGiveTheWordOfAnotherTag)
 {
     EXPECT_EQ(shown_without_function_8(modbus_client), "");
-    EXPECT_NE(shown_without_function_8(naive_modbus), "") << "nothing was late enough";
+    EXPECT_NE(shown_without_function_8(unjudged_modbus), "") << "nothing was late enough";
 }
 
 // ---- cost
 
-template <class Line, class Make, class Naive>
-void expect_no_cost(const Make& make, const Naive& naive, bool is_modbus)
+template <class Line, class Make, class Unjudged>
+void expect_no_cost(const Make& make, const Unjudged& make_unjudged, bool is_modbus)
 {
-    Bench<Line> judged{calm_line(2), 2, make, is_modbus}, naively{calm_line(2), 2, naive, is_modbus};
+    Bench<Line> judged{calm_line(2), 2, make, is_modbus}, unjudged{calm_line(2), 2, make_unjudged, is_modbus};
     const auto with = static_cast<double>(judged.transactions_in(120s));
-    const auto without = static_cast<double>(naively.transactions_in(120s));
+    const auto without = static_cast<double>(unjudged.transactions_in(120s));
     EXPECT_GE(with / without, 0.98);
 }
 
 TEST(JudgementOfAnswers, CostsNothingOnAnUndisturbedEiAsciiLine)
 {
-    expect_no_cost<EiLine>(ei_client, naive_ei, false);
+    expect_no_cost<EiLine>(ei_client, unjudged_ei, false);
 }
 
 TEST(JudgementOfAnswers, CostsNothingOnAnUndisturbedModbusLine)
 {
-    expect_no_cost<ModbusFrames>(modbus_client, naive_modbus, true);
+    expect_no_cost<ModbusFrames>(modbus_client, unjudged_modbus, true);
 }
 
 /// An input is held while its refresh is overdue: later than the slowest one of the same line without losses.
@@ -256,12 +256,13 @@ struct HeldOnALossyLine {
 };
 
 /// Single reads by Modbus with 1 % loss each way, of many seeds the mean.
-template <class Make, class Naive>
-HeldOnALossyLine held_on_a_lossy_line(const Make& make, const Naive& naive)
+template <class Make, class Unjudged>
+HeldOnALossyLine held_on_a_lossy_line(const Make& make, const Unjudged& make_unjudged)
 {
     constexpr int kSeeds = 4;
     Conditions conditions = calm_line(1);
-    conditions.line.turnaround = 21ms; // the naive client is then held for 19 % of the time, as in the rule
+    conditions.line.turnaround =
+        21ms; // the unjudged client is then held for 19 % of the time, as in the rule
     HeldOnALossyLine mean;
     for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
         const auto held = [&](const auto& with) {
@@ -270,17 +271,17 @@ HeldOnALossyLine held_on_a_lossy_line(const Make& make, const Naive& naive)
             bench.line().faults.question_lost = bench.line().faults.answer_lost = 100;
             return bench.held(3600s, usual);
         };
-        const auto judged = held(make), naively = held(naive);
+        const auto judged = held(make), unjudged = held(make_unjudged);
         mean.with += judged.overdue / kSeeds;
         mean.marked += judged.marked / kSeeds;
-        mean.without += naively.overdue / kSeeds;
+        mean.without += unjudged.overdue / kSeeds;
     }
     return mean;
 }
 
 TEST(JudgementOfAnswers, HoldsInputsOfALossyModbusLineNoLongerThanWithoutRules)
 {
-    const HeldOnALossyLine held = held_on_a_lossy_line(modbus_client, naive_modbus);
+    const HeldOnALossyLine held = held_on_a_lossy_line(modbus_client, unjudged_modbus);
     RecordProperty("with", std::to_string(held.with));
     RecordProperty("without", std::to_string(held.without));
     RecordProperty("marked", std::to_string(held.marked));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "naive_clients.hpp"
+#include "unjudged_clients.hpp"
 
 #include <fmt/format.h>
 
@@ -30,7 +30,7 @@ std::uint16_t word_of_text(const drive::Tag& tag, const std::string& text)
 
 // ---- EI-ASCII
 
-std::string NaiveEiClient::answer()
+std::string UnjudgedEiClient::answer()
 {
     const Instant until = line_.now() + line_.rules().timeout + line_.rules().character * 30;
     std::string text;
@@ -49,7 +49,7 @@ std::string NaiveEiClient::answer()
     return {};
 }
 
-std::string NaiveEiClient::asked(drive::UnitAddress unit, const std::string& mnemonic)
+std::string UnjudgedEiClient::asked(drive::UnitAddress unit, const std::string& mnemonic)
 {
     line_.discard();
     const std::string request = fmt::format("\x04{0}{0}{1}{1}{2}\x05", unit.group, unit.unit, mnemonic);
@@ -59,7 +59,7 @@ std::string NaiveEiClient::asked(drive::UnitAddress unit, const std::string& mne
     return is_other ? std::string{} : text;
 }
 
-AccessError NaiveEiClient::reason(drive::UnitAddress unit)
+AccessError UnjudgedEiClient::reason(drive::UnitAddress unit)
 {
     const std::string ee = asked(unit, "EE");
     if (ee.size() < 6) return AccessError::no_answer;
@@ -71,8 +71,8 @@ AccessError NaiveEiClient::reason(drive::UnitAddress unit)
     }
 }
 
-AccessError NaiveEiClient::read(drive::UnitAddress unit, const drive::Tag& tag,
-                                std::span<std::uint16_t> words)
+AccessError UnjudgedEiClient::read(drive::UnitAddress unit, const drive::Tag& tag,
+                                   std::span<std::uint16_t> words)
 {
     const std::string text = asked(unit, tag.mnemonic);
     if (text == "\x04") return reason(unit);
@@ -81,8 +81,8 @@ AccessError NaiveEiClient::read(drive::UnitAddress unit, const drive::Tag& tag,
     return AccessError::none;
 }
 
-AccessError NaiveEiClient::write(drive::UnitAddress unit, const drive::Tag& tag,
-                                 std::span<const std::uint16_t> words)
+AccessError UnjudgedEiClient::write(drive::UnitAddress unit, const drive::Tag& tag,
+                                    std::span<const std::uint16_t> words)
 {
     line_.discard();
     const std::string covered = tag.mnemonic + select_text(tag, words[0]) + '\x03';
@@ -98,7 +98,7 @@ AccessError NaiveEiClient::write(drive::UnitAddress unit, const drive::Tag& tag,
 
 // ---- Modbus
 
-Octets NaiveModbusClient::asked(drive::UnitAddress unit, const Octets& pdu, std::size_t length)
+Octets UnjudgedModbusClient::asked(drive::UnitAddress unit, const Octets& pdu, std::size_t length)
 {
     // 3.5 characters of silence before each request: the standard wants them of every master
     while (line_.receive(line_.now() + line_.rules().character * 7 / 2) !=
@@ -116,8 +116,8 @@ Octets NaiveModbusClient::asked(drive::UnitAddress unit, const Octets& pdu, std:
     return {};
 }
 
-AccessError NaiveModbusClient::read(drive::UnitAddress unit, const drive::Tag& tag,
-                                    std::span<std::uint16_t> words)
+AccessError UnjudgedModbusClient::read(drive::UnitAddress unit, const drive::Tag& tag,
+                                       std::span<std::uint16_t> words)
 {
     const bool is_ieee = tag.modbus_register.has_value();
     const unsigned first = tag.modbus_register.value_or(tag.number);
@@ -141,8 +141,8 @@ AccessError NaiveModbusClient::read(drive::UnitAddress unit, const drive::Tag& t
     return AccessError::none;
 }
 
-AccessError NaiveModbusClient::write(drive::UnitAddress unit, const drive::Tag& tag,
-                                     std::span<const std::uint16_t> words)
+AccessError UnjudgedModbusClient::write(drive::UnitAddress unit, const drive::Tag& tag,
+                                        std::span<const std::uint16_t> words)
 {
     const bool is_ieee = tag.modbus_register.has_value();
     const unsigned first = tag.modbus_register.value_or(tag.number);
@@ -167,19 +167,19 @@ AccessError NaiveModbusClient::write(drive::UnitAddress unit, const drive::Tag& 
     return answer[1] == 2 ? AccessError::invalid_tag : AccessError::out_of_range;
 }
 
-bool NaiveModbusClient::probe(drive::UnitAddress unit)
+bool UnjudgedModbusClient::probe(drive::UnitAddress unit)
 {
     return !asked(unit, {3, 0, 1, 0, 1}, 4).empty();
 }
 
-std::unique_ptr<drive::Backend> naive_ei(EiLine& line, const Conditions&)
+std::unique_ptr<drive::Backend> unjudged_ei(EiLine& line, const Conditions&)
 {
-    return std::make_unique<NaiveEiClient>(line);
+    return std::make_unique<UnjudgedEiClient>(line);
 }
 
-std::unique_ptr<drive::Backend> naive_modbus(ModbusFrames& line, const Conditions&)
+std::unique_ptr<drive::Backend> unjudged_modbus(ModbusFrames& line, const Conditions&)
 {
-    return std::make_unique<NaiveModbusClient>(line);
+    return std::make_unique<UnjudgedModbusClient>(line);
 }
 
 } // namespace dpslave::drive_line

@@ -9,9 +9,9 @@
 
 namespace dpslave::drive_line {
 
-class NaiveEiClient final : public drive::Backend {
+class UnjudgedEiClient final : public drive::Backend {
 public:
-    explicit NaiveEiClient(EiLine& line) : line_(line) {}
+    explicit UnjudgedEiClient(EiLine& line) : line_(line) {}
     drive::BlockRule block_rule() const override { return {}; }
     AccessError read(drive::UnitAddress unit, const drive::Tag& tag, std::span<std::uint16_t> words) override;
     AccessError write(drive::UnitAddress unit, const drive::Tag& tag,
@@ -28,9 +28,9 @@ private:
     EiLine& line_;
 };
 
-class NaiveModbusClient final : public drive::Backend {
+class UnjudgedModbusClient final : public drive::Backend {
 public:
-    explicit NaiveModbusClient(ModbusFrames& line) : line_(line) {}
+    explicit UnjudgedModbusClient(ModbusFrames& line) : line_(line) {}
     drive::BlockRule block_rule() const override { return {.max_tags = 8, .max_gap = 2, .max_written = 8}; }
     AccessError read(drive::UnitAddress unit, const drive::Tag& tag, std::span<std::uint16_t> words) override;
     AccessError write(drive::UnitAddress unit, const drive::Tag& tag,
@@ -45,7 +45,7 @@ private:
     ModbusFrames& line_;
 };
 
-std::unique_ptr<drive::Backend> naive_ei(EiLine& line, const Conditions&);
-std::unique_ptr<drive::Backend> naive_modbus(ModbusFrames& line, const Conditions&);
+std::unique_ptr<drive::Backend> unjudged_ei(EiLine& line, const Conditions&);
+std::unique_ptr<drive::Backend> unjudged_modbus(ModbusFrames& line, const Conditions&);
 
 } // namespace dpslave::drive_line

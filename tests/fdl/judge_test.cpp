@@ -55,7 +55,7 @@ TEST(SecondHand, RefusesWhatIsNoTelegram)
         EXPECT_FALSE(heard(octets(wrong))) << wrong;
 }
 
-TEST(SecondHand, KnowsWhatAsksForAnAnswer)
+TEST(SecondHand, RecognisesWhatAsksForAnAnswer)
 {
     EXPECT_TRUE(ends_with_answerable_request(octets("10 05 02 49 50 16")));
     EXPECT_TRUE(ends_with_answerable_request(octets("E5 00 68 05 05 68 85 82 6D 3C 3E EE 16")));

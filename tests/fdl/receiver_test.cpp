@@ -127,7 +127,7 @@ TEST_F(Receiver, ReportsNothingOfWhatWasGivenUpAtAnotherRate)
     EXPECT_EQ(next(), "-");
 }
 
-TEST_F(Receiver, ForgetsTheRestOfAReadAtAnotherRate)
+TEST_F(Receiver, DropsTheRestOfAReadAtAnotherRate)
 {
     reads(joined({first, second, first}));
     EXPECT_EQ(next(), "5D");
@@ -150,7 +150,7 @@ TEST_F(Receiver, CountsDamageAnewAtAnotherRate)
     EXPECT_EQ(next(), "start delimiter");
 }
 
-TEST_F(Receiver, ForgetsWhatWasHeardAtAnotherRate)
+TEST_F(Receiver, DropsWhatWasHeardAtAnotherRate)
 {
     reads(Octets(first.begin(), first.begin() + 4));
     EXPECT_EQ(next(), "-");

@@ -34,7 +34,7 @@ TEST_F(ModbusFrameReceiver, GivesAFrameWithItsLastOctetAndWithoutItsCheckSum)
     EXPECT_FALSE(receiver.in_frame());
 }
 
-TEST_F(ModbusFrameReceiver, KnowsEveryAnswerByItsLength)
+TEST_F(ModbusFrameReceiver, RecognisesEveryAnswerByItsLength)
 {
     for (const char* answer : {"01 03 04 11 11 22 22", "01 04 02 11 11", "01 06 00 02 00 05",
                                "01 10 00 02 00 03", "01 08 00 00 12 34", "01 83 02"})

@@ -47,7 +47,7 @@ case $3 in
         expect 0 --release
         silent
         ;;
-    faulty) # not "unconfigured": the start itself complains, and is not tried again
+    faulty) # not "unconfigured": the start itself fails, and is not tried again
         echo 'bus = [' >"$file"
         expect 0 --is-configured
         silent

@@ -232,7 +232,7 @@ TEST(Chapter8Table, shows_values_that_are_not_printed_as_numbers_and_takes_them)
     }
 }
 
-TEST(Chapter8Table, knows_the_module_function_of_JA_that_is_printed_without_a_tag)
+TEST(Chapter8Table, has_the_module_function_of_JA_that_is_printed_without_a_tag)
 {
     EXPECT_EQ(tag(12611).name, "JA module function");
     EXPECT_THAT(tag(12611).notes, HasSubstr("WITHOUT a tag; 12611 comes from HA026230"));

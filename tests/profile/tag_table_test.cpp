@@ -110,7 +110,7 @@ TEST_F(TagTable, that_is_no_regular_file_or_too_large_is_refused_at_once)
                 HasSubstr("larger than 1 MiB"));
 }
 
-TEST_F(TagTable, knows_which_numbers_have_no_scale)
+TEST_F(TagTable, recognises_which_numbers_have_no_scale)
 {
     const auto tags = good("tag,type,decimals,confirmed\n1,INT,0,\n2,INT,,\n3,,,yes\n4,WORD,,\n5,INT,1,no\n"
                            "6,WORD,,no\n7,REAL,display,\n");
@@ -164,7 +164,7 @@ TEST_F(TagTable, needs_the_tag_alone_and_leaves_the_rest_unsaid)
     EXPECT_TRUE(tag->mnemonic.empty());
 }
 
-TEST_F(TagTable, knows_every_type_and_access)
+TEST_F(TagTable, recognises_every_type_and_access)
 {
     const auto tags =
         good("tag,type,access\n1,INT,ro\n2,REAL,rw\n3,WORD,wo\n4,BOOL,\n5,ENUM,ro\n6,STRING,ro\n");
@@ -306,7 +306,7 @@ TEST_F(TagTable, distinguishes_floating_values_from_whole_numbers)
     EXPECT_EQ(tags.find(6)->modbus_register, 32780);
 }
 
-TEST_F(TagTable, knows_when_a_tag_can_be_written)
+TEST_F(TagTable, recognises_when_a_tag_can_be_written)
 {
     const auto tags = good("tag,when\n1,\n2,stopped\n3,configuration\n");
 

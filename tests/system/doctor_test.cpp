@@ -121,7 +121,7 @@ TEST(DoctorOfTheBus, NamesAnAddressThatIsUsedTwice)
     EXPECT_TRUE(first_cause_is(gateway, "bus.double_address"));
 }
 
-TEST(DoctorOfTheBus, NamesNoiseAndForgetsItWhenItIsOver)
+TEST(DoctorOfTheBus, NamesNoiseAndDropsItWhenItIsOver)
 {
     Gateway gateway;
     Master master{gateway, {"--tags", "55,56w", "--retries", "15"}};
@@ -383,7 +383,7 @@ TEST_F(SickDrive, WithALoosePlugComesAndGoes)
     EXPECT_THAT(steps(), HasSubstr("plugs at both ends"));
 }
 
-TEST(DoctorOfTheDrive, ThatKnowsNoneOfTheTagsIsOfAnotherType)
+TEST(DoctorOfTheDrive, ThatHasNoneOfTheTagsIsOfAnotherType)
 {
     Gateway gateway;
     Master master{gateway, {"--tags", "1201,1202"}};

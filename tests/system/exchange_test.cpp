@@ -6,7 +6,7 @@ namespace dpslave::test {
 namespace {
 
 /// What dpsim master says when the slave does what a slave must not do.
-constexpr const char* kComplaint = "not as the standard has it";
+constexpr const char* kViolation = "not as the standard has it";
 
 TEST(Exchange, ValuesGoFromTheDriveToTheMasterAndFromTheMasterToTheDrive)
 {
@@ -37,7 +37,7 @@ TEST(Exchange, ValuesGoFromTheDriveToTheMasterAndFromTheMasterToTheDrive)
     EXPECT_EQ(output.at("raw"), 0x10000 - 10500);
     EXPECT_EQ(output.at("value"), "-105.00");
     EXPECT_TRUE(master.leaves());
-    EXPECT_FALSE(master.ever_said(kComplaint));
+    EXPECT_FALSE(master.ever_said(kViolation));
 }
 
 TEST(Exchange, TwelveParametersWithoutDemandDataStartAtTheFirstOctet)
@@ -99,14 +99,14 @@ TEST_P(EachRate, ExchangesWithinTheTimesOfTheGsdSd3TelegramsIncluded)
     EXPECT_TRUE(gateway.drive().says("tag 56 written -3.00"));
     EXPECT_TRUE(variable.does("unlock"));
     EXPECT_TRUE(variable.leaves());
-    EXPECT_FALSE(variable.ever_said(kComplaint));
+    EXPECT_FALSE(variable.ever_said(kViolation));
 
     Master fixed{gateway, with({"--cfg", "73", "--sd3"})};
     ASSERT_TRUE(fixed.does("start 30s"));
     EXPECT_TRUE(fixed.does("demand read 55"));
     EXPECT_TRUE(fixed.does("expect demand = 1250"));
     EXPECT_TRUE(fixed.leaves());
-    EXPECT_FALSE(fixed.ever_said(kComplaint));
+    EXPECT_FALSE(fixed.ever_said(kViolation));
 }
 INSTANTIATE_TEST_SUITE_P(OfTheGsd, EachRate,
                          ::testing::Values(9600U, 19'200U, 93'750U, 187'500U, 500'000U, 1'500'000U),

@@ -88,7 +88,7 @@ struct Profile {
     std::uint16_t status_tag = 0;             ///< of DiagForm::status_word
     std::uint16_t fault_mask = 0;             ///< bits of the status word that are faults (Ext_Diag, X-15)
     bool selectable_resolution = false;       ///< key `resolution` of a station
-    std::vector<std::uint16_t> never_written; ///< tags that no one may write
+    std::vector<std::uint16_t> never_written; ///< tags that are never written
     bool has_function_4 = false;              ///< of Modbus: it reads what function 3 reads
     bool has_function_8 = false;              ///< of Modbus: the loopback, sub code 0
     std::string option_software; ///< release of the option that is emulated: "Version 3.x" (B-011)

@@ -12,37 +12,38 @@ namespace {
 constexpr const char* kLook = "Look";
 constexpr const char* kOperate = "Operate";
 
-constexpr const char* kShows = "0 fine, 1 refused or faulty, 2 usage or no such station, 3 no daemon.";
+constexpr const char* kShows =
+    "0 success, 1 refused or faulty, 2 wrong usage or no such station, 3 no daemon.";
 constexpr const char* kWaits =
-    "0 fine, with --wait: in exchange; 1 refused or faulty, with --wait: not in exchange;\n"
-    "2 usage or no such station; 3 no daemon.";
+    "0 success, with --wait: in exchange; 1 refused or faulty, with --wait: not in exchange;\n"
+    "2 wrong usage or no such station; 3 no daemon.";
 constexpr const char* kJudges =
-    "0 all is well, 1 something was found, 2 usage or no such station, 3 no daemon.";
+    "0 all is well, 1 something was found, 2 wrong usage or no such station, 3 no daemon.";
 constexpr const char* kSurveys =
-    "0 complete, 1 refused, faulty or not complete, 2 usage or no such station, 3 no daemon.";
-constexpr const char* kReloads = "0 applied, or can be; 1 refused or faulty; 2 usage; 3 no daemon.";
+    "0 complete, 1 refused, faulty or not complete, 2 wrong usage or no such station, 3 no daemon.";
+constexpr const char* kReloads = "0 applied, or can be; 1 refused or faulty; 2 wrong usage; 3 no daemon.";
 constexpr const char* kTunes =
-    "0 fine, 1 the rate of the bus cannot be held or something must be corrected,\n"
-    "2 usage, 3 no PORT and no daemon.";
-constexpr const char* kNeedsNone = "0 fine, 1 not found or faulty, 2 usage; no daemon is needed.";
-constexpr const char* kVersions =
-    "0 fine, also without a daemon; 1 a faulty answer; 2 usage; 3 this user may not open the socket.";
+    "0 success, 1 the rate of the bus cannot be held or something must be corrected,\n"
+    "2 wrong usage, 3 no PORT and no daemon.";
+constexpr const char* kNeedsNone = "0 success, 1 not found or faulty, 2 wrong usage; no daemon is needed.";
+constexpr const char* kVersions = "0 success, also without a daemon; 1 a faulty answer; 2 wrong usage; 3 "
+                                  "this user may not open the socket.";
 
 constexpr std::array kCommands = std::to_array<Command>({
-    {"status", kLook, "The bus, and each station in one line",
+    {"status", kLook, "Shows the bus, and each station in one line",
      "GetStatus, with --follow those of Watch, one a line", kWaits,
      "dpctl status --follow                    each change, until Ctrl-C\n"
      "dpctl status unwinder --wait 30 --quiet  for scripts: 0 as soon as it is in exchange, 1 if not\n"
      "dpctl status --wait 0 --quiet --drive    are all in exchange now, and do their drives answer?",
      status_arguments, do_status},
-    {"show", kLook, "Everything about a station: state, drive, emulated device, lamps, TEC OPTION", kShowJson,
-     kShows, "", station_argument, do_show},
-    {"io", kLook, "Inputs and outputs by tag: raw, scaled, state and age",
+    {"show", kLook, "Shows one station: state, drive, emulated device, lamps, TEC OPTION", kShowJson, kShows,
+     "", station_argument, do_show},
+    {"io", kLook, "Shows inputs and outputs by tag: raw, scaled, state and age",
      "GetIo, with --follow those of Watch, one a line", kShows, "", io_arguments, do_io},
     {"diag", kLook, "Decodes the diagnosis and explains the last refused telegram", "GetDiagnosis", kShows,
      "", station_argument, do_diag},
-    {"counters", kLook, "Number of telegrams and line faults, and how long the replies took", "GetCounters",
-     kShows, "", no_arguments, do_counters},
+    {"counters", kLook, "Counts telegrams, line faults and calls, and shows how long the replies took",
+     "GetCounters", kShows, "", no_arguments, do_counters},
     {"doctor", kLook, "Names the likely cause of a fault and the next step", kDoctorJson, kJudges,
      "dpctl doctor            every station\n"
      "dpctl doctor unwinder   this one\n"
@@ -54,7 +55,7 @@ constexpr std::array kCommands = std::to_array<Command>({
     {"write", kOperate, "Writes a tag of the drive now (root and the operator group)", "WriteTag", kShows,
      "dpctl write 56 -12.5 --station unwinder", tag_and_value_arguments, do_write},
     {"tec", kOperate,
-     "tec set: sets an input of the TEC OPTION function block of a technology box (root and the operator "
+     "Sets an input of the function block TEC OPTION of a technology box: tec set (root and the operator "
      "group)",
      "SetTec", kShows,
      "dpctl tec set TYPE \"PROFIBUS DP\"\n"
@@ -86,7 +87,7 @@ constexpr std::array kCommands = std::to_array<Command>({
      "dpctl tag program 1 segment 4 type   the address of a word of a program\n"
      "dpctl tag speed --profile 590plus",
      query_arguments, do_tag},
-    {"hex", kOffline, "16-bit numbers in decimal and hexadecimal, with the octets for User_Prm_Data",
+    {"hex", kOffline, "Shows 16-bit numbers in decimal and hexadecimal, with the octets for User_Prm_Data",
      kHexJson, kNeedsNone,
      "dpctl hex 288 0x120\n"
      "dpctl hex -300.00       with two decimals, as it goes over the bus: 8AD0\n"
@@ -97,8 +98,8 @@ constexpr std::array kCommands = std::to_array<Command>({
      "dpctl decode --as prm 88 01 0A 0B 05 33 00    octets as dpctl diag prints them\n"
      "dpctl decode 00 0C 00 01 16 49 04 01 6A B5 --profile 605",
      octet_arguments, do_decode},
-    {"version", "Version", "Versions of dpctl and of the daemon", "GetVersion", kVersions, "", no_arguments,
-     do_version},
+    {"version", "Version", "Shows the versions of dpctl and of the daemon", "GetVersion", kVersions, "",
+     no_arguments, do_version},
 });
 
 } // namespace
@@ -117,7 +118,7 @@ const char* const kFooter =
     "varlinkctl introspect /run/dpslaved/control.sock org.dpslaved.Control\n"
     "show, doctor, survey, tune, tag, hex and decode have their own form: see their --help.\n"
     "Exit codes; the --help of each command has the details:\n"
-    "  0  fine\n"
+    "  0  success\n"
     "  1  refused by the daemon or the drive, a faulty answer or input, not found, or the answer is no "
     "(status --wait, "
     "doctor, survey, tune)\n"

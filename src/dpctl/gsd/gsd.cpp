@@ -10,7 +10,8 @@
 namespace dpslave::dpctl {
 namespace {
 
-constexpr const char* kExits = "Exit codes: 0 fine, 1 faulty or refused, 2 usage; no daemon is needed.";
+constexpr const char* kExits =
+    "Exit codes: 0 success, 1 faulty or refused, 2 wrong usage; no daemon is needed.";
 
 constexpr const char* kExamples =
     "Examples:\n"
@@ -103,7 +104,7 @@ void add_gsd(CLI::App& app, Action& chosen)
 {
     const auto options = std::make_shared<GsdOptions>();
     CLI::App& gsd =
-        *app.add_subcommand("gsd", "GSD and type files for the master's tool: checks, makes, shows them");
+        *app.add_subcommand("gsd", "Checks, makes and shows GSD and type files for the master's tool");
     gsd.require_subcommand(1);
     gsd.footer(std::string{kExamples} + kExits);
     const struct {

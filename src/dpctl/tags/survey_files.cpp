@@ -120,8 +120,7 @@ std::optional<std::string> SurveyFiles::join(const Text& now)
     return std::nullopt;
 }
 
-/// The record first: it holds what was read, even where the table has become none under the hands of a
-/// person.
+/// The record first: it holds what was read, even if an edit has made the table unreadable.
 std::optional<std::string> SurveyFiles::save()
 {
     if (const auto failed = write_file(record_, profile::record_text(seen, station_), true))

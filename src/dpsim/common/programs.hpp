@@ -6,8 +6,8 @@
 
 namespace dpslave::sim {
 
-/// Exit status: 0 fine, 1 an expectation failed or the slave cannot be reached, 2 usage, 3 a port cannot be
-/// opened.
+/// Exit status: 0 success, 1 an expectation failed or the slave cannot be reached, 2 wrong usage, 3 a port
+/// cannot be opened.
 inline constexpr int kFine = 0, kFailed = 1, kUsage = 2, kNoPort = 3;
 
 struct LineOptions {

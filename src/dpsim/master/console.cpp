@@ -177,7 +177,7 @@ void Console::take(const MasterEvent& event, Instant now)
             if (wait_ && wait_->what == For::start) start_refused(event.words);
             return;
         case MasterEvent::Kind::lost: stamp(now, event.words); return;
-        case MasterEvent::Kind::complaint: stamp(now, "not as the standard has it: " + event.words); return;
+        case MasterEvent::Kind::violation: stamp(now, "not as the standard has it: " + event.words); return;
         case MasterEvent::Kind::diagnosis:
             stamp(now, "diagnosis");
             for (const std::string& line : explain(*master_.diagnosis())) say("  " + line);

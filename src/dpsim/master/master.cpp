@@ -25,14 +25,14 @@ Master::Master(MasterSettings settings) : settings_(std::move(settings))
 void Master::on_bytes(Bytes octets, Instant now)
 {
     const auto outcome = requester_.on_bytes(octets, now);
-    for (std::string& words : requester_.take_complaints()) complain(std::move(words));
+    for (std::string& words : requester_.take_violations()) report_violation(std::move(words));
     if (outcome) take(*outcome, now);
 }
 
 void Master::on_time(Instant now)
 {
     const auto outcome = requester_.on_time(now);
-    for (std::string& words : requester_.take_complaints()) complain(std::move(words));
+    for (std::string& words : requester_.take_violations()) report_violation(std::move(words));
     if (outcome) take(*outcome, now);
     if (!requester_.ready(now) || (outcome && !outcome->was_sent_only)) return;
     if (!orders_.empty()) {
@@ -132,7 +132,8 @@ void Master::take(const Requester::Outcome& outcome, Instant now)
         case Service::set_prm:
         case Service::chk_cfg:
             if (frame.kind != FrameKind::short_ack)
-                complain(fmt::format("{} is answered with {} instead of SC", text(service), describe(frame)));
+                report_violation(
+                    fmt::format("{} is answered with {} instead of SC", text(service), describe(frame)));
             else if (!outcome.one_shot && state_ == MasterState::parameterising)
                 enter(MasterState::configuring);
             else if (!outcome.one_shot && state_ == MasterState::configuring)
@@ -177,9 +178,9 @@ void Master::on_slave_diag(const Requester::Outcome& outcome, Instant now)
     const Frame& frame = *outcome.answer;
     ++counters_.diagnosis_reads;
     if (frame.kind == FrameKind::short_ack || frame.kind == FrameKind::no_data || (frame.fc & 0x0F) != 0x08)
-        return complain("Slave_Diag is answered with " + describe(frame) + " instead of DL");
+        return report_violation("Slave_Diag is answered with " + describe(frame) + " instead of DL");
     auto diagnosis = parse_diagnosis(frame.data);
-    if (!diagnosis) return complain(diagnosis.error());
+    if (!diagnosis) return report_violation(diagnosis.error());
     diagnosis_ = std::move(*diagnosis);
     if (outcome.one_shot && state_ != MasterState::data_exchange) return;
     if (state_ == MasterState::data_exchange && reported_diagnosis_ != diagnosis_->octets) {
@@ -282,9 +283,9 @@ void Master::enter(MasterState state)
     events_.push_back({MasterEvent::Kind::state, std::string{text(state)}});
 }
 
-void Master::complain(std::string words)
+void Master::report_violation(std::string words)
 {
-    events_.push_back({MasterEvent::Kind::complaint, std::move(words)});
+    events_.push_back({MasterEvent::Kind::violation, std::move(words)});
 }
 
 void Master::report(Answer answer)

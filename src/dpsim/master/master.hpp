@@ -15,7 +15,7 @@ struct MasterEvent {
         state,     ///< the state has changed
         refused,   ///< start-up failed: the slave refuses; the master tries again later
         lost,      ///< no answer any more
-        complaint, ///< the slave did what a slave must not do
+        violation, ///< the slave did what a slave must not do
         diagnosis, ///< it was read in data exchange, and is another one than before
         answer,    ///< an order is done
     };
@@ -65,7 +65,7 @@ private:
     void refuse(std::string why, Instant now);
     void leave_exchange(std::string why, MasterState to);
     void enter(MasterState state);
-    void complain(std::string words);
+    void report_violation(std::string words);
 
     MasterSettings settings_;
     CfgLengths lengths_;

@@ -89,7 +89,7 @@ std::optional<Requester::Outcome> Requester::on_bytes(Bytes octets, Instant now)
     if (!pending_ || to_send_ || !pending_->answered) {
         counters_.unasked_octets += octets.size();
         if (unasked_at_ == Instant::min() || now - unasked_at_ > std::chrono::seconds{1})
-            complaints_.push_back("octets that were not asked for, or that came too late: " + hex(octets));
+            violations_.push_back("octets that were not asked for, or that came too late: " + hex(octets));
         unasked_at_ = now;
         return std::nullopt;
     }
@@ -106,7 +106,7 @@ std::optional<Requester::Outcome> Requester::on_bytes(Bytes octets, Instant now)
     heard_ = std::exchange(rx_, {});
     if (more > 0) {
         counters_.unasked_octets += more;
-        complaints_.push_back("octets after the answer: " + hex(Bytes{heard_}.subspan(whole.size())));
+        violations_.push_back("octets after the answer: " + hex(Bytes{heard_}.subspan(whole.size())));
     }
     return whole_answer(whole, now);
 }
@@ -140,7 +140,7 @@ std::optional<Requester::Outcome> Requester::bad_answer(std::string why, Instant
 {
     if (!why.empty()) {
         ++counters_.invalid;
-        complaints_.push_back(
+        violations_.push_back(
             fmt::format("answer to {} is invalid, {}: {}", text(pending_->order.service), why, hex(heard_)));
     }
     if (pending_->repeated && pending_->counted && pending_->tries < settings_.retries) {

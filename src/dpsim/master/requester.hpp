@@ -45,7 +45,7 @@ public:
     void begin_sequence() { first_ = true; }
 
     /// What the slave did that a slave must not do, in words.
-    std::vector<std::string> take_complaints() { return std::exchange(complaints_, {}); }
+    std::vector<std::string> take_violations() { return std::exchange(violations_, {}); }
 
 private:
     struct Pending {
@@ -76,7 +76,7 @@ private:
     std::string rx_flaw_;  ///< not empty: what was heard is no answer; wait until the line is idle
     Instant idle_until_{}; ///< T_ID1 / T_ID2
     Instant unasked_at_ = Instant::min();
-    std::vector<std::string> complaints_;
+    std::vector<std::string> violations_;
 };
 
 } // namespace dpslave::sim

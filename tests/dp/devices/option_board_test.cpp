@@ -242,7 +242,7 @@ TEST_F(OptionBoard, KeepsTheLastPrmAndCfgForTheReader)
     EXPECT_EQ(dpslave::hex(snapshot.cfg), "50 51");
 }
 
-TEST_F(OptionBoard, ForgetsThemAtTheStartBehindAStopOnly)
+TEST_F(OptionBoard, DropsThemAtTheStartBehindAStopOnly)
 {
     master.set_prm("88 00 01 0B 05 33 01");
     master.chk_cfg("50 51");

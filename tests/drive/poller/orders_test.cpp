@@ -379,7 +379,7 @@ TEST_F(PollerOrders, DpctlComesAfterDemandData)
     EXPECT_EQ(all.substr(0, 5), "didic") << "the write is read back";
 }
 
-TEST_F(PollerOrders, DpctlGetsErrorsAndTheSilenceOfADrive)
+TEST_F(PollerOrders, ReportErrorsAndTheSilenceOfADriveToDpctl)
 {
     bench.drives[0].words.erase(60);
     EXPECT_TRUE(bench.poller.operate({.number = 1, .unit = 0, .tag = 60}));
@@ -396,7 +396,7 @@ TEST_F(PollerOrders, DpctlGetsErrorsAndTheSilenceOfADrive)
         << "known to be lost: at once";
 }
 
-TEST_F(PollerOrders, DpctlGetsThatTheDriveDidNotUnderstandAfterTheRetries)
+TEST_F(PollerOrders, ReportAfterTheRetriesThatTheDriveDidNotUnderstand)
 {
     bench.drives[0].write_errors[50] = AccessError::not_understood;
     EXPECT_TRUE(bench.poller.operate({.number = 1, .unit = 0, .is_write = true, .tag = 50, .word = 1}));

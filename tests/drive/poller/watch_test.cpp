@@ -168,7 +168,7 @@ protected:
     PollerWatchByTable() : PollerWatch({91, 1, 1, 2, 3, 4, 5, 6, 7, 8}) {}
 };
 
-TEST_F(PollerWatchByTable, KnowsWhatCannotBeReadAndTakesNoMoreThanItsPlaces)
+TEST_F(PollerWatchByTable, RecognisesWhatCannotBeReadAndTakesNoMoreThanItsPlaces)
 {
     EXPECT_EQ(seen(0).state, WordState::refused) << "write-only by the table, known before anything is asked";
     bench.run(1s);

@@ -24,7 +24,7 @@ is_judged_safe() {
     expect_no_text "$output" dpslaved
     expect_status 0 systemd-analyze security --no-pager --threshold=10 dpslaved.service # tenths
 }
-prove "given the installed units, when systemd judges them, then it has no complaint, and sees an exposure of 1.0 at most" \
+prove "given the installed units, when systemd judges them, then it has no violation, and sees an exposure of 1.0 at most" \
     is_judged_safe
 
 # The unit as it is, with another program in it.
