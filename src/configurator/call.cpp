@@ -2,16 +2,16 @@
 // A request of the page: taken apart, passed on, and the outcome as JSON.
 #include "facts.hpp"
 
-#include <algorithm>
-
 #include "dpslave/configurator/configurator.hpp"
+
+#include <algorithm>
 
 namespace dpslave::configurator {
 namespace {
 
 Outcome wrong(std::string sentence)
 {
-    return {.exit = kUsage, .messages = {std::move(sentence)}};
+    return {.exit = kUsage, .refusals = {std::move(sentence)}};
 }
 
 class Request {
@@ -117,7 +117,10 @@ std::string call(std::string_view request, const toml::TextSource& source)
     const Json read = Json::parse(request, nullptr, false);
     const Outcome outcome =
         read.is_object() ? Request{read, source}.answer() : wrong("the request is no JSON object.");
-    Json reply{{"exit", outcome.exit}, {"lines", outcome.lines}, {"messages", outcome.messages}};
+    Json reply{{"exit", outcome.exit},
+               {"lines", outcome.lines},
+               {"messages", outcome.messages},
+               {"refusals", outcome.refusals}};
     if (!outcome.octets.empty()) reply["octets"] = base64(outcome.octets);
     reply.update(Json::parse(outcome.facts, nullptr, false));
     return text_of(reply);

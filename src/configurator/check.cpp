@@ -23,6 +23,11 @@ std::size_t errors_in(const gsd::Findings& findings)
 
 } // namespace
 
+bool any_error(const gsd::Findings& findings)
+{
+    return errors_in(findings) > 0;
+}
+
 std::string line_of(std::string_view path, const gsd::Finding& finding)
 {
     std::string line{path};
@@ -49,7 +54,7 @@ Outcome check(std::string_view file, std::string_view path, bool strict)
     Outcome outcome;
     for (const gsd::Finding& finding : findings) outcome.lines.push_back(line_of(path, finding));
     outcome.lines.push_back(std::string{path} + ": " + summary(findings));
-    outcome.exit = errors_in(findings) > 0 ? kNo : kFine;
+    outcome.exit = any_error(findings) ? kNo : kFine;
     outcome.facts = text_of({{"findings", findings_of(findings)}});
     return outcome;
 }

@@ -24,6 +24,8 @@ std::string line_of(std::string_view path, const gsd::Finding& finding);
 /// "1 error, 2 warnings".
 std::string summary(const gsd::Findings& findings);
 
+bool any_error(const gsd::Findings& findings);
+
 Json findings_of(const gsd::Findings& findings);
 Json mapping_of(const profile::Mapping& mapping);
 Json profile_of(const profile::Profile& profile);

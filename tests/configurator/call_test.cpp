@@ -37,7 +37,7 @@ TEST(ConfiguratorCall, RefusesWhatIsNoRequestWithASentence)
                                 R"({"do": "check"})", R"({"do": "check", "file": "!"})"}) {
         const json reply = ask(request);
         EXPECT_EQ(reply["exit"], 2) << request;
-        EXPECT_EQ(reply["messages"].size(), 1U) << request;
+        EXPECT_EQ(reply["refusals"].size(), 1U) << request;
     }
 }
 

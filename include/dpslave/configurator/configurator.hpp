@@ -4,6 +4,7 @@
 /// docs/internals/configurator-calls.md describes its requests and replies.
 #pragma once
 
+#include "dpslave/profile/gsd_device.hpp"
 #include "dpslave/toml/text_source.hpp"
 
 #include <string>
@@ -21,9 +22,25 @@ struct Outcome {
     int exit = kFine;
     std::string octets = {};                ///< the file that was asked for, octet by octet
     std::vector<std::string> lines = {};    ///< the answer for people, UTF-8, printable
-    std::vector<std::string> messages = {}; ///< warnings and refusals, which dpctl prints on standard error
+    std::vector<std::string> messages = {}; ///< warnings and faults of files, each with its kind or its place
+    std::vector<std::string> refusals = {}; ///< why the question has no answer: sentences
     std::string facts = "{}";               ///< the same for programs: a JSON object
 };
+
+/// Where profiles and tag tables are.
+struct Files {
+    const toml::TextSource& source;
+    std::string profiles;           ///< their folder; the tables are in `tags` beside it
+    std::vector<std::string> names; ///< of all profiles, for the sentence about a wrong one
+};
+
+/// The GSD of `mapping`. `table`: a tag table of the user's own; `path`: where the file goes. Either may be
+/// empty.
+Outcome make(const Files& files, const profile::Mapping& mapping, const std::string& table,
+             const std::string& path);
+
+/// The I/O map of a GSD file. The tags have the names of `profile` and `table`; either may be empty.
+Outcome show(const Files& files, std::string_view file, const std::string& profile, const std::string& table);
 
 /// Does a master's tool accept the file? `path` is how the lines name it; empty = only its octets are judged.
 Outcome check(std::string_view file, std::string_view path, bool strict);
