@@ -2,12 +2,13 @@
 // The only file that knows toml++: what it parsed is copied into plain nodes, each with its place.
 #include "dpslave/toml/document.hpp"
 
-#include "nesting.hpp"
 #include "node.hpp"
+#include "prescan.hpp"
 
 #include "dpslave/base/printable.hpp"
 #include "dpslave/toml/wording.hpp"
 
+#define TOML_EXCEPTIONS 0 // one way for both builds: the WebAssembly of the configurator has no exceptions
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -97,20 +98,21 @@ Document::Document(const TextSource& source, std::string name)
         return;
     }
     content = utf8(*content); // an editor of old machines saves "Zürich" in ISO 8859-1, as with tag tables
-    if (const auto place = too_deep(*content)) {
-        fault(*place, "tables, lists or dotted keys are nested deeper than " + std::to_string(kMaxNesting) +
-                          " levels.");
+    if (const auto unparsed = prescan(*content)) {
+        fault(unparsed->place, text(unparsed->why));
         return;
     }
-    try {
-        *root_ = convert(::toml::parse(std::string_view{*content}), "", false);
-        root_->place = {}; // what the file as a whole lacks has no line
-        readable_ = true;
-    } catch (const ::toml::parse_error& error) {
+    const ::toml::parse_result parsed = ::toml::parse(std::string_view{*content});
+    if (!parsed) {
+        const ::toml::parse_error& error = parsed.error();
         const Place place = toml::place_of(error.source());
         fault(place, what_is_wrong(*content, place, error.description()) +
                          " Correct it first: the text after it was not read.");
+        return;
     }
+    *root_ = convert(parsed.table(), "", false);
+    root_->place = {}; // what the file as a whole lacks has no line
+    readable_ = true;
 }
 
 Document::~Document() = default;

@@ -21,14 +21,14 @@ void Node::remember(std::string_view key)
     if (std::find(asked_for.begin(), asked_for.end(), key) == asked_for.end()) asked_for.emplace_back(key);
 }
 
-namespace {
-
 std::string plain(double number)
 {
     std::array<char, 32> text{};
     const auto end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
     return {text.data(), end};
 }
+
+namespace {
 
 void find_unknown_keys(const Value& value, const std::string& file, Faults& faults)
 {

@@ -41,6 +41,9 @@ struct Entry {
 /// As the file's author wrote it, or nearly so.
 std::string shown(const Value& value);
 
+/// The shortest text that reads back as `number`.
+std::string plain(double number);
+
 /// A fault for each key of `node`, and of the tables in it, that was not asked for.
 void find_unknown_keys(const Node& node, const std::string& file, Faults& faults);
 

@@ -242,5 +242,39 @@ TEST(Nearest, is_the_word_that_was_probably_meant_and_none_where_too_much_differ
     EXPECT_EQ(toml::listed(std::vector<std::string>{"a", "b", "c"}), "\"a\", \"b\" or \"c\"");
 }
 
+TEST_F(TomlDocument, with_a_character_beyond_ascii_outside_of_texts_and_comments_names_its_place)
+{
+    for (const std::string character : {"é", "\u2C60", "\uFC30", "\u00A0", "\u3000"}) {
+        for (const char* const around : {"# x\n  @ = 1\n", "# x\na @= 1\n", "# x\na=b'@'\n", "# x\n[t@]\n",
+                                         "# x\na = 'b'@\n", "# x\na = 1\"@\"\n"}) {
+            std::string content = around;
+            content.replace(content.find('@'), 1, character);
+            const auto faults = read(content).faults();
+            ASSERT_EQ(faults.size(), 1U) << content;
+            EXPECT_EQ(faults.front().line, 2U) << content;
+            EXPECT_THAT(faults.front().what, HasSubstr("only texts in quotes and comments")) << content;
+        }
+    }
+}
+
+TEST_F(TomlDocument, may_have_any_character_in_texts_and_comments)
+{
+    Document& document =
+        read("\xEF\xBB\xBF# \u2C60\n\"é\" = 'é'\nb = [\"é\",'é']\nc = \"\"\"é\\\\é\"\"\" # é\n");
+    EXPECT_EQ(document.root().text("é"), "é");
+    EXPECT_EQ(document.root().text("c"), "é\\é");
+    document.root().texts("b");
+    EXPECT_THAT(document.faults(), IsEmpty());
+}
+
+TEST_F(TomlDocument, whose_text_goes_on_beyond_ascii_after_a_backslash_names_the_backslash)
+{
+    for (const std::string after : {"\n  é", "é", " \r\n\u2C60"}) {
+        const auto faults = read("a = \"\"\"b\\" + after + "\"\"\"\n").faults();
+        ASSERT_EQ(faults.size(), 1U) << after;
+        EXPECT_THAT(faults.front().what, HasSubstr("on one line")) << after;
+    }
+}
+
 } // namespace
 } // namespace dpslave

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "prescan.hpp"
+
+#include <array>
+
+namespace dpslave::toml {
+namespace {
+
+using Why = Unparsed::Why;
+
+class Walk {
+public:
+    explicit Walk(std::string_view text) : rest_(text) {}
+
+    std::optional<Unparsed> find()
+    {
+        if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
+        while (!rest_.empty() && !found_) {
+            const char c = rest_[0];
+            if (c == '#')
+                skip_comment();
+            else if ((c == '"' || c == '\'') && may_begin_text())
+                skip_text();
+            else if (is_too_deep(c))
+                found_ = Unparsed{at_, Why::nesting};
+            else if (!is_ascii(c))
+                found_ = Unparsed{at_, Why::not_ascii};
+            else
+                take(1);
+        }
+        return found_;
+    }
+
+private:
+    static constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+    static bool is_ascii(char c) { return static_cast<unsigned char>(c) < 0x80; }
+
+    /// A quote within a word is a part of it: toml++ goes on through the word.
+    bool may_begin_text() const
+    {
+        return std::string_view{" \t\r\n=,.[{\0", 10}.find(before_) != std::string_view::npos;
+    }
+
+    bool is_too_deep(char c)
+    {
+        switch (c) {
+            case '[':
+            case '{': dots_ = 0; return ++depth_ > kMaxNesting;
+            case ']':
+            case '}': depth_ -= depth_ > 0 ? 1 : 0; break;
+            case '.': return ++dots_ >= kMaxNesting;
+            case '=':
+            case ',':
+            case '\n': dots_ = 0; break;
+            default: break;
+        }
+        return false;
+    }
+
+    void skip_comment()
+    {
+        while (!rest_.empty() && rest_[0] != '\n') take(1);
+    }
+
+    /// A text of one line ends with it also where its quote is missing: the parser will say so.
+    void skip_text()
+    {
+        const char quote = rest_[0];
+        const std::array<char, 3> three{quote, quote, quote};
+        const std::string_view long_mark{three.data(), three.size()};
+        const bool is_long = rest_.starts_with(long_mark);
+        const std::string_view end = is_long ? long_mark : long_mark.substr(0, 1);
+        take(end.size());
+        while (!rest_.empty() && !rest_.starts_with(end)) {
+            if (!is_long && rest_[0] == '\n') return;
+            if (is_long && quote == '"' && rest_[0] == '\\' && !continues_in_ascii()) {
+                found_ = Unparsed{at_, Why::not_ascii_after_backslash};
+                return;
+            }
+            take(quote == '"' && rest_[0] == '\\' && rest_.size() > 1 ? 2 : 1);
+        }
+        if (!rest_.empty()) take(end.size());
+    }
+
+    /// The text after a backslash at the end of a line, which takes the white space behind it away.
+    bool continues_in_ascii() const
+    {
+        const auto next = rest_.find_first_not_of(" \t\r\n", 1);
+        return next == std::string_view::npos || is_ascii(rest_[next]);
+    }
+
+    void take(std::size_t count)
+    {
+        before_ = rest_[count - 1];
+        for (const char c : rest_.substr(0, count)) {
+            ++at_.column;
+            if (c == '\n') at_ = {at_.line + 1, 1};
+        }
+        rest_.remove_prefix(count);
+    }
+
+    std::string_view rest_;
+    char before_ = '\0'; ///< the last octet that was taken
+    Place at_{1, 1};
+    std::optional<Unparsed> found_;
+    unsigned depth_ = 0;
+    unsigned dots_ = 0; ///< of the key that is being read
+};
+
+} // namespace
+
+std::optional<Unparsed> prescan(std::string_view text)
+{
+    return Walk{text}.find();
+}
+
+std::string text(Unparsed::Why why)
+{
+    switch (why) {
+        case Unparsed::Why::nesting:
+            return "tables, lists or dotted keys are nested deeper than " + std::to_string(kMaxNesting) +
+                   " levels.";
+        case Unparsed::Why::not_ascii:
+            return "only texts in quotes and comments may have this character: write it in quotes, or remove "
+                   "it.";
+        case Unparsed::Why::not_ascii_after_backslash:
+            return "after this backslash only an ASCII character may follow: put the text on one line.";
+    }
+    return "";
+}
+
+} // namespace dpslave::toml

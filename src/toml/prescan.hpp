@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What must not reach the parser. It calls itself for each level of nesting, so some hundred thousand of
+/// them end the program. And toml++ 3.3 has no defined behaviour for many characters beyond ASCII outside of
+/// texts and comments, where TOML 1.0 has none of them.
+#pragma once
+
+#include "dpslave/toml/document.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace dpslave::toml {
+
+/// Deepest nesting that is parsed; the deepest of a configuration, [station.diagnosis] and its lists, has 4.
+inline constexpr unsigned kMaxNesting = 16;
+
+struct Unparsed {
+    enum class Why { nesting, not_ascii, not_ascii_after_backslash };
+    Place place;
+    Why why;
+};
+
+/// The first place of `text` that must not be parsed: brackets and braces within each other, or parts of one
+/// dotted key, deeper than kMaxNesting. Or an octet beyond ASCII outside of texts and comments, or behind the
+/// backslash of a line that continues (TOML 1.0). Linear in time; text that is no TOML at all is judged too.
+std::optional<Unparsed> prescan(std::string_view text);
+
+/// What is wrong there, and what to do: a sentence.
+std::string text(Unparsed::Why why);
+
+} // namespace dpslave::toml
