@@ -53,14 +53,14 @@ protected:
     Notifier notifier;
 };
 
-TEST_F(ServiceManager, HearsThatTheServiceIsReadyAndHowItIs)
+TEST_F(ServiceManager, ReceivesReadyAndTheStatus)
 {
     notifier.ready("station 5: Wait_Prm");
 
     EXPECT_EQ(heard(), "READY=1\nSTATUS=station 5: Wait_Prm");
 }
 
-TEST_F(ServiceManager, HearsEachStatus)
+TEST_F(ServiceManager, ReceivesEachStatus)
 {
     notifier.status("station 5: Data_Exch");
 
@@ -74,7 +74,7 @@ TEST_F(ServiceManager, AStatusOfSeveralLinesStaysOneAssignment)
     EXPECT_EQ(heard(), "STATUS=one MAINPID=1 two");
 }
 
-TEST_F(ServiceManager, HearsTheWatchdogAndTheEnd)
+TEST_F(ServiceManager, ReceivesTheWatchdogAndTheEnd)
 {
     notifier.watchdog();
     notifier.stopping();
@@ -83,7 +83,7 @@ TEST_F(ServiceManager, HearsTheWatchdogAndTheEnd)
     EXPECT_EQ(heard(), "STOPPING=1");
 }
 
-TEST_F(ServiceManager, HearsWhenAReloadBegan)
+TEST_F(ServiceManager, ReceivesWhenAReloadBegan)
 {
     notifier.reloading(Instant{12'345'678us});
 

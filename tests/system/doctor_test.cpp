@@ -367,7 +367,7 @@ TEST_F(SickDrive, WhosePortVanishesIsNamedAndWellAgainWhenItReturns)
 
     EXPECT_TRUE(is("drive.gone"));
     EXPECT_THAT(evidence(), HasSubstr("of line p3 is not there"));
-    EXPECT_THAT(gateway->dpctl({"status"}).out, HasSubstr("port gone"));
+    EXPECT_THAT(gateway->dpctl({"status"}).out, HasSubstr("port missing"));
     EXPECT_THAT(steps(), HasSubstr("/dev/serial/by-id"));
 
     gateway->plug_drive();

@@ -32,7 +32,7 @@ TEST_F(TechnologyBoxDiagnosis, GoldenTelegramOfTheManual)
     EXPECT_EQ(first.slave_diag(), "DL 00 0C 00 01 16 49 04 01 6A B5");
 }
 
-TEST_F(TechnologyBoxDiagnosis, ATripSetsTheExtDiagBitWhereTheSiteWantsIt)
+TEST_F(TechnologyBoxDiagnosis, ATripSetsTheExtDiagBitWhereConfigured)
 {
     exchanges();
     slave.set_ext_diag(octets("04 01 6A B5"), true);

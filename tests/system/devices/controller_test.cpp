@@ -255,7 +255,7 @@ TEST(StatusWord, IsTheDiagnosisOfTheHandbooksExampleAndEachChangeAnEvent)
     EXPECT_TRUE(master.does("expect state data-exchange"));
 }
 
-TEST(StatusWord, OfAFaultSetsExtDiagWhereTheSiteWantsIt)
+TEST(StatusWord, OfAFaultSetsExtDiagWhereConfigured)
 {
     Gateway gateway{instrument("ext_diag_bit = true\n")};
     Master master{gateway, for_controller(kStandard)};
