@@ -18,11 +18,14 @@ _dpctl_options()
         tag) echo '--json --all --table --profile --profiles --help' ;;
         hex) echo '--json --help' ;;
         decode) echo '--json --as --profile --profiles --help' ;;
-        'gsd check') echo '--strict --help' ;;
-        'gsd show') echo '--profile --profiles --table --help' ;;
-        'gsd make') echo '--profile --profiles --table --mapping --in --out --in-out --demand --ident --max-tsdr --description
-                          --model --output --force --help' ;;
-        'gsd types') echo '--output --brief --force --help' ;;
+        'gsd check') echo '--strict --station --table --profiles --socket --json --help' ;;
+        'gsd show') echo '--profile --profiles --table --json --help' ;;
+        'gsd make') echo '--profile --profiles --table --mapping --in --out --in-out --list --demand --ident --max-tsdr --description
+                          --model --output --force --json --help' ;;
+        'gsd import') echo '--profile --profiles --output --force --json --help' ;;
+        'gsd diff') echo '--profile --profiles --json --help' ;;
+        'gsd configure') echo '--page --json --help' ;;
+        'gsd types') echo '--output --brief --force --json --help' ;;
         gsd) echo '--help' ;;
         *) echo "$_dpctl_common" ;;
     esac
@@ -64,7 +67,7 @@ _dpctl()
     local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD - 1]} command='' i word words=''
     COMPREPLY=()
     case $prev in
-        --socket | --table | --mapping) compopt -o filenames 2>/dev/null
+        --socket | --table | --mapping | --page) compopt -o filenames 2>/dev/null
             mapfile -t COMPREPLY < <(compgen -f -- "$cur"); return ;;
         --profiles | --output) compopt -o filenames 2>/dev/null
             mapfile -t COMPREPLY < <(compgen -f -- "$cur"); return ;;
@@ -95,8 +98,8 @@ _dpctl()
             status | show | io | diag | doctor | survey) _dpctl_offer "$cur" < <(_dpctl_stations); return ;;
             tec) words='set' ;;
             'tec set') words='TYPE ADDRESS EXT_DIAGNOSTIC INT_DIAG_SELECT RIDE_THROUGH UNUSED_1' ;;
-            gsd) words='check show make types' ;;
-            tune | 'gsd check' | 'gsd show') compopt -o filenames 2>/dev/null
+            gsd) words='check show make import diff configure types' ;;
+            tune | 'gsd check' | 'gsd show' | 'gsd import' | 'gsd diff') compopt -o filenames 2>/dev/null
                 mapfile -t COMPREPLY < <(compgen -f -- "$cur"); return ;;
         esac
     fi

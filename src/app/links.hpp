@@ -99,7 +99,7 @@ struct PortMessage {
 struct BusSnapshot {
     Baud baud = Baud::k9_6;
     fdl::BaudState baud_state = fdl::BaudState::fixed;
-    bool port_open = false;
+    bool port_open = true; ///< the daemon starts with an open port
     Instant taken_at{};
     Instant last_telegram{}; ///< with a right check sum, of any station; default = none was heard yet
     fdl::Counters counters{};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A request of the page: taken apart, passed on, and the outcome as JSON.
+#include "device.hpp"
 #include "facts.hpp"
+#include "mapping.hpp"
 
 #include "dpslave/configurator/configurator.hpp"
 
@@ -14,9 +16,20 @@ Outcome wrong(std::string sentence)
     return {.exit = kUsage, .refusals = {std::move(sentence)}};
 }
 
+constexpr std::size_t kMostBase64 = (1024U * 1024U + 2U) / 3U * 4U; ///< of 1 MiB, as dpctl reads at most
+constexpr const char* kOwnTable = "own table";
+
 class Request {
 public:
-    Request(const Json& request, const toml::TextSource& source) : request_(request), source_(source) {}
+    Request(const Json& request, const toml::TextSource& source)
+        : request_(request),
+          source_(source),
+          with_table_([this](const std::string& name) -> Result<std::string, Unreadable> {
+              return name == kOwnTable ? text("table") : source_(name);
+          })
+    {}
+    Request(const Request&) = delete;
+    Request& operator=(const Request&) = delete;
 
     Outcome answer()
     {
@@ -24,8 +37,16 @@ public:
             std::string_view name;
             Outcome (Request::*function)();
         } kRequests[] = {{"profiles", &Request::profiles},
+                         {"tags", &Request::tags},
                          {"samples", &Request::samples},
-                         {"check", &Request::check_file}};
+                         {"make", &Request::make_file},
+                         {"preview", &Request::preview},
+                         {"check", &Request::check_file},
+                         {"show", &Request::show_file},
+                         {"import", &Request::import_of_file},
+                         {"diff", &Request::diff_files},
+                         {"mapping", &Request::write_mapping},
+                         {"read_mapping", &Request::read_mapping_file}};
         const std::string wanted = text("do");
         for (const auto& [name, function] : kRequests)
             if (name == wanted) return (this->*function)();
@@ -37,6 +58,20 @@ private:
     {
         const auto found = request_.find(key);
         return found != request_.end() && found->is_string() ? found->get<std::string>() : std::string{};
+    }
+
+    std::optional<std::string> octets(const char* key) const
+    {
+        const std::string octets = text(key);
+        if (!request_.contains(key) || octets.size() > kMostBase64) return std::nullopt;
+        return octets_of_base64(octets);
+    }
+
+    Outcome no_file(const std::string& key) const
+    {
+        if (text(key.c_str()).size() > kMostBase64)
+            return {.exit = kNo, .refusals = {"the file is larger than 1 MiB: it is no GSD file."}};
+        return wrong('"' + key + "\" has to be a file in base64.");
     }
 
     bool flag(const char* key) const
@@ -61,6 +96,86 @@ private:
                     line.substr(folder.size(), line.size() - folder.size() - extension.size()));
         }
         return names;
+    }
+
+    /// The files of the page, and the user's own table under a name of its own.
+    Files files() const { return {with_table_, "profiles", names_in("profiles/", ".toml")}; }
+
+    std::string table() const { return text("table").empty() ? "" : kOwnTable; }
+
+    Outcome tags()
+    {
+        Outcome outcome;
+        auto profile = load(files(), text("profile"), outcome);
+        if (profile && !table().empty()) {
+            auto own = own_table(files(), table(), outcome);
+            if (own) profile->tags = *std::move(own);
+        }
+        if (outcome.exit != kFine) return outcome;
+        Json all = Json::array();
+        for (const drive::Tag* tag : profile->tags.in_table_order()) all.push_back(tag_of(*profile, *tag));
+        outcome.facts = text_of({{"tags", all}});
+        return outcome;
+    }
+
+    Outcome make_file()
+    {
+        const auto wanted = read_mapping(request_);
+        if (!wanted) return wrong(wanted.error());
+        return make(files(), *wanted, table(), text("name"));
+    }
+
+    /// As make_file(); that there would be no file is no failure.
+    Outcome preview()
+    {
+        Outcome outcome = make_file();
+        if (outcome.exit == kNo && outcome.facts != "{}") outcome.exit = kFine;
+        return outcome;
+    }
+
+    Outcome show_file()
+    {
+        const auto file = octets("file");
+        return file ? show(files(), *file, text("profile"), table()) : no_file("file");
+    }
+
+    Outcome import_of_file()
+    {
+        const auto file = octets("file");
+        return file ? import_file(files(), *file, text("profile")) : no_file("file");
+    }
+
+    Outcome diff_files()
+    {
+        const auto left = octets("file"), right = octets("other");
+        if (!left) return no_file("file");
+        if (!right) return no_file("other");
+        return diff(files(), *left, *right, text("profile"));
+    }
+
+    Outcome write_mapping()
+    {
+        const auto mapping = read_mapping(request_);
+        if (!mapping) return wrong(mapping.error());
+        Outcome outcome;
+        const auto profile = load(files(), mapping->profile, outcome);
+        if (profile) outcome.octets = mapping_file(*mapping, profile->tags);
+        return outcome;
+    }
+
+    Outcome read_mapping_file()
+    {
+        const auto file = octets("file");
+        if (!file) return no_file("file");
+        const std::string name = text("name").empty() ? "mapping" : text("name");
+        const auto mapping = profile::load_mapping(
+            [&](const std::string&) -> Result<std::string, Unreadable> { return *file; }, name);
+        Outcome outcome;
+        if (mapping)
+            outcome.facts = text_of({{"mapping", mapping_of(*mapping)}});
+        else
+            refuse(outcome, mapping.error());
+        return outcome;
     }
 
     Outcome profiles()
@@ -95,9 +210,8 @@ private:
 
     Outcome check_file()
     {
-        const auto file = octets_of_base64(text("file"));
-        if (!request_.contains("file") || !file) return wrong("\"file\" has to be a file in base64.");
-        return check(*file, text("name"), flag("strict"));
+        const auto file = octets("file");
+        return file ? check(*file, text("name"), flag("strict")) : no_file("file");
     }
 
     static void refuse(Outcome& outcome, const toml::Faults& faults)
@@ -108,15 +222,13 @@ private:
 
     const Json& request_;
     const toml::TextSource& source_;
+    const toml::TextSource with_table_;
 };
 
 } // namespace
 
-std::string call(std::string_view request, const toml::TextSource& source)
+std::string reply_of(const Outcome& outcome)
 {
-    const Json read = Json::parse(request, nullptr, false);
-    const Outcome outcome =
-        read.is_object() ? Request{read, source}.answer() : wrong("the request is no JSON object.");
     Json reply{{"exit", outcome.exit},
                {"lines", outcome.lines},
                {"messages", outcome.messages},
@@ -124,6 +236,13 @@ std::string call(std::string_view request, const toml::TextSource& source)
     if (!outcome.octets.empty()) reply["octets"] = base64(outcome.octets);
     reply.update(Json::parse(outcome.facts, nullptr, false));
     return text_of(reply);
+}
+
+std::string call(std::string_view request, const toml::TextSource& source)
+{
+    const Json read = Json::parse(request, nullptr, false);
+    return reply_of(read.is_object() ? Request{read, source}.answer()
+                                     : wrong("the request is no JSON object."));
 }
 
 } // namespace dpslave::configurator

@@ -10,24 +10,27 @@ namespace {
 
 constexpr std::string_view kSixBits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-std::string parameter(std::string_view direction, std::uint16_t tag)
-{
-    return std::string{direction} + ':' + std::to_string(tag);
-}
-
-Json list_of(const std::vector<std::uint16_t>& in, const std::vector<std::uint16_t>& out,
-             const std::vector<std::uint16_t>& in_out)
+Json list_of(const std::vector<profile::Parameter>& parameters)
 {
     Json list = Json::array();
-    for (const std::uint16_t tag : in) list.push_back(parameter("in", tag));
-    for (const std::uint16_t tag : out) list.push_back(parameter("out", tag));
-    for (const std::uint16_t tag : in_out) list.push_back(parameter("in-out", tag));
+    for (const profile::Parameter& parameter : parameters) list.push_back(to_string(parameter));
     return list;
 }
 
 std::string name_of(const std::string& path)
 {
     return path.substr(path.rfind('/') + 1); // npos + 1 is 0
+}
+
+std::string_view name_of(drive::Access access)
+{
+    switch (access) {
+        case drive::Access::unknown: return "unknown";
+        case drive::Access::read_only: return "read_only";
+        case drive::Access::read_write: return "read_write";
+        case drive::Access::write_only: break;
+    }
+    return "write_only";
 }
 
 Json lists_of(const dp::Personality& personality)
@@ -64,7 +67,7 @@ Json mapping_of(const profile::Mapping& mapping)
 {
     const profile::Selection& selection = mapping.selection;
     Json all{{"profile", mapping.profile},
-             {"list", list_of(selection.in, selection.out, selection.in_out)},
+             {"list", list_of(selection.parameters())},
              {"demand", selection.demand}};
     if (selection.ident) all["ident"] = *selection.ident;
     if (selection.max_tsdr) all["max_tsdr"] = *selection.max_tsdr;
@@ -76,6 +79,9 @@ Json mapping_of(const profile::Mapping& mapping)
 Json profile_of(const profile::Profile& profile)
 {
     const dp::Personality& personality = profile.personality;
+    profile::Selection own;
+    own.in = profile.gsd.in_tags;
+    own.out = profile.gsd.out_tags;
     Json rates = Json::array();
     for (const Baud baud : kBauds)
         if (const Tbit bits = personality.max_tsdr[index_of(baud)]; bits.count > 0)
@@ -96,8 +102,58 @@ Json profile_of(const profile::Profile& profile)
             {"lists", lists_of(personality)},
             {"no_tags", personality.prm.list == dp::TagList::none},
             {"only_listed_tags", profile.tags_only_from_table},
-            {"default_list", list_of(profile.gsd.in_tags, profile.gsd.out_tags, {})},
+            {"default_list", list_of(own.parameters())},
             {"max_tsdr", rates}};
+}
+
+Json tag_of(const profile::Profile& profile, const drive::Tag& tag)
+{
+    Json labels = Json::array();
+    for (const drive::Label& label : tag.labels)
+        labels.push_back({{"bit", label.is_bit}, {"number", label.number}, {"text", label.text}});
+    const bool never = std::find(profile.never_written.begin(), profile.never_written.end(), tag.number) !=
+                       profile.never_written.end();
+    const bool legal = tag.number <= profile.personality.prm.max_tag;
+    const auto optional = [](const auto& value) { return value ? Json(*value) : Json(); };
+    return {{"number", tag.number},
+            {"name", tag.name},
+            {"mnemonic", tag.mnemonic},
+            {"aliases", tag.aliases},
+            {"section", tag.section},
+            {"type", drive::type_name(tag)},
+            {"decimals", tag.decimals_known ? Json(tag.decimals) : Json()},
+            {"follows_display", tag.follows_display},
+            {"scaled", drive::has_scale(tag)},
+            {"access", name_of(tag.access)},
+            {"writable",
+             legal && !never && tag.access != drive::Access::read_only && tag.type != drive::TagType::string},
+            {"when", drive::text(tag.when)},
+            {"never_written", never},
+            {"min", optional(tag.min)},
+            {"max", optional(tag.max)},
+            {"labels", labels},
+            {"notes", tag.notes},
+            {"demand", legal ? Json(tag.number) : Json()},
+            {"status_word", tag.type == drive::TagType::word}};
+}
+
+std::string hex_of(std::uint32_t word)
+{
+    std::string digits;
+    for (; word > 0 || digits.size() < 4; word >>= 4U)
+        digits.insert(digits.begin(), "0123456789ABCDEF"[word & 15U]);
+    return "0x" + digits;
+}
+
+std::string utf8_of_latin1(std::string_view octets)
+{
+    std::string out;
+    for (const char c : octets) {
+        const auto octet = static_cast<std::uint8_t>(c);
+        if (octet >= 0x80) out += static_cast<char>(0xC0U | octet >> 6U);
+        out += static_cast<char>(octet >= 0x80 ? 0x80U | (octet & 0x3FU) : octet);
+    }
+    return out;
 }
 
 std::string base64(std::string_view octets)

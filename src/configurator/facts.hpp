@@ -4,6 +4,7 @@
 
 #include "dpslave/base/bytes.hpp"
 #include "dpslave/gsd/check.hpp"
+#include "dpslave/gsd/io_map.hpp"
 #include "dpslave/profile/gsd_device.hpp"
 
 #include <nlohmann/json.hpp>
@@ -29,6 +30,19 @@ bool any_error(const gsd::Findings& findings);
 Json findings_of(const gsd::Findings& findings);
 Json mapping_of(const profile::Mapping& mapping);
 Json profile_of(const profile::Profile& profile);
+
+Json tag_of(const profile::Profile& profile, const drive::Tag& tag);
+Json facts_of(const gsd::IoMap& map);
+/// What the page shows of a selection while it is being made.
+Json preview_of(const profile::Profile& profile, const profile::Draft& draft, bool demand);
+
+/// Chk_Cfg: the identifiers of the plugged modules.
+std::vector<std::uint8_t> identifiers_of(const gsd::Document& document);
+gsd::MapHints hints_of(const profile::Profile& profile);
+
+std::string hex_of(std::uint32_t word); ///< "0x0533"
+/// Each octet one character, whatever else it might be read as: what was read is written again.
+std::string utf8_of_latin1(std::string_view octets);
 
 std::string base64(std::string_view octets);
 /// Nothing: the text is no base64.

@@ -3,9 +3,28 @@
 #include "facts.hpp"
 
 #include "dpslave/base/printable.hpp"
-#include "dpslave/gsd/io_map.hpp"
+
+#include <algorithm>
 
 namespace dpslave::configurator {
+namespace {
+
+/// The messages of a file that is made, as dpctl prints them: notes, lengths, then what a tool would say of
+/// the file.
+void add_messages(Outcome& outcome, const profile::Draft& draft, const std::string& path)
+{
+    const gsd::Document document = gsd::parse(outcome.octets);
+    for (const profile::Note& note : draft.notes)
+        outcome.messages.push_back("warning: " + printable(note.text));
+    for (const gsd::Advice& advice : gsd::io_map(document, {}).advice)
+        outcome.messages.push_back("warning: " + printable(advice.text));
+    if (path.empty()) return;
+    const std::string name = path.substr(path.rfind('/') + 1);
+    for (const gsd::Finding& finding : gsd::check(document, gsd::Reading::tolerant, name))
+        outcome.messages.push_back(line_of(path, finding));
+}
+
+} // namespace
 
 Outcome make(const Files& files, const profile::Mapping& mapping, const std::string& table,
              const std::string& path)
@@ -18,22 +37,16 @@ Outcome make(const Files& files, const profile::Mapping& mapping, const std::str
         if (!own) return outcome;
         profile->tags = *std::move(own);
     }
-    const auto made = profile::device_of(*profile, mapping.selection);
-    if (!made) {
+    const profile::Draft draft = profile::draft_of(*profile, mapping.selection);
+    outcome.facts = text_of(preview_of(*profile, draft, mapping.selection.demand));
+    for (const profile::Note& note : draft.notes)
+        if (note.refuses) outcome.refusals.push_back(note.text);
+    if (!outcome.refusals.empty()) {
         outcome.exit = kNo;
-        outcome.refusals = made.error();
         return outcome;
     }
-    outcome.octets = gsd::write(made->device);
-    const gsd::Document document = gsd::parse(outcome.octets);
-    for (const std::string& warning : made->warnings)
-        outcome.messages.push_back("warning: " + printable(warning));
-    for (const std::string& advice : gsd::io_map(document, {}).advice)
-        outcome.messages.push_back("warning: " + printable(advice));
-    if (path.empty()) return outcome;
-    const std::string name = path.substr(path.rfind('/') + 1);
-    for (const gsd::Finding& finding : gsd::check(document, gsd::Reading::tolerant, name))
-        outcome.messages.push_back(line_of(path, finding));
+    outcome.octets = gsd::write(draft.device);
+    add_messages(outcome, draft, path);
     return outcome;
 }
 

@@ -70,14 +70,6 @@ void add_modules(Lines& lines, const gsd::Document& document)
     }
 }
 
-std::string hex_of(std::uint32_t word)
-{
-    std::string digits;
-    for (; word > 0 || digits.size() < 4; word >>= 4U)
-        digits.insert(digits.begin(), "0123456789ABCDEF"[word & 15U]);
-    return "0x" + digits;
-}
-
 void add_map(Lines& lines, const gsd::Document& document, const gsd::IoMap& map)
 {
     lines.push_back(printable(document.text("Vendor_Name")) + ", " + printable(document.text("Model_Name")) +
@@ -110,10 +102,7 @@ Outcome show(const Files& files, std::string_view file, const std::string& profi
     if (!profile.empty()) {
         const auto device = load(files, profile, outcome);
         if (!device) return outcome;
-        hints.tags_at = device->personality.prm.tags_at;
-        hints.demand_identifier = device->personality.demand_identifier;
-        hints.extended_tags = device->personality.demand == dp::DemandForm::extended;
-        for (const drive::Tag& tag : device->tags.all()) hints.names.emplace(tag.number, tag.name);
+        hints = hints_of(*device);
     }
     if (!table.empty()) {
         const auto own = own_table(files, table, outcome);
@@ -122,7 +111,15 @@ Outcome show(const Files& files, std::string_view file, const std::string& profi
     }
     const gsd::IoMap map = gsd::io_map(document, hints);
     add_map(outcome.lines, document, map);
-    for (const std::string& advice : map.advice) outcome.messages.push_back("warning: " + printable(advice));
+    outcome.facts = text_of({{"device",
+                              {{"vendor", utf8_of_latin1(document.text("Vendor_Name"))},
+                               {"model", utf8_of_latin1(document.text("Model_Name"))},
+                               {"ident", document.number("Ident_Number").value_or(0)}}},
+                             {"map", facts_of(map)},
+                             {"set_prm", document.user_prm_data()},
+                             {"chk_cfg", identifiers_of(document)}});
+    for (const gsd::Advice& advice : map.advice)
+        outcome.messages.push_back("warning: " + printable(advice.text));
     return outcome;
 }
 

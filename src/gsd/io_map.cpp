@@ -120,12 +120,12 @@ private:
 };
 
 /// Two limits of two manuals, so two sentences where both are passed.
-void advise(std::vector<std::string>& advice, std::size_t octets, const std::string& direction)
+void advise(std::vector<Advice>& advice, std::size_t octets, const std::string& direction)
 {
     const std::string begin = std::to_string(octets) + ' ' + direction + " octets are more than 32 ";
     const std::string end = ", which some masters cannot take: look into the manual of yours.";
-    if (octets > 32) advice.push_back(begin + "octets" + end);
-    if (octets > 64) advice.push_back(begin + "words" + end);
+    if (octets > 32) advice.push_back({"over_32_octets", begin + "octets" + end});
+    if (octets > 64) advice.push_back({"over_32_words", begin + "words" + end});
 }
 
 } // namespace
@@ -135,15 +135,17 @@ IoMap io_map(const Document& document, const MapHints& hints)
     return MapMaker{document, hints}.make();
 }
 
-std::vector<std::string> advice_on_lengths(std::size_t in_octets, std::size_t out_octets)
+std::vector<Advice> advice_on_lengths(std::size_t in_octets, std::size_t out_octets)
 {
     constexpr std::size_t kConfiguratorWords = 117;
-    std::vector<std::string> advice;
+    std::vector<Advice> advice;
     advise(advice, in_octets, "input");
     advise(advice, out_octets, "output");
     if (in_octets + out_octets > 2 * kConfiguratorWords)
-        advice.push_back(std::to_string((in_octets + out_octets) / 2) +
-                         " input and output words together are more than 117, the limit of the 2408f/2404f.");
+        advice.push_back(
+            {"over_117_words",
+             std::to_string((in_octets + out_octets) / 2) +
+                 " input and output words together are more than 117, the limit of the 2408f/2404f."});
     return advice;
 }
 

@@ -33,8 +33,10 @@ constexpr std::chrono::nanoseconds phase(const Pattern& pattern, Instant now)
 /// The three flashes of a technology box differ in how long they are lit, not in their period.
 std::string flash_words(const Pattern& pattern)
 {
-    const auto lit_half = 2 * pattern.on <=> pattern.period;
-    const char* const name = lit_half < 0 ? "short flash" : lit_half > 0 ? "long flash" : "flash";
+    const auto twice = 2 * pattern.on;
+    const char* const name = twice < pattern.period   ? "short flash"
+                             : twice > pattern.period ? "long flash"
+                                                      : "flash";
     const auto percent = 100 * pattern.on / pattern.period;
     const auto length = pattern.period % std::chrono::seconds{1} == milliseconds{0}
                             ? std::to_string(pattern.period / std::chrono::seconds{1}) + " s"

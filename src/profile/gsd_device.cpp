@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpslave/profile/gsd_device.hpp"
 
+#include "gsd_command.hpp"
+
 #include <algorithm>
 #include <set>
 
@@ -9,40 +11,31 @@ namespace {
 
 constexpr std::size_t kMaxOctets = 244; ///< of one direction (wire reference 4.6)
 
-std::string hex_of(std::uint16_t word)
+bool reads(const Parameter& parameter)
 {
-    constexpr std::string_view digits = "0123456789ABCDEF";
-    return {'0', 'x', digits[word >> 12], digits[word >> 8 & 15], digits[word >> 4 & 15], digits[word & 15]};
+    return parameter.direction != Direction::out;
 }
 
-std::string list_of(const std::vector<std::uint16_t>& tags)
+bool writes(const Parameter& parameter)
 {
-    std::string out;
-    for (const std::uint16_t tag : tags) out += (out.empty() ? "" : ",") + std::to_string(tag);
-    return out;
+    return parameter.direction != Direction::in;
 }
-
-/// A word of the telegrams as the selection has it.
-struct Word {
-    std::uint16_t tag = 0;
-    bool reads = false, writes = false;
-};
 
 class DeviceMaker {
 public:
     DeviceMaker(const Profile& profile, const Selection& selection)
         : profile_(profile), personality_(profile.personality), facts_(profile.gsd), wanted_(selection)
     {
-        const bool none = selection.in.empty() && selection.out.empty() && selection.in_out.empty();
-        const bool own = !facts_.in_tags.empty() || !facts_.out_tags.empty();
-        standard_ = none && own;
-        generic_ = none && !own && !selection.demand;
-        add(standard_ ? facts_.in_tags : selection.in, true, false);
-        add(standard_ ? facts_.out_tags : selection.out, false, true);
-        add(selection.in_out, true, true);
+        Selection own;
+        own.in = facts_.in_tags;
+        own.out = facts_.out_tags;
+        words_ = selection.parameters();
+        standard_ = !own.parameters().empty() && (words_.empty() || words_ == own.parameters());
+        if (standard_) words_ = own.parameters();
+        generic_ = words_.empty() && !selection.demand;
     }
 
-    Result<GsdDevice, std::vector<std::string>> make()
+    Draft make()
     {
         identity();
         rates();
@@ -52,31 +45,33 @@ public:
         } else {
             check_tags();
             check_lengths();
-            if (refused_.empty()) fixed();
+            if (fits()) fixed();
         }
         head();
-        if (!refused_.empty()) return Failure{std::move(refused_)};
-        return std::move(made_);
+        draft_.parameters = std::move(words_);
+        return std::move(draft_);
     }
 
 private:
-    void refuse(std::string sentence) { refused_.push_back(std::move(sentence)); }
-    void warn(std::string sentence) { made_.warnings.push_back(std::move(sentence)); }
-
-    void add(const std::vector<std::uint16_t>& tags, bool reads, bool writes)
+    void refuse(std::string_view code, std::string sentence)
     {
-        for (const std::uint16_t tag : tags) words_.push_back({tag, reads, writes});
+        draft_.notes.push_back({true, code, std::move(sentence), at_});
+    }
+    void warn(std::string_view code, std::string sentence)
+    {
+        draft_.notes.push_back({false, code, std::move(sentence), at_});
     }
 
     std::string text_of(std::string_view what, const std::string& text, std::size_t longest)
     {
         std::string out = gsd::latin1(text);
         if (out.size() > longest)
-            refuse("the " + std::string{what} + " has " + std::to_string(out.size()) +
-                   " characters: a GSD has room for " + std::to_string(longest) + '.');
+            refuse("text_too_long", "the " + std::string{what} + " has " + std::to_string(out.size()) +
+                                        " characters: a GSD has room for " + std::to_string(longest) + '.');
         if (out.find('?') != std::string::npos && text.find('?') == std::string::npos)
-            warn("a character of the " + std::string{what} +
-                 " is none of ISO 8859-1, the character set of a GSD, and becomes a question mark.");
+            warn("character_lost",
+                 "a character of the " + std::string{what} +
+                     " is none of ISO 8859-1, the character set of a GSD, and becomes a question mark.");
         return out;
     }
 
@@ -87,26 +82,29 @@ private:
         device_.revision = text_of("revision", facts_.revision, gsd::kMaxText);
         device_.hardware = text_of("hardware release", facts_.hardware, gsd::kMaxText);
         device_.software = text_of("software release", facts_.software, gsd::kMaxText);
-        const bool chosen = !generic_ && !standard_; // the profile's description speaks of its own mapping
         device_.description =
-            text_of("description", wanted_.description.value_or(chosen ? "" : facts_.description),
-                    gsd::kMaxDescription);
+            text_of("description", wanted_.description.value_or(own_description()), gsd::kMaxDescription);
         const auto ident = wanted_.ident ? wanted_.ident : profile_.ident;
         if (!ident)
-            refuse("the profile " + profile_.name +
-                   " has no Ident_Number, because no source states it: give it with --ident. It is in the "
-                   "GSD file that came with the device, in the present project of the master, and in octets "
-                   "5 and 6 of the "
-                   "device's "
-                   "diagnosis. Write the same into the station (ident = 0x...).");
+            refuse(
+                "ident_missing",
+                "the profile " + profile_.name +
+                    " has no Ident_Number, because no source states it: give it with --ident. It is in the "
+                    "GSD file that came with the device, in the present project of the master, and in octets "
+                    "5 and 6 of the "
+                    "device's "
+                    "diagnosis. Write the same into the station (ident = 0x...).");
         else if (*ident == 0)
-            refuse("the Ident_Number 0 belongs to no device: give that of your device.");
+            refuse("ident_missing", "the Ident_Number 0 belongs to no device: give that of your device.");
         else if (profile_.ident && *ident != *profile_.ident)
-            warn("the Ident_Number is not that of the profile " + profile_.name + ", " +
-                 hex_of(*profile_.ident) + ": write ident = " + hex_of(*ident) +
-                 " into the station, else it refuses the master.");
+            warn("ident_differs", "the Ident_Number is not that of the profile " + profile_.name + ", " +
+                                      hex_of(*profile_.ident) + ": write ident = " + hex_of(*ident) +
+                                      " into the station, else it refuses the master.");
         device_.ident = ident.value_or(0);
     }
+
+    /// It speaks of the profile's own mapping, so not of another one.
+    std::string own_description() const { return generic_ || standard_ ? facts_.description : std::string{}; }
 
     void rates()
     {
@@ -120,12 +118,16 @@ private:
             larger = larger || own > bits.count;
         }
         if (own > 0xFFFF)
-            refuse("MaxTsdr is " + std::to_string(own) + ": a GSD has room for 65535 bit times.");
+            refuse("max_tsdr_too_high",
+                   "MaxTsdr is " + std::to_string(own) + ": a GSD has room for 65535 bit times.");
         if (wanted_.max_tsdr && !larger)
-            refuse("MaxTsdr " + std::to_string(own) + " is at no rate larger than that of the profile " +
-                   profile_.name + ": leave --max-tsdr out, or give what [bus] max_tsdr of the daemon says.");
+            refuse("max_tsdr_no_effect",
+                   "MaxTsdr " + std::to_string(own) + " is at no rate larger than that of the profile " +
+                       profile_.name +
+                       ": leave --max-tsdr out, or give what [bus] max_tsdr of the daemon says.");
         if (own > 1000)
-            warn("MaxTsdr is above 1000 bit times: many masters do not wait that long; check that yours "
+            warn("max_tsdr_long",
+                 "MaxTsdr is above 1000 bit times: many masters do not wait that long; check that yours "
                  "does.");
     }
 
@@ -140,11 +142,12 @@ private:
         device_.max_diag_length = static_cast<std::uint8_t>(personality_.max_diag_length);
     }
 
-    const dp::Identifier* identifier(bool reads, bool writes) const
+    const dp::Identifier* identifier(const Parameter& word) const
     {
-        const auto found = std::find_if(
-            personality_.identifiers.begin(), personality_.identifiers.end(),
-            [&](const dp::Identifier& each) { return each.reads == reads && each.writes == writes; });
+        const auto found = std::find_if(personality_.identifiers.begin(), personality_.identifiers.end(),
+                                        [&](const dp::Identifier& each) {
+                                            return each.reads == reads(word) && each.writes == writes(word);
+                                        });
         return found == personality_.identifiers.end() ? nullptr : &*found;
     }
 
@@ -154,14 +157,16 @@ private:
         const std::size_t parameters = personality_.max_parameters;
         const bool demand = personality_.demand_identifier != 0;
         const std::size_t longest = (demand ? dp::kDemandOctets : 0) + 2 * parameters;
-        const std::size_t both = identifier(true, true) != nullptr ? 2 : 1;
+        const std::size_t both = identifier({Direction::in_out}) != nullptr ? 2 : 1;
         std::size_t sum = 2 * (demand ? dp::kDemandOctets : 0) + 2 * both * parameters;
         if (personality_.max_words > 0) sum = std::min(sum, 2 * personality_.max_words);
         const dp::PrmLayout& prm = personality_.prm;
         if (prm.list == dp::TagList::exact)
-            refuse("the tags of a " + profile_.name +
-                   " stand in the GSD, one for each word, and the profile has no mapping: choose tags with "
-                   "--in and --out, or Demand Data alone with --demand.");
+            refuse(
+                "no_mapping",
+                "the tags of a " + profile_.name +
+                    " stand in the GSD, one for each word, and the profile has no mapping: choose tags with "
+                    "--in and --out, or Demand Data alone with --demand.");
         device_.choice_of_modules = true;
         device_.max_module = static_cast<std::uint8_t>(parameters + (demand ? 1 : 0));
         device_.max_in = device_.max_out = static_cast<std::uint8_t>(std::min(longest, kMaxOctets));
@@ -186,69 +191,92 @@ private:
     void check_tags()
     {
         std::set<std::uint16_t> read, written;
-        for (const Word& word : words_) {
+        for (std::size_t at = 0; at < words_.size(); ++at) {
+            const Parameter& word = words_[at];
+            at_ = at;
             const std::string name = "tag " + std::to_string(word.tag);
-            if (identifier(word.reads, word.writes) == nullptr)
-                refuse(name + ": the profile " + profile_.name +
-                       " has no identifier for a parameter that is both read and written: give it once with "
-                       "--in and "
-                       "once with --out.");
+            if (identifier(word) == nullptr)
+                refuse(
+                    "no_such_direction",
+                    name + ": the profile " + profile_.name +
+                        " has no identifier for a parameter that is both read and written: give it once with "
+                        "--in and "
+                        "once with --out.");
             if (personality_.prm.list == dp::TagList::none)
-                refuse(name + ": the device of the profile " + profile_.name +
-                       " takes no tags from the master.");
+                refuse("no_tags", name + ": the device of the profile " + profile_.name +
+                                      " takes no tags from the master.");
             else if (word.tag == 0 || word.tag > personality_.prm.max_tag)
-                refuse(name + " is not a tag: tags of the profile " + profile_.name + " go from 1 to " +
-                       std::to_string(personality_.prm.max_tag) + '.');
-            if (word.reads && !read.insert(word.tag).second) refuse(name + " is read twice: remove one.");
-            if (word.writes && !written.insert(word.tag).second)
-                refuse(name + " is written twice, and the two values would conflict: remove one.");
+                refuse("tag_out_of_range", name + " is not a tag: tags of the profile " + profile_.name +
+                                               " go from 1 to " + std::to_string(personality_.prm.max_tag) +
+                                               '.');
+            if (reads(word) && !read.insert(word.tag).second)
+                refuse("read_twice", name + " is read twice: remove one.");
+            if (writes(word) && !written.insert(word.tag).second)
+                refuse("written_twice",
+                       name + " is written twice, and the two values would conflict: remove one.");
             check_access(word, name);
         }
+        at_.reset();
     }
 
-    void check_access(const Word& word, const std::string& name)
+    void check_access(const Parameter& word, const std::string& name)
     {
         const drive::Tag* tag = profile_.tags.find(word.tag);
         if (tag == nullptr && profile_.tags_only_from_table)
-            refuse(name + " is not in the tag table of the profile " + profile_.name +
-                   ", and the profile allows no other: look for it with dpctl tag.");
+            refuse("tag_not_listed", name + " is not in the tag table of the profile " + profile_.name +
+                                         ", and the profile allows no other: look for it with dpctl tag.");
         const auto& never = profile_.never_written;
         const bool locked = std::find(never.begin(), never.end(), word.tag) != never.end();
-        if (word.writes && locked)
-            refuse(name + " must never be written: the profile " + profile_.name + " says so.");
-        else if (word.writes && tag != nullptr && tag->access == drive::Access::read_only)
-            warn(name + " (" + tag->name + ") is read only: the drive will refuse what the master writes.");
+        if (writes(word) && locked)
+            refuse("never_written",
+                   name + " must never be written: the profile " + profile_.name + " says so.");
+        else if (writes(word) && tag != nullptr && tag->access == drive::Access::read_only)
+            warn("read_only",
+                 name + " (" + tag->name + ") is read only: the drive will refuse what the master writes.");
         if (tag != nullptr && tag->type == drive::TagType::string)
-            warn(name + " (" + tag->name + ") is a text, which is not transported.");
+            warn("text_tag", name + " (" + tag->name + ") is a text, which is not transported.");
     }
 
     void check_lengths()
     {
-        for (const Word& word : words_) {
-            in_ += word.reads ? 2 : 0;
-            out_ += word.writes ? 2 : 0;
+        for (const Parameter& word : words_) {
+            in_ += reads(word) ? 2U : 0U;
+            out_ += writes(word) ? 2U : 0U;
         }
         if (wanted_.demand) {
             in_ += dp::kDemandOctets;
             out_ += dp::kDemandOctets;
             if (personality_.demand_identifier == 0)
-                refuse("the device of the profile " + profile_.name +
-                       " has no Demand Data: leave --demand out.");
+                refuse("no_demand_data", "the device of the profile " + profile_.name +
+                                             " has no Demand Data: leave --demand out.");
         }
         if (words_.size() > personality_.max_parameters)
-            refuse(std::to_string(words_.size()) + " parameters are more than a " + profile_.name + " has, " +
-                   std::to_string(personality_.max_parameters) +
-                   ": remove some, and use Demand Data for them.");
+            refuse("too_many_parameters", std::to_string(words_.size()) + " parameters are more than a " +
+                                              profile_.name + " has, " +
+                                              std::to_string(personality_.max_parameters) +
+                                              ": remove some, and use Demand Data for them.");
         if (words_.empty() && !personality_.may_have_no_parameters)
-            refuse("a " + profile_.name + " needs at least one parameter: choose one with --in or --out.");
+            refuse("no_parameters",
+                   "a " + profile_.name + " needs at least one parameter: choose one with --in or --out.");
         const std::size_t words = (in_ + out_) / 2;
         if (personality_.max_words > 0 && words > personality_.max_words)
-            refuse(std::to_string(words) + " words in and out" +
-                   (wanted_.demand ? ", 8 of them Demand Data," : "") + " are more than a " + profile_.name +
-                   " has, " + std::to_string(personality_.max_words) + ": remove " +
-                   std::to_string(words - personality_.max_words) + ".");
+            refuse("too_many_words", std::to_string(words) + " words in and out" +
+                                         (wanted_.demand ? ", 8 of them Demand Data," : "") +
+                                         " are more than a " + profile_.name + " has, " +
+                                         std::to_string(personality_.max_words) + ": remove " +
+                                         std::to_string(words - personality_.max_words) + ".");
         if (in_ > kMaxOctets || out_ > kMaxOctets)
-            refuse("more than 244 octets in one direction do not fit in a telegram: remove parameters.");
+            refuse("too_many_octets",
+                   "more than 244 octets in one direction do not fit in a telegram: remove parameters.");
+    }
+
+    /// Whether octets can be made of the words, refused or not.
+    bool fits() const
+    {
+        return in_ <= kMaxOctets && out_ <= kMaxOctets && personality_.prm.list != dp::TagList::none &&
+               personality_.prm.tags_at + 2 * words_.size() <= dp::kMaxUserPrm &&
+               std::all_of(words_.begin(), words_.end(),
+                           [this](const Parameter& word) { return identifier(word) != nullptr; });
     }
 
     /// The mapping as it was chosen: User_Prm_Data holds the tags, the modules all identifiers in their
@@ -262,8 +290,8 @@ private:
         if (wanted_.demand) identifiers.push_back(personality_.demand_identifier);
         const bool none_sent = words_.empty() && prm.may_be_absent;
         if (!none_sent) device_.user_prm_data.assign(prm.tags_at, 0);
-        for (const Word& word : words_) {
-            identifiers.push_back(identifier(word.reads, word.writes)->octet);
+        for (const Parameter& word : words_) {
+            identifiers.push_back(identifier(word)->octet);
             device_.user_prm_data.push_back(static_cast<std::uint8_t>(word.tag >> 8));
             device_.user_prm_data.push_back(static_cast<std::uint8_t>(word.tag & 0xFF));
         }
@@ -304,38 +332,22 @@ private:
         device_.prm_comments.push_back("User_Prm_Data: the tags of the parameters, from octet " +
                                        std::to_string(personality_.prm.tags_at) + " on, high octet first:");
         std::size_t number = 0;
-        for (const Word& word : words_) {
+        for (const Parameter& word : words_) {
             const drive::Tag* tag = profile_.tags.find(word.tag);
-            std::string line = std::to_string(++number) +
-                               (word.reads && word.writes ? " in/out"
-                                : word.reads              ? " in"
-                                                          : " out") +
-                               " tag " + std::to_string(word.tag);
+            std::string line =
+                std::to_string(++number) +
+                (word.direction == Direction::in_out ? " in/out" : ' ' + std::string{text(word.direction)}) +
+                " tag " + std::to_string(word.tag);
             if (tag != nullptr) line += ' ' + gsd::latin1(tag->name);
             device_.prm_comments.push_back(std::move(line));
         }
     }
 
-    /// The command that makes the file again; where it is written to is not part of it.
     void head()
     {
-        std::string command = "dpctl gsd make --profile " + profile_.name;
-        const auto option = [&](const char* name, const std::string& value) {
-            if (!value.empty()) command += std::string{" --"} + name + ' ' + value;
-        };
-        const auto quoted = [](const std::optional<std::string>& text) {
-            return text ? '"' + gsd::latin1(*text) + '"' : std::string{};
-        };
-        option("in", list_of(wanted_.in));
-        option("out", list_of(wanted_.out));
-        option("in-out", list_of(wanted_.in_out));
-        if (wanted_.demand) command += " --demand";
-        option("ident", wanted_.ident ? hex_of(*wanted_.ident) : "");
-        option("max-tsdr", wanted_.max_tsdr ? std::to_string(*wanted_.max_tsdr) : "");
-        option("model", quoted(wanted_.model));
-        option("description", quoted(wanted_.description));
         device_.comments.push_back("Made for the profile " + profile_.name + " of dpslaved by the command");
-        device_.comments.push_back(std::move(command));
+        device_.comments.push_back(make_command(
+            profile_, wanted_, standard_ ? std::vector<Parameter>{} : words_, own_description()));
     }
 
     const Profile& profile_;
@@ -344,18 +356,27 @@ private:
     const Selection& wanted_;
     bool standard_ = false; ///< the profile's own mapping
     bool generic_ = false;  ///< no mapping at all
-    std::vector<Word> words_;
-    std::size_t in_ = 0, out_ = 0; ///< octets
-    GsdDevice made_;
-    gsd::Device& device_ = made_.device;
-    std::vector<std::string> refused_;
+    std::vector<Parameter> words_;
+    std::optional<std::size_t> at_; ///< the word that is judged
+    std::size_t in_ = 0, out_ = 0;  ///< octets
+    Draft draft_;
+    gsd::Device& device_ = draft_.device;
 };
 
 } // namespace
 
-Result<GsdDevice, std::vector<std::string>> device_of(const Profile& profile, const Selection& selection)
+Draft draft_of(const Profile& profile, const Selection& selection)
 {
     return DeviceMaker{profile, selection}.make();
+}
+
+Result<GsdDevice, std::vector<std::string>> device_of(const Profile& profile, const Selection& selection)
+{
+    Draft draft = draft_of(profile, selection);
+    std::vector<std::string> warnings, refused;
+    for (Note& note : draft.notes) (note.refuses ? refused : warnings).push_back(std::move(note.text));
+    if (!refused.empty()) return Failure{std::move(refused)};
+    return GsdDevice{std::move(draft.device), std::move(warnings)};
 }
 
 } // namespace dpslave::profile

@@ -2,6 +2,8 @@
 #include "dpslave/profile/gsd_device.hpp"
 #include "dpslave/toml/document.hpp"
 
+#include <charconv>
+
 namespace dpslave::profile {
 namespace {
 
@@ -13,7 +15,64 @@ std::vector<std::uint16_t> tags_of(toml::Table& table, std::string_view key)
     return tags;
 }
 
+std::vector<Parameter> list_of(toml::Table& table)
+{
+    std::vector<Parameter> list;
+    for (const std::string& one : table.texts("list").value_or(std::vector<std::string>{})) {
+        if (const auto parameter = parse_parameter(one))
+            list.push_back(*parameter);
+        else
+            table.refuse("list",
+                         "\"" + one +
+                             "\" is no parameter: write in:1, out:1 or in-out:1, with the number of the "
+                             "tag for 1.");
+    }
+    for (const char* key : {"in", "out", "in_out"})
+        if (table.has("list") && table.has(key))
+            table.refuse(key,
+                         "'" + std::string{key} + "' and 'list' both name parameters: keep one of them.");
+    return list;
+}
+
 } // namespace
+
+std::string_view text(Direction direction) noexcept
+{
+    switch (direction) {
+        case Direction::in: return "in";
+        case Direction::out: return "out";
+        case Direction::in_out: break;
+    }
+    return "in-out";
+}
+
+std::string to_string(const Parameter& parameter)
+{
+    return std::string{text(parameter.direction)} + ':' + std::to_string(parameter.tag);
+}
+
+std::optional<Parameter> parse_parameter(std::string_view text_of_it)
+{
+    const auto colon = text_of_it.find(':');
+    if (colon == std::string_view::npos) return std::nullopt;
+    const std::string_view number = text_of_it.substr(colon + 1);
+    std::uint16_t tag = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), tag);
+    if (error != std::errc{} || end != number.data() + number.size() || tag == 0) return std::nullopt;
+    for (const Direction direction : {Direction::in, Direction::out, Direction::in_out})
+        if (text(direction) == text_of_it.substr(0, colon)) return Parameter{direction, tag};
+    return std::nullopt;
+}
+
+std::vector<Parameter> Selection::parameters() const
+{
+    std::vector<Parameter> all;
+    for (const std::uint16_t tag : in) all.push_back({Direction::in, tag});
+    for (const std::uint16_t tag : out) all.push_back({Direction::out, tag});
+    for (const std::uint16_t tag : in_out) all.push_back({Direction::in_out, tag});
+    all.insert(all.end(), list.begin(), list.end());
+    return all;
+}
 
 Result<Mapping, toml::Faults> load_mapping(const toml::TextSource& source, const std::string& file)
 {
@@ -27,6 +86,7 @@ Result<Mapping, toml::Faults> load_mapping(const toml::TextSource& source, const
         selection.in = tags_of(root, "in");
         selection.out = tags_of(root, "out");
         selection.in_out = tags_of(root, "in_out");
+        selection.list = list_of(root);
         selection.demand = root.boolean("demand").value_or(false);
         if (const auto ident = root.integer("ident", 1, 0xFFFF))
             selection.ident = static_cast<std::uint16_t>(*ident);

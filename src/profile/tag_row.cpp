@@ -183,11 +183,11 @@ private:
     std::string mnemonic()
     {
         const std::string_view word = text(kMnemonic);
-        const bool printable = std::ranges::all_of(word, [](char c) { return c > ' ' && c < '\x7F'; });
+        const bool printable =
+            std::all_of(word.begin(), word.end(), [](char c) { return c > ' ' && c < '\x7F'; });
         if (!word.empty() && (word.size() != 2 || !printable))
-            fault(kMnemonic,
-                  "mnemonic " + toml::in_quotes(word) +
-                      ": write two printable characters, or leave it empty for the profile's rule.");
+            fault(kMnemonic, "mnemonic " + toml::in_quotes(word) +
+                                 ": write two printable characters, or none for the profile's rule.");
         if (word == kErrorMnemonic)
             fault(kMnemonic, "mnemonic \"EE\" is the drive's last error on an EI-ASCII line, no parameter: "
                              "write the one of the tag, or leave it empty for the profile's rule.");

@@ -25,7 +25,6 @@ public:
         view.line = &line;
         view.line_open = true;
         bus.valid = true;
-        bus.port_open = true;
         bus.last_telegram = Instant{} + std::chrono::seconds{1};
         view.bus.state = dp::State::wait_prm;
     }

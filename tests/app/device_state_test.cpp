@@ -211,7 +211,7 @@ TEST_F(Box, KeepsTheLastTripWhileTheDriveIsLost)
     EXPECT_THAT(device->take_news(), Contains(says("trip of the drive: 5: EXTERNAL TRIP")));
 }
 
-TEST_F(Box, SetsTheBitExtDiagOnlyForATripAndOnlyWhenTheSiteWantsIt)
+TEST_F(Box, SetsTheBitExtDiagOnlyForATripAndOnlyWhenConfigured)
 {
     bench.drive_reads({1, 0});
     EXPECT_FALSE(looked().bus_orders().ext_diag_fault);
@@ -480,7 +480,7 @@ TEST_F(Controller, SendsTheStatusWordOfTheHandbooksExample)
     EXPECT_THAT(device->take_news(), ElementsAre(says("manual, sensor break, IP1 fault")));
 }
 
-TEST_F(Controller, ReportsAFaultOnlyForBitsThatAreFaultsAndOnlyWhenTheSiteWantsIt)
+TEST_F(Controller, ReportsAFaultOnlyForBitsThatAreFaultsAndOnlyWhenConfigured)
 {
     bench.drive_reads({0x0030});
     EXPECT_FALSE(looked().bus_orders().ext_diag_fault);

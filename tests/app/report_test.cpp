@@ -268,5 +268,16 @@ TEST_F(Report, OfAValueThatCannotBeWrittenCountsTheDecimalsAsTyped)
     EXPECT_EQ(words(2), "takes an INT with up to 2 decimals");
 }
 
+TEST(ReportOfTheBus, HasAnOpenPortBeforeItsThreadHasPublishedAnything)
+{
+    const config::Config config;
+    app::View view;
+    view.config = &config;
+    const report::Bus bus = app::bus_report(view, {});
+    EXPECT_TRUE(bus.port_open && bus.driver_works) << "else the doctor names a vanished port";
+    view.bus.port_open = false;
+    EXPECT_FALSE(app::bus_report(view, {}).port_open);
+}
+
 } // namespace
 } // namespace dpslave

@@ -58,7 +58,7 @@ TEST(DpctlChanges, AreClearHeldSyncAndAPortThatHasGone)
 
     EXPECT_THAT(status_changes(kBefore, now),
                 ElementsAre("unwinder: state Data_Exch, held in Clear (was Data_Exch)",
-                            "rewinder: drive port gone (was silent)"));
+                            "rewinder: drive port missing (was silent)"));
 }
 
 TEST(DpctlChanges, AreAPortOfTheBusThatHasGone)
@@ -66,7 +66,7 @@ TEST(DpctlChanges, AreAPortOfTheBusThatHasGone)
     Json now = kBefore;
     now["bus"]["port_open"] = false;
 
-    EXPECT_THAT(status_changes(kBefore, now), ElementsAre("bus: state port gone (was DP_Control)"));
+    EXPECT_THAT(status_changes(kBefore, now), ElementsAre("bus: state port missing (was DP_Control)"));
 }
 
 TEST(DpctlChanges, AreStationsThatHaveGone)

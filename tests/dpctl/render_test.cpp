@@ -66,7 +66,7 @@ TEST(DpctlStatus, NamesWhatLooksNormalAndIsNot)
 
     const std::string picture = render_status(reply, Look{false, 120});
     for (const char* said :
-         {"/dev/ttyS1 is missing", "Data_Exch in Clear, Sync, Freeze, RIDE THROUGH", "port gone",
+         {"/dev/ttyS1 is missing", "Data_Exch in Clear, Sync, Freeze, RIDE THROUGH", "port missing",
           "unwinder: Sync holds the outputs", "unwinder: Freeze holds the inputs",
           "unwinder: the master is in Clear: 0 goes to every output of the drive",
           "its outputs keep their values for 4.2 s more",

@@ -171,14 +171,55 @@ TEST(GsdMake, SaysInTheFileWhatMadeIt)
     const std::string file = made(load("605"), {.in = {1, 2},
                                                 .in_out = {3},
                                                 .demand = true,
-                                                .ident = 0x1649,
+                                                .ident = 0x1650,
                                                 .max_tsdr = 300,
                                                 .description = "a b",
                                                 .model = "M"});
     EXPECT_THAT(file,
                 HasSubstr("; Made for the profile 605 of dpslaved by the command\r\n"
-                          "; dpctl gsd make --profile 605 --in 1,2 --in-out 3 --demand --ident 0x1649\r\n"
+                          "; dpctl gsd make --profile 605 --in 1,2 --in-out 3 --demand --ident 0x1650\r\n"
                           "; --max-tsdr 300 --model \"M\" --description \"a b\"\r\n"));
+}
+
+TEST(GsdMake, LeavesOutOfTheCommandWhatTheProfileSaysItself)
+{
+    EXPECT_EQ(made(load("605"), {.in = {1}, .ident = 0x1649, .model = "SSD Drives 605"}),
+              made(load("605"), {.in = {1}}));
+    EXPECT_EQ(made(load("2408f"), {.in = {1, 5, 3, 75}, .out = {24, 25, 15, 274}}), made(load("2408f"), {}));
+}
+
+TEST(GsdMake, KeepsInputsAndOutputsInTheOrderOfTheList)
+{
+    using profile::Direction;
+    const std::string file = made(
+        load("605"),
+        {.list = {{Direction::out, 3}, {Direction::in, 1}, {Direction::in_out, 9}, {Direction::out, 2}}});
+    const auto gsd = second_hand(file);
+    EXPECT_THAT(gsd.octets("User_Prm_Data"), ElementsAre(0, 0, 0, 0, 3, 0, 1, 0, 9, 0, 2));
+    EXPECT_THAT(gsd.cfg(), ElementsAre(0x60, 0x50, 0x70, 0x60));
+    EXPECT_THAT(file, HasSubstr("--list out:3,in:1,in-out:9,out:2\r\n"));
+}
+
+TEST(GsdDraft, HasTheOctetsAlsoWhereTheFileIsRefusedAndNamesTheParameter)
+{
+    const profile::Draft draft = profile::draft_of(load("2408f"), {.in = {1}, .out = {199}});
+    ASSERT_THAT(draft.notes, SizeIs(2));
+    EXPECT_EQ(draft.notes[0].code, "ident_missing");
+    EXPECT_EQ(draft.notes[0].at, std::nullopt);
+    EXPECT_EQ(draft.notes[1].code, "never_written");
+    EXPECT_EQ(draft.notes[1].at, 1U);
+    EXPECT_THAT(draft.device.user_prm_data, ElementsAre(0, 1, 0, 199));
+}
+
+TEST(GsdDraft, OfAnySelectionIsMadeToItsEnd)
+{
+    using profile::Direction;
+    for (const std::string& name : test::kProfiles)
+        for (const std::size_t count : {0U, 1U, 12U, 13U, 118U, 119U, 200U, 400U}) {
+            const profile::Draft draft =
+                profile::draft_of(load(name), {.in = tags(1, count), .list = {{Direction::in_out, 0}}});
+            EXPECT_THAT(draft.parameters, SizeIs(count + 1)) << name;
+        }
 }
 
 TEST(GsdMake, NamesTheParametersInComments)

@@ -9,7 +9,6 @@
 namespace dpslave {
 namespace {
 
-using gsd::advice_on_lengths;
 using gsd::io_map;
 using gsd::IoMap;
 using testing::ElementsAre;
@@ -30,6 +29,14 @@ std::vector<std::string> in_words(const std::vector<gsd::IoValue>& values)
         out.push_back(std::to_string(value.octet) + "-" + std::to_string(value.octet + value.octets - 1) +
                       (value.tag ? " tag " + std::to_string(*value.tag) : "") + " " + value.what);
     return out;
+}
+
+/// The sentences alone.
+std::vector<std::string> advice_on_lengths(std::size_t in, std::size_t out)
+{
+    std::vector<std::string> texts;
+    for (const gsd::Advice& advice : gsd::advice_on_lengths(in, out)) texts.push_back(advice.text);
+    return texts;
 }
 
 TEST(IoMap, OfEuro2400NamesEachWordWithItsTag)

@@ -45,6 +45,31 @@ TEST(MappingFile, NeedsNothingButTheProfile)
     EXPECT_EQ(mapping->selection.ident, std::nullopt);
 }
 
+TEST(MappingFile, HasAListWhoseDirectionsMayAlternate)
+{
+    using profile::Direction, profile::Parameter;
+    const Folder folder;
+    const auto mapping = load_mapping(
+        io::read_regular_file,
+        folder.write("m.toml", "profile = \"605\"\nlist = [\"out:3\", \"in:1\", \"in-out:65535\"]\n"));
+    ASSERT_TRUE(mapping);
+    EXPECT_THAT(mapping->selection.parameters(),
+                ElementsAre(Parameter{Direction::out, 3}, Parameter{Direction::in, 1},
+                            Parameter{Direction::in_out, 65535}));
+}
+
+TEST(MappingFile, HasNoListBesideInAndOutAndNoOtherWordsInIt)
+{
+    const Folder folder;
+    const auto both = load_mapping(
+        io::read_regular_file, folder.write("b.toml", "profile = \"605\"\nlist = [\"in:1\"]\nout = [2]\n"));
+    ASSERT_FALSE(both);
+    EXPECT_THAT(test::short_forms(both.error()),
+                ElementsAre(HasSubstr("'out' and 'list' both name parameters: keep one of them.")));
+    for (const char* word : {"", "in", "in:", "in:0", "in:65536", "in: 1", "IN:1", "in_out:1", "1", "in:1 "})
+        EXPECT_FALSE(profile::parse_parameter(word)) << word;
+}
+
 TEST(MappingFile, IsRefusedWithEveryFaultAtItsPlace)
 {
     const Folder folder;

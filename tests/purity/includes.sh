@@ -24,12 +24,17 @@ case $kind in
     pure) forbidden=$impure ;;
     files) forbidden='thread|mutex|shared_mutex|condition_variable|future|semaphore|latch|barrier|random|csignal|iostream' ;;
     system) forbidden='$^' ;;
-    *) echo "$table: the kind of $library is $kind: pure, files or system" >&2; exit 2 ;;
+    scripts) forbidden='' ;;
+    *) echo "$table: the kind of $library is $kind: pure, files, system or scripts" >&2; exit 2 ;;
 esac
 
 folders=src/$library
 [ ! -d "include/dpslave/$library" ] || folders="$folders include/dpslave/$library"
 files=$(find $folders -name '*.hpp' -o -name '*.cpp')
+if [ "$kind" = scripts ]; then
+    [ -z "$files" ] || { printf '%s has sources in C++, and its kind is scripts:\n%s\n' "$library" "$files" >&2; exit 1; }
+    exit 0
+fi
 [ -n "$files" ] || { echo "$library has no sources" >&2; exit 2; }
 
 # file:line:name, one an include; name keeps its first quote or bracket.

@@ -69,7 +69,8 @@ public:
     /// Compares the octets up to size(); those behind it do not count.
     friend constexpr bool operator==(const ByteBuffer& a, const ByteBuffer& b)
     {
-        return std::ranges::equal(a.bytes(), b.bytes());
+        const Bytes one = a.bytes(), other = b.bytes();
+        return std::equal(one.begin(), one.end(), other.begin(), other.end());
     }
 
 private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// What `dpctl gsd` and the configurator's page do, without a file, a screen or a clock: a question goes in,
-/// a file, the lines for people and the facts come out. The page asks with call();
+/// a file, the lines to print and the facts come out. The page asks with call();
 /// docs/internals/configurator-calls.md describes its requests and replies.
 #pragma once
 
@@ -21,7 +21,7 @@ inline constexpr int kUsage = 2; ///< the question itself is wrong
 struct Outcome {
     int exit = kFine;
     std::string octets = {};                ///< the file that was asked for, octet by octet
-    std::vector<std::string> lines = {};    ///< the answer for people, UTF-8, printable
+    std::vector<std::string> lines = {};    ///< the answer to print, UTF-8, printable
     std::vector<std::string> messages = {}; ///< warnings and faults of files, each with its kind or its place
     std::vector<std::string> refusals = {}; ///< why the question has no answer: sentences
     std::string facts = "{}";               ///< the same for programs: a JSON object
@@ -44,6 +44,17 @@ Outcome show(const Files& files, std::string_view file, const std::string& profi
 
 /// Does a master's tool accept the file? `path` is how the lines name it; empty = only its octets are judged.
 Outcome check(std::string_view file, std::string_view path, bool strict);
+
+/// The mapping that makes this GSD file; its octets are a mapping file (TOML). `profile`: empty =
+/// Ident_Number and Model_Name together say which; refused where they do not. What gets lost is named.
+Outcome import_file(const Files& files, std::string_view file, const std::string& profile);
+
+/// What differs between two GSD files, by meaning and by line. Exit kNo: they do not mean the same.
+/// `profile`: the tags have its names; may be empty.
+Outcome diff(const Files& files, std::string_view left, std::string_view right, const std::string& profile);
+
+/// The outcome as one JSON object: what call() replies, and what dpctl prints with --json.
+std::string reply_of(const Outcome& outcome);
 
 /// One request of the page, answered: both are JSON texts. Never fails; what is wrong with the request is
 /// exit 2 and a sentence. `source` gives profiles, tag tables and samples by the names that `index.txt`

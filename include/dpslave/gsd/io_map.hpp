@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dpslave::gsd {
@@ -22,11 +23,17 @@ struct IoValue {
     bool is_demand = false; ///< a register of Demand Data
 };
 
+/// A length that some masters cannot take.
+struct Advice {
+    std::string_view code; ///< "over_32_octets", "over_32_words", "over_117_words"
+    std::string text;      ///< a sentence
+};
+
 struct IoMap {
     bool fixed = false; ///< false: the master's tool puts modules together, so there is no map yet
     std::vector<IoValue> inputs, outputs; ///< directions as the master sees them
     std::size_t in_octets = 0, out_octets = 0;
-    std::vector<std::string> advice; ///< lengths that some masters cannot take (X-27, X-28), as sentences
+    std::vector<Advice> advice;
 };
 
 /// What the file itself does not say.
@@ -44,6 +51,6 @@ IoMap io_map(const Document& document, const MapHints& hints);
 
 /// Some masters take 32 octets a direction, others 32 words; the configurator's limit is 117 words
 /// both ways together.
-std::vector<std::string> advice_on_lengths(std::size_t in_octets, std::size_t out_octets);
+std::vector<Advice> advice_on_lengths(std::size_t in_octets, std::size_t out_octets);
 
 } // namespace dpslave::gsd

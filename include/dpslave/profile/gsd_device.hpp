@@ -10,20 +10,38 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dpslave::profile {
 
-/// What a site chooses. The parameters stand in the file in this order: inputs, outputs, both; in each list
-/// as it is given, nothing is sorted.
+enum class Direction : std::uint8_t { in, out, in_out }; ///< as the master sees it
+
+/// One word of the telegrams, or one of each direction.
+struct Parameter {
+    Direction direction = Direction::in;
+    std::uint16_t tag = 0;
+    friend bool operator==(const Parameter&, const Parameter&) = default;
+};
+std::string_view text(Direction direction) noexcept; ///< "in", "out", "in-out"
+std::string to_string(const Parameter& parameter);   ///< "in-out:9"
+/// Nothing: the text is no such word.
+std::optional<Parameter> parse_parameter(std::string_view text);
+
+/// What a site chooses. The parameters stand in the file in this order: inputs, outputs, both, then `list`;
+/// in each as it is given, nothing is sorted.
 struct Selection {
     std::vector<std::uint16_t> in = {}, out = {}, in_out = {}; ///< tags
+    std::vector<Parameter> list = {};                          ///< directions in any order
     bool demand = false;                                       ///< Demand Data in front of them
     std::optional<std::uint16_t> ident = {};                   ///< needed where the profile has none
     /// The machine's own MaxTsdr, T_bit ([bus] max_tsdr of the daemon): for each rate where it is larger than
     /// the profile's.
     std::optional<std::uint32_t> max_tsdr = {};
     std::optional<std::string> description = {}, model = {};
+
+    std::vector<Parameter> parameters() const; ///< all, in the order of the file
+    friend bool operator==(const Selection&, const Selection&) = default;
 };
 
 struct GsdDevice {
@@ -31,16 +49,33 @@ struct GsdDevice {
     std::vector<std::string> warnings; ///< sentences
 };
 
+/// What is wrong with a selection, or remarkable.
+struct Note {
+    bool refuses = false;          ///< no file can be made
+    std::string_view code;         ///< stays the same where the sentence changes
+    std::string text;              ///< a sentence that says what to change
+    std::optional<std::size_t> at; ///< the parameter it is about: its place in parameters()
+};
+
+/// A device while its selection is being made: also what would be refused, as far as it goes.
+struct Draft {
+    gsd::Device device;
+    std::vector<Parameter> parameters; ///< those of the selection, or the profile's own
+    std::vector<Note> notes;
+};
+Draft draft_of(const Profile& profile, const Selection& selection);
+
 /// Without tags and Demand Data: the profile's own mapping; where it has none, the file whose modules the
 /// master's tool puts together, with User_Prm_Data of zeros for the tags. Nothing: sentences that say what to
 /// change.
 Result<GsdDevice, std::vector<std::string>> device_of(const Profile& profile, const Selection& selection);
 
-/// A selection that is kept as a file (C-045, C-046), TOML: profile, in, out, in_out, demand, ident,
-/// max_tsdr, description, model; only `profile` is required.
+/// A selection that is kept as a file (C-045, C-046), TOML: profile, list or in, out and in_out, demand,
+/// ident, max_tsdr, description, model; only `profile` is required.
 struct Mapping {
     std::string profile;
     Selection selection;
+    friend bool operator==(const Mapping&, const Mapping&) = default;
 };
 Result<Mapping, toml::Faults> load_mapping(const toml::TextSource& source, const std::string& file);
 

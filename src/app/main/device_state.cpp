@@ -119,7 +119,7 @@ void DeviceState::look(const Station& station, const BusSnapshot& bus)
     if (tec.ext_diagnostic_tag != 0) settings_.ext_diagnostic = word_of(tec.ext_diagnostic_tag);
     if (settings_.address >= 0 && settings_.address <= kHighestAddress)
         address_ = static_cast<std::uint8_t>(settings_.address);
-    hardware_.ports_open = station.line_open && (!bus.valid || (bus.port_open && bus.driver_works));
+    hardware_.ports_open = station.line_open && bus.port_open && bus.driver_works;
     hardware_.baud_search = !hears_the_bus(bus);
     fault_ = tec::fault(settings_, hardware_);
     network_ = tec::network_state(fault_, hardware_, station.bus, station.drive);

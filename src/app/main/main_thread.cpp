@@ -5,6 +5,7 @@
 
 #include "dpslave/app/version.hpp"
 #include "dpslave/io/clock.hpp"
+#include "dpslave/report/words.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -169,7 +170,7 @@ void MainThread::log_events(const Station& station)
                         static_cast<int>(event->state), static_cast<int>(event->reason), event->master,
                         static_cast<int>(event->refusal.why));
         log_.say(is_warning ? LimitedLog::Level::warning : LimitedLog::Level::info, key,
-                 sentence(station.config->name, *event), io::monotonic_now());
+                 report::sentence(station.config->name, *event), io::monotonic_now());
     }
 }
 

@@ -2,6 +2,7 @@
 #include "pending_accesses.hpp"
 
 #include "dpslave/profile/survey.hpp"
+#include "dpslave/report/words.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -196,7 +197,7 @@ Reply PendingAccesses::reply(const Access& access, const drive::OperateAnswer& a
     const drive::Tag* row = station.tags->find(access.tag);
     if (answer.error != AccessError::none) {
         const auto code = dp::demand_code(answer.error);
-        std::string reason{text(answer.error)};
+        std::string reason{report::text(answer.error)};
         const bool may_be_row =
             row == nullptr ? answer.error != AccessError::no_answer : answer.error == AccessError::no_scale;
         if (may_be_row) reason += "; " + row_advice(station, access.tag);
@@ -240,7 +241,7 @@ Reply PendingAccesses::survey_reply(const Access& access, const drive::OperateAn
         default:
             result.outcome = "denied";
             result.reason = answer.error == AccessError::invalid_tag || text_of_drive.empty()
-                                ? std::string{text(answer.error)}
+                                ? std::string{report::text(answer.error)}
                                 : text_of_drive;
     }
     return Done{json_of(result)};
@@ -254,7 +255,7 @@ void PendingAccesses::answer()
             if (found == pending_.end()) continue;
             const Access& access = found->second;
             if (access.is_write)
-                log_write(access, answer->error == AccessError::none ? "done" : text(answer->error));
+                log_write(access, answer->error == AccessError::none ? "done" : report::text(answer->error));
             replies_.server->complete(answer->number, access.is_survey ? survey_reply(access, *answer)
                                                                        : reply(access, *answer));
             pending_.erase(found);

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report.hpp"
 
+#include "device_state.hpp"
+
+#include "dpslave/report/words.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,21 +34,6 @@ std::string_view link_text(const Station& station)
     if (!station.line_open) return "silent";
     if (!station.drive.known) return "unknown";
     return station.drive.answers ? "answers" : "silent";
-}
-
-std::string_view text(WordState state)
-{
-    switch (state) {
-        case WordState::untried: return "untried";
-        case WordState::good: return "good";
-        case WordState::stale: return "stale";
-        case WordState::invalid_tag: return "invalid_tag";
-        case WordState::read_only: return "read_only";
-        case WordState::out_of_range: return "out_of_range";
-        case WordState::refused: return "refused";
-        case WordState::unscaled: return "unscaled";
-    }
-    return "?";
 }
 
 report::Drive drive_report(const Station& station)
@@ -133,6 +122,14 @@ std::optional<std::string> comms_status(const Station& station)
     return station.bus.state == dp::State::data_exch ? "run" : "rdY";
 }
 
+/// HEALTH and RUN of a technology box mirror a bit of the drive, where one is configured.
+bool is_fed(const config::StationConfig& station, std::string_view lamp)
+{
+    if (!station.tec) return true;
+    if (lamp == "health") return station.tec->health.tag != 0;
+    return lamp != "run" || station.tec->run.tag != 0;
+}
+
 } // namespace
 
 std::string format_text(const config::LineFormat& format)
@@ -144,29 +141,6 @@ std::string shown_value(const drive::TagTable& tags, std::uint16_t tag, std::uin
 {
     const drive::Tag* row = tags.find(tag);
     return row != nullptr ? drive::displayed(*row, word) : fmt::format(">{:04X}", word);
-}
-
-std::string_view text(AccessError error) noexcept
-{
-    switch (error) {
-        case AccessError::none: return "done";
-        case AccessError::no_answer: return "the drive does not answer";
-        case AccessError::deferred: return "an earlier answer of the drive is still awaited";
-        case AccessError::not_understood: return "the drive did not understand the request";
-        case AccessError::invalid_tag: return "invalid tag";
-        case AccessError::read_only: return "read only";
-        case AccessError::out_of_range: return "value under or over range";
-        case AccessError::not_stopped: return "only while the drive is stopped";
-        case AccessError::not_config_mode: return "only in configuration mode";
-        case AccessError::unsupported_type: return "this type of parameter is not transported";
-        case AccessError::value_not_encoded: return "the drive cannot read this value";
-        case AccessError::no_scale: return "the drive answers with a number, and its decimals are not known";
-        case AccessError::contradicted:
-            return "the drive has answered with more decimals than the tag table gives";
-        case AccessError::not_kept:
-            return "the drive accepts the value and then holds another one: read the tag";
-    }
-    return "?";
 }
 
 report::Bus bus_report(const View& view, Instant now)
@@ -211,7 +185,7 @@ report::Station station_report(const Station& station, Instant now)
     result.left_count = integer(bus.counters.left_data_exchange);
     if (bus.left_because != dp::LeaveReason::none) {
         result.left_because = dp::text(bus.left_because);
-        result.left_code = code(bus.left_because);
+        result.left_code = report::code(bus.left_because);
     }
     result.drive = drive_report(station);
     return result;
@@ -284,7 +258,7 @@ std::vector<report::Word> words_report(const Station& station, Instant now)
         result.octet = octet;
         result.raw = raw;
         result.value = shown_value(*station.config->tags, tag, raw);
-        result.state = text(same_layout ? drive.states[i] : WordState::untried);
+        result.state = report::code(same_layout ? drive.states[i] : WordState::untried);
         if (same_layout) {
             if (drive.errors[i] == AccessError::contradicted) result.state = "contradicted";
             result.answer = unless_empty(drive.answer_texts[i].data());
@@ -324,7 +298,7 @@ report::StationIo io_report(const Station& station, Instant now)
 std::string status_line(const View& view)
 {
     std::string line = fmt::format("{} of {} in Data_Exch", exchanging(view), view.stations.size());
-    if (view.bus.valid && !view.bus.port_open) line += "; port of the bus gone";
+    if (!view.bus.port_open) line += "; the port of the bus is missing";
     for (const Station& one : view.stations) {
         line += fmt::format("; {}: {}", one.config->name, dp::text(one.bus.state));
         if (one.bus.master != 0xFF) line += fmt::format(" with master {}", one.bus.master);
@@ -339,12 +313,19 @@ std::string status_line(const View& view)
     return line;
 }
 
-/// HEALTH and RUN of a technology box mirror a bit of the drive, where one is configured.
-bool is_fed(const config::StationConfig& station, std::string_view lamp)
+report::Tec tec_report(const std::string& station, const DeviceState& device)
 {
-    if (!station.tec) return true;
-    if (lamp == "health") return station.tec->health.tag != 0;
-    return lamp != "run" || station.tec->run.tag != 0;
+    report::Tec result;
+    result.name = station;
+    result.view = device.settings().type == tec::kProfibusDp ? "profibus" : "generic";
+    for (const tec::Row& row : device.rows())
+        result.rows.push_back({std::string{row.name}, std::string{row.generic_name}, row.is_input,
+                               integer(row.value), row.shown, std::string{row.range}});
+    result.trip = device.trip();
+    result.trip_tag = device.trip_tag();
+    result.tripped = device.tripped();
+    result.notes = device.notes();
+    return result;
 }
 
 report::StationLeds leds_report(const config::StationConfig& station, const led::Condition& condition,

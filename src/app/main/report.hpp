@@ -80,15 +80,6 @@ report::StationLeds leds_report(const config::StationConfig& station, const led:
 /// A Slave_Diag reply of this station in words (wire reference 5.1): only `octets` and `bits` are filled.
 report::Diagnosis diagnosis_octets(const config::StationConfig& station, Bytes diagnosis);
 
-/// What the octet at `offset` (from 0, 6 at least) of a Slave_Diag reply says.
-std::string extended_meaning(const config::StationConfig& station, std::size_t offset, Bytes diagnosis);
-
-/// What a refused Set_Prm or Chk_Cfg was refused for, in a sentence and with an advice.
-report::Refusal explain(const dp::RefusalDetail& refusal);
-
-/// One line for the log.
-std::string sentence(const std::string& station, const dp::Event& event);
-
 /// "2 of 3 stations in Data_Exch; unwinder: Data_Exch with master 2 ...": for systemctl status.
 std::string status_line(const View& view);
 
@@ -100,13 +91,5 @@ std::string shown_value(const drive::TagTable& tags, std::uint16_t tag, std::uin
 
 /// Why a value given by hand cannot be written to this tag, with what it takes.
 std::string bad_value_words(const drive::Tag& tag, AccessError error);
-
-/// "invalid tag", "read only" ...
-std::string_view text(AccessError error) noexcept;
-
-// The codes of the control interface: words that programs compare.
-std::string_view code(AccessError error) noexcept;      ///< "no_answer", "invalid_tag" ...
-std::string_view code(dp::Refusal why) noexcept;        ///< "prm_ident", "cfg_too_few" ...
-std::string_view code(dp::LeaveReason reason) noexcept; ///< "watchdog", "unlock" ...
 
 } // namespace dpslave::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tags that the master has chosen and whose scale is not known: in words, and for the control socket.
+// Tags whose scale is not known, what their rows lack, and what a tag takes.
 #include "report.hpp"
 
 #include <fmt/format.h>
@@ -17,6 +17,28 @@ std::string listed(const std::vector<report::Unscaled>& all, bool is_contradicte
         if (!one.answer.empty()) list += fmt::format(" (answers \'{}\')", one.answer);
     }
     return list;
+}
+
+/// " or one of Run, Hold": what stands for a value of this tag, as far as it can be listed.
+std::string names_of_values(const drive::Tag& tag)
+{
+    constexpr std::size_t most = 12;
+    std::string names;
+    std::size_t count = 0;
+    for (const drive::Label& label : tag.labels) {
+        if (label.is_bit) continue;
+        if (++count > most) return names + " ...";
+        names += (names.empty() ? " or one of " : ", ") + label.text;
+    }
+    return names;
+}
+
+/// "an INT", "a WORD".
+std::string with_article(std::string_view type)
+{
+    const bool is_vowel =
+        !type.empty() && std::string_view{"AEIOU"}.find(type.front()) != std::string_view::npos;
+    return fmt::format("{} {}", is_vowel ? "an" : "a", type);
 }
 
 } // namespace
@@ -70,6 +92,27 @@ std::vector<report::Unscaled> unscaled_report(const Station& station)
                          drive.answer_texts[i].data(), drive.errors[i] == AccessError::contradicted});
     }
     return found;
+}
+
+std::string bad_value_words(const drive::Tag& tag, AccessError error)
+{
+    const auto limit = [&tag](std::int32_t counts) {
+        return drive::displayed(tag, static_cast<std::uint16_t>(counts));
+    };
+    switch (error) {
+        case AccessError::out_of_range:
+            if (tag.min && tag.max) return fmt::format("takes {} to {}", limit(*tag.min), limit(*tag.max));
+            return "does not fit into 16 bit with the decimals of the tag table";
+        case AccessError::unsupported_type:
+            return fmt::format("{} is {}, which is not transported", tag.name,
+                               with_article(drive::text(tag.type)));
+        default:
+            return fmt::format("takes {}{}{}", with_article(drive::text(tag.type)),
+                               tag.decimals > 0 ? fmt::format(" with up to {} decimal{}", tag.decimals,
+                                                              tag.decimals == 1 ? "" : "s")
+                                                : std::string{},
+                               names_of_values(tag));
+    }
 }
 
 } // namespace dpslave::app

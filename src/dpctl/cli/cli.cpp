@@ -74,10 +74,6 @@ int run(const std::vector<std::string>& arguments, Terminal& terminal)
         }
         return app.exit(error, terminal.out, terminal.err) == 0 ? kFine : kUsage;
     }
-    if (options.json && app.got_subcommand("gsd")) {
-        terminal.err << "dpctl gsd prints text only: leave out --json\n";
-        return kUsage;
-    }
     return chosen(options, terminal);
 }
 

@@ -15,7 +15,7 @@ namespace dpslave::dpctl {
 std::string bus_line(const report::Bus& bus);
 /// "Data_Exch", "Data_Exch in Clear", "Power_On".
 std::string state_text(const report::Station& station);
-/// "answers", "silent", "port gone".
+/// "answers", "silent", "port missing".
 std::string link_text(const report::Drive& drive);
 /// "read only" of "read_only".
 std::string state_text(const report::Word& word);

@@ -16,11 +16,15 @@ constexpr const char* kExits =
 constexpr const char* kExamples =
     "Examples:\n"
     "  dpctl gsd check EURO0533.GSD\n"
+    "  dpctl gsd check UNWI0533.GSD --station unwinder\n"
     "  dpctl gsd make --profile 590 --output 590_0533.GSD\n"
     "  dpctl gsd make --profile 590 --in 55,57 --out 56 --demand --output UNWI0533.GSD\n"
     "  dpctl gsd make --mapping gain-scheduling.toml --ident 0x1234 --output GAIN1234.GSD\n"
     "  dpctl gsd show UNWI0533.GSD --profile 590\n"
     "  dpctl gsd make --profile 605 --ident 0x1649 --table mine.csv --in 1,2 --output MINE1649.GSD\n"
+    "  dpctl gsd import UNWI0533.GSD --profile 590 --output unwinder.toml\n"
+    "  dpctl gsd diff OLD.GSD NEW.GSD --profile 590\n"
+    "  dpctl gsd configure\n"
     "  dpctl gsd types --output /media/disc\n";
 
 void add_profiles(CLI::App& app, GsdOptions& options)
@@ -47,6 +51,20 @@ void add_check(CLI::App& app, GsdOptions& options)
     app.add_flag("--strict", options.strict,
                  "Every deviation from the standard is an error, also those that many public files have and "
                  "masters accept");
+    app.add_option(
+           "--station", options.daemon.station,
+           "Checks the file against this running station too, its name or address: before commissioning")
+        ->type_name("NAME");
+    app.add_option("--table", options.table,
+                   "With --station: the station's tag table (CSV), if it is not here")
+        ->type_name("FILE");
+    add_profiles(app, options);
+    app.add_option("--socket", options.daemon.socket, "With --station: the daemon's control socket")
+        ->type_name("PATH")
+        ->capture_default_str();
+    app.footer(
+        "Exit codes: 0 success, 1 faulty or refused, 2 wrong usage or no such station, 3 no daemon; without "
+        "--station no daemon is needed.");
 }
 
 void add_show(CLI::App& app, GsdOptions& options)
@@ -63,13 +81,19 @@ void add_make(CLI::App& app, GsdOptions& options)
     app.add_option("--profile", options.profile, "Profile of the device")->type_name("NAME");
     add_profiles(app, options);
     add_table(app, options);
-    app.add_option("--mapping", options.mapping,
-                   "A TOML file with profile, in, out, in_out, demand, ident, max_tsdr, description, model; "
-                   "the command line overrides it")
+    app.add_option(
+           "--mapping", options.mapping,
+           "A TOML file with profile, list, in, out, in_out, demand, ident, max_tsdr, description, model; "
+           "the command line overrides it")
         ->type_name("FILE");
     add_tags(app, "--in", options.in, "Tags that the master reads, in the order of the telegram");
     add_tags(app, "--out", options.out, "Tags that the master writes");
     add_tags(app, "--in-out", options.in_out, "Tags that it reads and writes, after those");
+    app.add_option(
+           "--list", options.list,
+           "Parameters of all directions in the order of the telegram, instead of --in, --out, --in-out")
+        ->type_name("in:TAG,out:TAG,in-out:TAG,...")
+        ->delimiter(',');
     app.add_flag("--demand", options.demand, "Puts Demand Data before the parameters");
     app.add_option("--ident", options.ident,
                    "Ident_Number: 0x1649 or decimal; required if the profile has none")
@@ -85,6 +109,34 @@ void add_make(CLI::App& app, GsdOptions& options)
         ->type_name("TEXT");
     app.add_option("--output", options.output, "File to write; default: standard output")->type_name("FILE");
     app.add_flag("--force", options.force, "Replace an existing file");
+}
+
+void add_import(CLI::App& app, GsdOptions& options)
+{
+    app.add_option("FILE", options.file, "A GSD file")->required()->type_name("");
+    app.add_option("--profile", options.profile,
+                   "Profile of the device; default: found by Ident_Number and Model_Name together")
+        ->type_name("NAME");
+    add_profiles(app, options);
+    app.add_option("--output", options.output, "Mapping file to write; default: standard output")
+        ->type_name("FILE");
+    app.add_flag("--force", options.force, "Replace an existing file");
+}
+
+void add_diff(CLI::App& app, GsdOptions& options)
+{
+    app.add_option("FILE", options.file, "A GSD file")->required()->type_name("");
+    app.add_option("OTHER", options.other, "Another GSD file")->required()->type_name("");
+    app.add_option("--profile", options.profile, "Show the tags with the names of this profile's tag table")
+        ->type_name("NAME");
+    add_profiles(app, options);
+}
+
+void add_configure(CLI::App& app, GsdOptions& options)
+{
+    app.add_option("--page", options.page, "The configurator's page, if it is elsewhere")
+        ->type_name("FILE")
+        ->capture_default_str();
 }
 
 void add_types(CLI::App& app, GsdOptions& options)
@@ -117,14 +169,25 @@ void add_gsd(CLI::App& app, Action& chosen)
          add_check, gsd_check},
         {"show", "Shows where each value is in the telegrams (I/O map)", add_show, gsd_show},
         {"make", "Writes the GSD file of a device, as it is or with your own mapping", add_make, gsd_make},
+        {"import", "Writes the mapping file that makes this GSD file; names what a mapping cannot hold",
+         add_import, gsd_import},
+        {"diff", "Compares two GSD files by their meaning and by their lines", add_diff, gsd_diff},
+        {"configure", "Opens the configurator in a browser, or says how to open it on another PC",
+         add_configure, gsd_configure},
         {"types", "Writes the type files for COM ET200 in five languages", add_types, gsd_types},
     };
     for (const auto& command : kCommands) {
         CLI::App& own = *gsd.add_subcommand(command.name, command.help);
         own.footer(kExits);
         command.arguments(own, *options);
+        own.add_flag("--json", options->json, "Print JSON");
         own.callback([&chosen, options, run = command.run] {
-            chosen = [options, run](const Options&, Terminal& terminal) { return run(*options, terminal); };
+            chosen = [options, run](const Options& common, Terminal& terminal) {
+                options->json = options->json || common.json;
+                options->daemon.timeout_s = common.timeout_s;
+                if (options->daemon.socket == Options{}.socket) options->daemon.socket = common.socket;
+                return run(*options, terminal);
+            };
         });
     }
 }

@@ -28,7 +28,7 @@ void compare(std::string& line, const char* what, const std::string& before, con
 
 std::string bus_state(const report::Bus& bus)
 {
-    return bus.port_open ? bus.baud_state : "port gone";
+    return bus.port_open ? bus.baud_state : "port missing";
 }
 
 std::string bus_change(const report::Bus& before, const report::Bus& now, bool anew)

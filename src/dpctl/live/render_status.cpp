@@ -50,7 +50,7 @@ std::string state_text(const report::Station& s)
 
 std::string link_text(const report::Drive& d)
 {
-    return d.port_open ? d.link : "port gone";
+    return d.port_open ? d.link : "port missing";
 }
 
 std::string ride_text(const report::Ride& ride)

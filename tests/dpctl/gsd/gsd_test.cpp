@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // `dpctl gsd` as it is called in a shell: exit codes, what is printed, files whole or not at all.
+#include "dpctl/cli/ask.hpp"
 #include "dpctl/cli/cli.hpp"
+#include "dpctl/dpctl_bench.hpp"
 #include "dpctl/gsd/gsd.hpp"
 #include "gsd/second_hand.hpp"
 
@@ -71,7 +73,7 @@ TEST(GsdCheckCommand, PrintsFindingsAsCompilersDoAndEndsWithASummary)
     EXPECT_EQ(gsd_command({"check", "--strict", file}).exit, dpctl::kNo);
 }
 
-TEST(GsdCheckCommand, IsContentWithAMadeFile)
+TEST(GsdCheckCommand, PassesAMadeFile)
 {
     const std::string file = kSource / "gsd/605/605_1649.GSD";
     const Ran ran = gsd_command({"check", "--strict", file});
@@ -104,6 +106,29 @@ TEST(GsdCheckCommand, PrintsNoControlCharactersOfAFile)
     const std::string out = gsd_command({"check", file}).out;
     EXPECT_EQ(out.find('\x1B'), std::string::npos);
     EXPECT_THAT(out, HasSubstr("\"Col\\x1B[31mour\xC3\xBC\"")) << "Latin-1 shown in UTF-8";
+}
+
+TEST(GsdCheckCommand, AsksTheDaemonForTheStationAndJudgesTheFileAgainstIt)
+{
+    const test::FixtureDaemon daemon;
+    const std::string profiles = kSource / "config/profiles";
+    const std::string file = kSource / "gsd/605/605_1649.GSD";
+    const auto check = [&](const std::string& station, const std::vector<std::string>& more = {}) {
+        std::vector<std::string> arguments{"check",         file,         "--station", station, "--socket",
+                                           daemon.socket(), "--profiles", profiles};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return gsd_command(arguments);
+    };
+    const Ran ran = check("unwinder");
+    EXPECT_EQ(ran.exit, dpctl::kNo) << ran.err;
+    EXPECT_THAT(
+        ran.out,
+        AllOf(HasSubstr("unwinder: error: the file has the Ident_Number 0x1649, the station has 0x0533"),
+              HasSubstr("unwinder: warning: a single reply took ")));
+    EXPECT_THAT(check("unwinder", {"--json"}).out, HasSubstr("\"code\": \"ident\""));
+    EXPECT_EQ(check("nobody").exit, dpctl::kUsage);
+    EXPECT_EQ(gsd_command({"check", file, "--station", "unwinder", "--socket", "/nonexistent"}).exit,
+              dpctl::kNoDaemon);
 }
 
 TEST(GsdMakeCommand, PrintsTheFileWithoutOutput)
@@ -182,6 +207,21 @@ TEST(GsdMakeCommand, TakesAMappingFileAndLetsTheCommandLineGoBefore)
     const test::Folder folder;
     const auto bad = folder.write("bad.toml", "profile = 5\n");
     EXPECT_THAT(make({"--mapping", bad}).err, StartsWith(bad.string() + ":1:"));
+}
+
+TEST(GsdMakeCommand, TakesInputsAndOutputsInAnyOrderAsOneList)
+{
+    const Ran ran = make({"--profile", "605", "--list", "out:3,in:1,in-out:9,out:2"});
+    EXPECT_EQ(ran.exit, dpctl::kFine) << ran.err;
+    EXPECT_THAT(test::second_hand(ran.out).cfg(), ElementsAre(0x60, 0x50, 0x70, 0x60));
+    EXPECT_THAT(make({"--profile", "605", "--list", "in:1,2"}).err, HasSubstr("--list 2: write in:1"));
+    EXPECT_EQ(make({"--profile", "605", "--list", "in:1", "--out", "2"}).exit, dpctl::kUsage);
+
+    const test::Folder folder;
+    const auto mapping = folder.write("m.toml", "profile = \"605\"\nlist = [\"out:3\", \"in:1\"]\n");
+    EXPECT_THAT(test::second_hand(make({"--mapping", mapping, "--in", "7"}).out).octets("User_Prm_Data"),
+                ElementsAre(0, 0, 0, 0, 7, 0, 3))
+        << "the inputs of the command line instead of those of the list";
 }
 
 TEST(GsdMakeCommand, MakesFilesForEveryProfileWhoseIdentTheSiteMustSay)
@@ -315,20 +355,77 @@ TEST(GsdTypesCommand, WritesAllFiveOrNone)
     EXPECT_EQ(gsd_command({"types", "--output", folder.path() / "none"}).exit, dpctl::kNo);
 }
 
-TEST(GsdCommand, HasNoJsonAndSaysSo)
+TEST(GsdCommand, PrintsTheReplyOfThePageAsJson)
 {
+    const std::string file = kSource / "gsd/590/590_0533.GSD";
+    const std::string profiles = kSource / "config/profiles";
+    for (const std::vector<std::string>& arguments :
+         std::vector<std::vector<std::string>>{{"check", file},
+                                               {"show", file, "--profiles", profiles},
+                                               {"import", file, "--profiles", profiles},
+                                               {"diff", file, file},
+                                               {"make", "--profile", "590", "--profiles", profiles},
+                                               {"make", "--in", "x"},
+                                               {"check", "none.gsd"},
+                                               {"types", "--output", "no folder"}}) {
+        const Ran text = gsd_command(arguments);
+        std::vector<std::string> with_json = arguments;
+        with_json.emplace_back("--json");
+        const Ran ran = gsd_command(with_json);
+        const auto reply = dpctl::Json::parse(ran.out, nullptr, false);
+        ASSERT_TRUE(reply.is_object()) << ran.out;
+        EXPECT_EQ(reply["exit"], text.exit);
+        EXPECT_EQ(ran.exit, text.exit);
+        EXPECT_EQ(ran.err, "");
+    }
     std::ostringstream out, err;
     dpctl::Terminal terminal{out, err};
-    const std::string file = kSource / "gsd/590/590_0533.GSD";
-    EXPECT_EQ(dpctl::run({"--json", "gsd", "check", file}, terminal), dpctl::kUsage);
-    EXPECT_EQ(err.str(), "dpctl gsd prints text only: leave out --json\n");
-    EXPECT_THAT(out.str(), IsEmpty());
+    EXPECT_EQ(dpctl::run({"--json", "gsd", "check", file}, terminal), dpctl::kFine);
+    EXPECT_THAT(out.str(), HasSubstr("\"findings\": []"));
+}
+
+TEST(GsdImportCommand, WritesTheMappingThatMakesTheFileAgain)
+{
+    const test::Folder folder;
+    const std::string profiles = kSource / "config/profiles";
+    const std::string first = make({"--profile", "605", "--list", "out:3,in:1,in-out:9"}).out;
+    const auto file = folder.write("SITE1649.GSD", first);
+    const auto mapping = folder.path() / "site.toml";
+    const Ran ran = gsd_command({"import", file, "--profiles", profiles, "--output", mapping});
+    EXPECT_EQ(ran.exit, dpctl::kFine) << ran.err;
+    EXPECT_EQ(ran.out + ran.err, "");
+    EXPECT_EQ(make({"--mapping", mapping}).out, first);
+    EXPECT_EQ(gsd_command({"import", file, "--profiles", profiles, "--output", mapping}).exit, dpctl::kNo)
+        << "the mapping is there already";
+    EXPECT_THAT(gsd_command({"import", file, "--profiles", profiles}).out, StartsWith("profile = \"605\"\n"));
+}
+
+TEST(GsdImportCommand, AsksForTheProfileWhereTheFileDoesNotSayIt)
+{
+    const Ran ran =
+        gsd_command({"import", kSource / "gsd/590/590_0533.GSD", "--profiles", kSource / "config/profiles"});
+    EXPECT_EQ(ran.exit, dpctl::kNo);
+    EXPECT_THAT(ran.err, HasSubstr("Name it with --profile, one of 584s, 590."));
+}
+
+TEST(GsdDiffCommand, PrintsMeaningAndLines)
+{
+    const test::Folder folder;
+    const auto left = folder.write("L.GSD", make({"--profile", "590", "--in", "55"}).out);
+    const auto right = folder.write("R.GSD", make({"--profile", "590", "--in", "57"}).out);
+    const Ran ran =
+        gsd_command({"diff", left, right, "--profile", "590", "--profiles", kSource / "config/profiles"});
+    EXPECT_EQ(ran.exit, dpctl::kNo);
+    EXPECT_THAT(ran.out, AllOf(StartsWith("Set_Prm: 00 37 "), HasSubstr("The files say different things.\n"),
+                               HasSubstr("\n- "), HasSubstr("\n+ ")));
+    EXPECT_EQ(gsd_command({"diff", left, left}).out, "Both files say the same.\n");
+    EXPECT_EQ(gsd_command({"diff", left, folder.path() / "none"}).exit, dpctl::kNo);
 }
 
 TEST(GsdCommand, NeedsASubcommandAndHelpsWithEach)
 {
     EXPECT_EQ(gsd_command({}).exit, dpctl::kUsage);
-    for (const char* command : {"check", "show", "make", "types"}) {
+    for (const char* command : {"check", "show", "make", "import", "diff", "configure", "types"}) {
         const Ran help = gsd_command({command, "--help"});
         EXPECT_EQ(help.exit, dpctl::kFine) << command;
         EXPECT_THAT(help.out, HasSubstr("Exit codes: 0 success, 1 faulty or refused, 2 wrong usage"))

@@ -1,29 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Diagnosis, refusals, events and values that cannot be written in words.
-#include "report.hpp"
-
-#include "dpslave/dp/diagnosis_bits.hpp"
+#include "dpslave/report/words.hpp"
 
 #include <fmt/format.h>
 
-namespace dpslave::app {
+namespace dpslave::report {
 
 namespace {
-
-std::string octet_meaning(const config::StationConfig& station, std::size_t offset, Bytes diagnosis)
-{
-    switch (offset) {
-        case 0: return "Station_status_1";
-        case 1: return "Station_status_2";
-        case 2: return "Station_status_3";
-        case 3:
-            return diagnosis[3] == 0xFF ? "Master_Add: none, not parameterised"
-                                        : fmt::format("Master_Add: owned by master {}", diagnosis[3]);
-        case 4: return "Ident_Number, high octet";
-        case 5: return fmt::format("Ident_Number, low octet: 0x{:04X}", be16(diagnosis, 4));
-        default: return extended_meaning(station, offset, diagnosis);
-    }
-}
 
 std::string_view advice_for(dp::Refusal why)
 {
@@ -53,72 +35,14 @@ std::string_view advice_for(dp::Refusal why)
     return "";
 }
 
-/// " or one of Run, Hold": what stands for a value of this tag, as far as it can be listed.
-std::string names_of_values(const drive::Tag& tag)
-{
-    constexpr std::size_t most = 12;
-    std::string names;
-    std::size_t count = 0;
-    for (const drive::Label& label : tag.labels) {
-        if (label.is_bit) continue;
-        if (++count > most) return names + " ...";
-        names += (names.empty() ? " or one of " : ", ") + label.text;
-    }
-    return names;
-}
-
-/// "an INT", "a WORD".
-std::string with_article(std::string_view type)
-{
-    const bool is_vowel =
-        !type.empty() && std::string_view{"AEIOU"}.find(type.front()) != std::string_view::npos;
-    return fmt::format("{} {}", is_vowel ? "an" : "a", type);
-}
-
 } // namespace
 
-report::Diagnosis diagnosis_octets(const config::StationConfig& station, Bytes diagnosis)
-{
-    report::Diagnosis result;
-    for (std::size_t i = 0; i < diagnosis.size(); ++i)
-        result.octets.push_back(
-            {integer(i + 1), integer(i), diagnosis[i], octet_meaning(station, i, diagnosis)});
-    for (const dp::DiagnosisBit& bit : dp::kDiagnosisBits)
-        if (bit.offset < diagnosis.size() && (diagnosis[bit.offset] & bit.mask) != 0)
-            result.bits.push_back(fmt::format("{}: {}", bit.name, bit.meaning));
-    return result;
-}
-
-report::Diagnosis diagnosis_report(const Station& station)
-{
-    const dp::RefusalDetail& refused = station.bus.refusal;
-    report::Diagnosis result = diagnosis_octets(*station.config, station.bus.diagnosis.bytes());
-    result.name = station.config->name;
-    result.hex = hex(station.bus.diagnosis.bytes());
-    if (refused.why != dp::Refusal::none) result.refusal = explain(refused);
-    result.last_prm = hex(station.bus.prm.bytes());
-    result.last_cfg = hex(station.bus.cfg.bytes());
-    result.held = station.bus.holds;
-    result.unscaled = unscaled_report(station);
-    if (station.drive.known && !station.drive.answers)
-        result.trouble.emplace_back("the drive does not answer: its inputs are held and marked stale");
-    if (const auto scales = scale_words(station)) result.trouble.push_back(*scales);
-    if (station.config->tec && station.config->tec->trip.bit.tag == 0)
-        result.trouble.emplace_back("trips are not known: no tag reports them, so \"no trip\" above means "
-                                    "nothing; set trip_tag in [station.tec]");
-    for (const Trouble& one : station.troubles) {
-        result.trouble.emplace_back(one.text.data());
-        result.refused.push_back({one.tag, one.is_write, std::string{code(one.error)}, one.text.data()});
-    }
-    return result;
-}
-
-report::Refusal explain(const dp::RefusalDetail& refusal)
+Refusal explain(const dp::RefusalDetail& refusal)
 {
     using enum dp::Refusal;
-    report::Refusal result;
+    Refusal result;
     result.code = code(refusal.why);
-    if (refusal.octet != 0) result.octet = integer(refusal.octet);
+    if (refusal.octet != 0) result.octet = refusal.octet;
     result.telegram = dp::service_of(refusal.why) == dp::Service::chk_cfg ? "Chk_Cfg" : "Set_Prm";
     result.what = dp::text(refusal.why);
     result.advice = advice_for(refusal.why);
@@ -220,6 +144,45 @@ std::string_view code(AccessError error) noexcept
     return "?";
 }
 
+std::string_view code(WordState state) noexcept
+{
+    using enum WordState;
+    switch (state) {
+        case untried: return "untried";
+        case good: return "good";
+        case stale: return "stale";
+        case invalid_tag: return "invalid_tag";
+        case read_only: return "read_only";
+        case out_of_range: return "out_of_range";
+        case refused: return "refused";
+        case unscaled: return "unscaled";
+    }
+    return "?";
+}
+
+std::string_view text(AccessError error) noexcept
+{
+    switch (error) {
+        case AccessError::none: return "done";
+        case AccessError::no_answer: return "the drive does not answer";
+        case AccessError::deferred: return "an earlier answer of the drive is still awaited";
+        case AccessError::not_understood: return "the drive did not understand the request";
+        case AccessError::invalid_tag: return "invalid tag";
+        case AccessError::read_only: return "read only";
+        case AccessError::out_of_range: return "value under or over range";
+        case AccessError::not_stopped: return "only while the drive is stopped";
+        case AccessError::not_config_mode: return "only in configuration mode";
+        case AccessError::unsupported_type: return "this type of parameter is not transported";
+        case AccessError::value_not_encoded: return "the drive cannot read this value";
+        case AccessError::no_scale: return "the drive answers with a number, and its decimals are not known";
+        case AccessError::contradicted:
+            return "the drive has answered with more decimals than the tag table gives";
+        case AccessError::not_kept:
+            return "the drive accepts the value and then holds another one: read the tag";
+    }
+    return "?";
+}
+
 std::string sentence(const std::string& station, const dp::Event& event)
 {
     using Kind = dp::Event::Kind;
@@ -231,7 +194,7 @@ std::string sentence(const std::string& station, const dp::Event& event)
             return line;
         }
         case Kind::refused: {
-            const report::Refusal why = explain(event.refusal);
+            const Refusal why = explain(event.refusal);
             std::string line =
                 fmt::format("{}: {} of master {} refused: {}", station, why.telegram, event.master, why.what);
             if (why.octet) line += fmt::format(", octet {}", *why.octet);
@@ -256,25 +219,4 @@ std::string sentence(const std::string& station, const dp::Event& event)
     return station;
 }
 
-std::string bad_value_words(const drive::Tag& tag, AccessError error)
-{
-    const auto limit = [&tag](std::int32_t counts) {
-        return drive::displayed(tag, static_cast<std::uint16_t>(counts));
-    };
-    switch (error) {
-        case AccessError::out_of_range:
-            if (tag.min && tag.max) return fmt::format("takes {} to {}", limit(*tag.min), limit(*tag.max));
-            return "does not fit into 16 bit with the decimals of the tag table";
-        case AccessError::unsupported_type:
-            return fmt::format("{} is {}, which is not transported", tag.name,
-                               with_article(drive::text(tag.type)));
-        default:
-            return fmt::format("takes {}{}{}", with_article(drive::text(tag.type)),
-                               tag.decimals > 0 ? fmt::format(" with up to {} decimal{}", tag.decimals,
-                                                              tag.decimals == 1 ? "" : "s")
-                                                : std::string{},
-                               names_of_values(tag));
-    }
-}
-
-} // namespace dpslave::app
+} // namespace dpslave::report

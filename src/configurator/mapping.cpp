@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mapping.hpp"
+
+#include "dpslave/base/printable.hpp"
+#include "dpslave/toml/wording.hpp"
+
+#include <algorithm>
+
+namespace dpslave::configurator {
+namespace {
+
+/// Reads the keys of a mapping; the first that is wrong is remembered.
+class MappingReader {
+public:
+    explicit MappingReader(const Json& keys) : keys_(keys) {}
+
+    Result<profile::Mapping, std::string> read()
+    {
+        profile::Mapping mapping;
+        profile::Selection& selection = mapping.selection;
+        mapping.profile = text("profile").value_or("");
+        if (mapping.profile.empty()) wrong("profile", "the name of a profile");
+        selection.list = list();
+        selection.demand = flag("demand");
+        if (const auto ident = number("ident", 1)) selection.ident = static_cast<std::uint16_t>(*ident);
+        selection.max_tsdr = number("max_tsdr", 11);
+        selection.description = text("description");
+        selection.model = text("model");
+        if (!sentence_.empty()) return Failure{std::move(sentence_)};
+        return mapping;
+    }
+
+private:
+    void wrong(const char* key, const std::string& wanted)
+    {
+        if (sentence_.empty())
+            sentence_ = '"' + std::string{key} + "\" of the mapping has to be " + wanted + '.';
+    }
+
+    const Json* value(const char* key) const
+    {
+        const auto found = keys_.find(key);
+        return found == keys_.end() || found->is_null() ? nullptr : &*found;
+    }
+
+    std::optional<std::string> text(const char* key)
+    {
+        const Json* found = value(key);
+        if (found == nullptr) return std::nullopt;
+        if (!found->is_string()) {
+            wrong(key, "a text");
+            return std::nullopt;
+        }
+        auto text = found->get<std::string>();
+        if (toml::has_control_characters(text)) wrong(key, "a text without control characters");
+        if (text.empty()) return std::nullopt;
+        return text;
+    }
+
+    bool flag(const char* key)
+    {
+        const Json* found = value(key);
+        if (found == nullptr) return false;
+        if (!found->is_boolean()) wrong(key, "true or false");
+        return found->is_boolean() && found->get<bool>();
+    }
+
+    std::optional<std::uint32_t> number(const char* key, std::uint64_t min)
+    {
+        const Json* found = value(key);
+        if (found == nullptr) return std::nullopt;
+        if (found->is_number_unsigned())
+            if (const auto number = found->get<std::uint64_t>(); number >= min && number <= 0xFFFF)
+                return static_cast<std::uint32_t>(number);
+        wrong(key, "a number from " + std::to_string(min) + " to 65535");
+        return std::nullopt;
+    }
+
+    std::vector<profile::Parameter> list()
+    {
+        std::vector<profile::Parameter> all;
+        const Json* found = value("list");
+        if (found == nullptr) return all;
+        if (!found->is_array()) wrong("list", "a list");
+        for (const Json& one : *found) {
+            const auto parameter =
+                one.is_string() ? profile::parse_parameter(one.get<std::string>()) : std::nullopt;
+            if (parameter)
+                all.push_back(*parameter);
+            else
+                wrong("list", "a list of texts such as \"in:1\", \"out:1\" or \"in-out:1\"");
+        }
+        return all;
+    }
+
+    const Json& keys_;
+    std::string sentence_;
+};
+
+/// A basic string of TOML.
+std::string toml_text(std::string_view text)
+{
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') out += '\\';
+        out += c;
+    }
+    return out + '"';
+}
+
+} // namespace
+
+Result<profile::Mapping, std::string> read_mapping(const Json& request)
+{
+    const auto found = request.find("mapping");
+    if (found == request.end() || !found->is_object())
+        return Failure{std::string{"\"mapping\" has to be an object."}};
+    return MappingReader{*found}.read();
+}
+
+std::string mapping_file(const profile::Mapping& mapping, const drive::TagTable& tags)
+{
+    const profile::Selection& selection = mapping.selection;
+    std::string out = "profile = " + toml_text(mapping.profile) + '\n';
+    if (selection.ident) out += "ident = " + hex_of(*selection.ident) + '\n';
+    if (selection.max_tsdr) out += "max_tsdr = " + std::to_string(*selection.max_tsdr) + '\n';
+    if (selection.model) out += "model = " + toml_text(*selection.model) + '\n';
+    if (selection.description) out += "description = " + toml_text(*selection.description) + '\n';
+    if (selection.demand) out += "demand = true\n";
+    const auto parameters = selection.parameters();
+    if (parameters.empty()) return out;
+    out += "list = [\n";
+    for (const profile::Parameter& parameter : parameters) {
+        const drive::Tag* tag = tags.find(parameter.tag);
+        out += "  \"" + to_string(parameter) + "\",";
+        if (tag != nullptr && !tag->name.empty()) out += " # " + printable(tag->name);
+        out += '\n';
+    }
+    return out + "]\n";
+}
+
+} // namespace dpslave::configurator

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gsd_command.hpp"
+
+#include <algorithm>
+
+namespace dpslave::profile {
+namespace {
+
+class Command {
+public:
+    explicit Command(const std::string& profile) : text_("dpctl gsd make --profile " + profile) {}
+
+    void option(std::string_view name, const std::string& value)
+    {
+        if (!value.empty()) text_ += " --" + std::string{name} + ' ' + value;
+    }
+
+    void quoted(std::string_view name, const std::optional<std::string>& value, const std::string& fallback)
+    {
+        if (value && *value != fallback) option(name, '"' + gsd::latin1(*value) + '"');
+    }
+
+    void parameters(const std::vector<Parameter>& words)
+    {
+        const auto is_before = [](const Parameter& a, const Parameter& b) {
+            return a.direction < b.direction;
+        };
+        if (!std::is_sorted(words.begin(), words.end(), is_before)) {
+            std::string list;
+            for (const Parameter& word : words) list += (list.empty() ? "" : ",") + to_string(word);
+            return option("list", list);
+        }
+        for (const Direction direction : {Direction::in, Direction::out, Direction::in_out}) {
+            std::string tags;
+            for (const Parameter& word : words)
+                if (word.direction == direction) tags += (tags.empty() ? "" : ",") + std::to_string(word.tag);
+            option(profile::text(direction), tags);
+        }
+    }
+
+    void flag(std::string_view name) { text_ += " --" + std::string{name}; }
+    std::string text() { return std::move(text_); }
+
+private:
+    std::string text_;
+};
+
+} // namespace
+
+std::string hex_of(std::uint16_t word)
+{
+    constexpr std::string_view digits = "0123456789ABCDEF";
+    return {'0', 'x', digits[word >> 12], digits[word >> 8 & 15], digits[word >> 4 & 15], digits[word & 15]};
+}
+
+std::string make_command(const Profile& profile, const Selection& selection,
+                         const std::vector<Parameter>& words, const std::string& description)
+{
+    Command command{profile.name};
+    command.parameters(words);
+    if (selection.demand) command.flag("demand");
+    if (selection.ident && selection.ident != profile.ident)
+        command.option("ident", hex_of(*selection.ident));
+    if (selection.max_tsdr) command.option("max-tsdr", std::to_string(*selection.max_tsdr));
+    command.quoted("model", selection.model, profile.gsd.model);
+    command.quoted("description", selection.description, description);
+    return command.text();
+}
+
+} // namespace dpslave::profile

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The command of dpctl that makes a GSD file again.
+#pragma once
+
+#include "dpslave/profile/gsd_device.hpp"
+
+#include <string>
+#include <vector>
+
+namespace dpslave::profile {
+
+std::string hex_of(std::uint16_t word); ///< "0x0533"
+
+/// Without what the profile says itself, and without where the file is written to. `words`: those that the
+/// profile's mapping does not have; `description`: what the file says without one.
+std::string make_command(const Profile& profile, const Selection& selection,
+                         const std::vector<Parameter>& words, const std::string& description);
+
+} // namespace dpslave::profile

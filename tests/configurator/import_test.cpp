@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// A mapping out of a GSD file (C-033).
+#include "page.hpp"
+
+#include <gmock/gmock.h>
+
+namespace dpslave::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+json import_of(const std::string& file, const std::string& profile = "")
+{
+    json request{{"do", "import"}, {"file", to_base64(file)}};
+    if (!profile.empty()) request["profile"] = profile;
+    return ask(request);
+}
+
+std::string with_line(std::string file, const std::string& line)
+{
+    return file.insert(file.find("Ident_Number"), line + "\r\n");
+}
+
+TEST(Import, FindsTheProfileByIdentAndModelTogether)
+{
+    EXPECT_EQ(import_of(made_file({{"profile", "620"}, {"list", {"in:55"}}}))["mapping"]["profile"], "620");
+    EXPECT_EQ(import_of(content_of(kSource / "gsd/605/605_1649.GSD"))["mapping"]["profile"], "605");
+}
+
+TEST(Import, RefusesWhatMayBeOfSeveralProfilesAndNamesThem)
+{
+    const json drives = import_of(made_file({{"profile", "590"}, {"list", {"in:55"}}}));
+    EXPECT_EQ(drives["exit"], 1);
+    EXPECT_EQ(drives["candidates"], json({"584s", "590"})) << "the same ident and the same model";
+    EXPECT_THAT(texts(drives, "refusals"), HasSubstr("Name it with --profile, one of 584s, 590."));
+
+    const json renamed =
+        import_of(made_file({{"profile", "620"}, {"list", {"in:55"}}, {"model", "Unwinder"}}));
+    EXPECT_EQ(renamed["candidates"], json({"584s", "590", "620"})) << "ident 0x0533 alone";
+
+    const json controllers = import_of(made_file({{"profile", "2408f"}, {"ident", 0x1234}}));
+    EXPECT_EQ(controllers["candidates"], json({"2404f", "2408f"})) << "no ident, the same model";
+}
+
+TEST(Import, KeepsTheOrderOfInputsAndOutputs)
+{
+    const json list{"out:3", "in:1", "in-out:9", "out:2"};
+    const json reply = import_of(made_file({{"profile", "605"}, {"list", list}, {"demand", true}}));
+
+    EXPECT_EQ(reply["exit"], 0);
+    EXPECT_EQ(reply["mapping"], json({{"profile", "605"}, {"list", list}, {"demand", true}}));
+    EXPECT_THAT(reply["lost"], IsEmpty());
+    EXPECT_THAT(from_base64(reply["octets"]), HasSubstr("list = [\n  \"out:3\","));
+}
+
+TEST(Import, NamesWhatGetsLostWithItsLine)
+{
+    std::string file = made_file({{"profile", "605"}, {"list", {"in:1"}}});
+    file = with_line(file, "User_Friendly_Thing = 17");
+    file = with_line(file, "Unit_Diag_Bit(3) = \"Door open\"");
+    const json reply = import_of(file);
+
+    EXPECT_EQ(reply["exit"], 0);
+    EXPECT_THAT(texts(reply, "messages"),
+                testing::AllOf(HasSubstr("User_Friendly_Thing = 17 gets lost"),
+                               HasSubstr("Unit_Diag_Bit(3) = \"Door open\" gets lost")));
+    ASSERT_EQ(reply["lost"].size(), 2U);
+    EXPECT_GT(reply["lost"][0]["line"], 0);
+}
+
+TEST(Import, TakesTheFilesOfTheManualsAndNamesTheirDifferences)
+{
+    const json reply = import_of(content_of(kSource / "gsd/manual/584s-590/EURO0533.GSD"), "590");
+    EXPECT_EQ(reply["exit"], 0) << texts(reply, "refusals");
+    EXPECT_EQ(reply["mapping"]["list"], json::array()) << "its modules are put together by the master's tool";
+}
+
+TEST(Import, RefusesAnotherDeviceWithTheReason)
+{
+    const json other = import_of(made_file({{"profile", "605"}, {"list", {"in-out:9"}}}), "590");
+    EXPECT_EQ(other["exit"], 1);
+    EXPECT_THAT(texts(other, "refusals"), HasSubstr("0x70, is none of the profile 590"));
+
+    const json zeros = import_of(made_file({{"profile", "620"}, {"list", {"in:55"}}}), "605");
+    EXPECT_EQ(zeros["exit"], 1) << "its tags stand three octets further";
+
+    const json unknown = import_of("#Profibus_DP\nModel_Name = \"T630\"\nIdent_Number = 1\n");
+    EXPECT_THAT(texts(unknown, "refusals"), HasSubstr("T630"));
+}
+
+TEST(Import, KeepsTheMaxTsdrOfTheMachine)
+{
+    const json mapping{{"profile", "620"}, {"list", {"in:55"}}, {"demand", false}, {"max_tsdr", 120}};
+    EXPECT_EQ(import_of(made_file(mapping))["mapping"], mapping);
+}
+
+} // namespace
+} // namespace dpslave::test

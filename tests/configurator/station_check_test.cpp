@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// A GSD file against the station that runs, before commissioning.
+#include "page.hpp"
+
+#include "dpslave/configurator/station_check.hpp"
+
+#include <gmock/gmock.h>
+
+namespace dpslave::test {
+namespace {
+
+using configurator::RunningStation;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// A 620 that was never asked, at 187.5 kbit/s.
+RunningStation unwinder()
+{
+    RunningStation station{"unwinder", "620", "ei-ascii", 0x0533, 187'500};
+    for (const auto& [baud, bits] : {std::pair{9600U, 60U},
+                                     {19'200U, 60U},
+                                     {93'750U, 60U},
+                                     {187'500U, 60U},
+                                     {500'000U, 100U},
+                                     {1'500'000U, 150U}})
+        station.rates.emplace_back(baud, bits);
+    return station;
+}
+
+json judge(const std::string& file, const RunningStation& station, const std::string& table = "")
+{
+    const toml::TextSource source = [](const std::string& name) -> Result<std::string, Unreadable> {
+        if (name == "mine.csv")
+            return std::string{"tag,name,type,decimals,access\n55,Speed,INT,2,ro\n57,Torque,INT,,rw\n"
+                               "58,Mode,WORD,,rw\n"};
+        return shipped(name);
+    };
+    return json::parse(configurator::reply_of(configurator::check_with_station(
+        {source, "profiles", {}}, file, "UNWI0533.GSD", false, station, table)));
+}
+
+std::vector<std::string> codes(const json& reply)
+{
+    std::vector<std::string> all;
+    for (const json& finding : reply["findings"])
+        all.push_back(finding["severity"].get<std::string>() + ' ' + finding.value("code", ""));
+    return all;
+}
+
+std::string file_of(const json& list, const std::string& profile = "620")
+{
+    return made_file({{"profile", profile}, {"list", list}});
+}
+
+TEST(StationCheck, PassesTheFileOfTheStation)
+{
+    const json reply = judge(file_of({"out:58"}), unwinder(), "mine.csv");
+    EXPECT_EQ(reply["exit"], 0) << texts(reply, "lines");
+    EXPECT_THAT(codes(reply), IsEmpty());
+    EXPECT_THAT(texts(reply, "lines"), HasSubstr("unwinder: the file fits the station"));
+}
+
+TEST(StationCheck, FindsAnotherIdent)
+{
+    RunningStation station = unwinder();
+    station.ident = 0x1234;
+    const json reply = judge(file_of({"out:58"}), station, "mine.csv");
+    EXPECT_EQ(reply["exit"], 1);
+    EXPECT_THAT(codes(reply), ElementsAre("error ident"));
+    EXPECT_THAT(texts(reply, "lines"), HasSubstr("0x0533, the station has 0x1234"));
+}
+
+TEST(StationCheck, FindsARateThatTheFileDoesNotOfferAndOneThatTheStationDoesNotHave)
+{
+    const std::string file = with(file_of({"out:58"}), "187.5_supp", "3M_supp");
+    EXPECT_THAT(codes(judge(file, unwinder(), "mine.csv")), Contains("error rate"));
+
+    RunningStation station = unwinder();
+    station.rates.pop_back();
+    EXPECT_THAT(codes(judge(file_of({"out:58"}), station, "mine.csv")), ElementsAre("warning rate"));
+}
+
+TEST(StationCheck, FindsAMasterThatDoesNotWaitLongEnough)
+{
+    RunningStation station = unwinder();
+    station.rates[3].second = 120;
+    const json reply = judge(file_of({"out:58"}), station, "mine.csv");
+    EXPECT_THAT(codes(reply), ElementsAre("error max_tsdr"));
+    EXPECT_THAT(texts(reply, "lines"), HasSubstr("MaxTsdr_187.5 is 60 in the file and 120 in the station"));
+}
+
+TEST(StationCheck, ComparesMaxTsdrWithTheRepliesThatWereMeasured)
+{
+    RunningStation station = unwinder();
+    station.usual_reply = 60;
+    station.slowest_reply = 61;
+    EXPECT_THAT(codes(judge(file_of({"out:58"}), station, "mine.csv")), ElementsAre("warning measured"));
+    station.usual_reply = 61;
+    EXPECT_THAT(codes(judge(file_of({"out:58"}), station, "mine.csv")), ElementsAre("error measured"));
+    station.slowest_reply = station.usual_reply = 60;
+    EXPECT_THAT(codes(judge(file_of({"out:58"}), station, "mine.csv")), IsEmpty());
+}
+
+TEST(StationCheck, FindsOutputsOnReadOnlyTagsAndTagsWithoutAScale)
+{
+    const json reply = judge(file_of({"out:55", "in:57", "in:99"}), unwinder(), "mine.csv");
+    EXPECT_THAT(codes(reply), ElementsAre("warning read_only", "warning no_scale", "warning no_scale"));
+    EXPECT_EQ(reply["findings"][0]["tag"], 55);
+    EXPECT_EQ(reply["findings"][1]["tag"], 57) << "no decimals";
+    EXPECT_EQ(reply["findings"][2]["tag"], 99) << "in no table";
+
+    RunningStation station = unwinder();
+    station.unscaled = {57};
+    EXPECT_THAT(codes(judge(file_of({"in:57"}), station, "mine.csv")), ElementsAre("error no_scale"));
+    station.protocol = "modbus-rtu";
+    EXPECT_THAT(codes(judge(file_of({"in:57"}), station, "mine.csv")), IsEmpty());
+}
+
+TEST(StationCheck, NamesTheFirstOctetWhereTheMasterSentSomethingElse)
+{
+    RunningStation station = unwinder();
+    station.last_prm = "88 01 0A 0B 05 33 00 00 3A 00 39";
+    station.last_cfg = "60 50";
+    const json reply = judge(file_of({"out:58"}), station, "mine.csv");
+    EXPECT_THAT(codes(reply), ElementsAre("warning last_sent", "warning last_sent"));
+    EXPECT_THAT(texts(reply, "lines"),
+                testing::AllOf(
+                    HasSubstr("last Set_Prm of the master is another than that of the file: in octet 11 the "
+                              "master sent 0x39, the file has 0x00"),
+                    HasSubstr("in octet 2 the master sent 0x50, the file's ends there")));
+
+    station.last_prm = "88 01 0A 0B 05 33 00 00 3A" + [] {
+        std::string zeros;
+        for (int i = 0; i < 22; ++i) zeros += " 00";
+        return zeros;
+    }();
+    station.last_cfg = "60";
+    EXPECT_THAT(codes(judge(file_of({"out:58"}), station, "mine.csv")), IsEmpty());
+}
+
+TEST(StationCheck, FindsTheFileOfAnotherDevice)
+{
+    RunningStation station = unwinder();
+    station.ident = 0x1649;
+    EXPECT_THAT(codes(judge(file_of({"in-out:9"}, "605"), station)), Contains("error mapping"));
+    EXPECT_EQ(judge("no GSD", unwinder())["exit"], 1);
+    station.profile = "of a site";
+    EXPECT_EQ(judge(file_of({"in:9"}), station)["exit"], 1);
+}
+
+} // namespace
+} // namespace dpslave::test

@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dpslave/gsd/check.hpp"
+#include "dpslave/gsd/type_file.hpp"
