@@ -21,6 +21,9 @@ build_packages=(
 # What the tests need beside that.
 test_packages=(libgtest-dev libgmock-dev systemd udev binutils python3 python3-pymodbus python3-serial python3-serial-asyncio)
 
+# What the page of the GSD configurator needs beside that.
+page_packages=(clang lld wasi-libc libc++-dev-wasm32 libclang-rt-dev-wasm32 esbuild python3)
+
 # Installs those of the named packages that are missing; asks nothing, and touches apt only when it must.
 install_missing() {
     local missing=() name

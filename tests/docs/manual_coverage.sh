@@ -41,6 +41,11 @@ for list in tests/*/CMakeLists.txt; do
     done || true
     sed 's/#.*//' "$list" | tr '\n' ' ' | grep -oE 'add_test\( *NAME [A-Za-z0-9_.]+' | sed 's/.* //' || true
 done | sort -u > "$scratch/tests"
+# tests/page: "page Class.test_of_it".
+for source in tests/page/test_*.py; do
+    sed -nE -e 's/^class ([A-Za-z0-9_]+)\(.*/\1/p' -e 's/^    def (test_[A-Za-z0-9_]+)\(.*/.\1/p' "$source" |
+        awk '/^\./ {print "page " class $0; next} {class = $0}'
+done >> "$scratch/tests"
 # tests/purity and tests/bench name theirs in a loop.
 for room in fdl dp base led; do echo "purity.symbols_of_$room"; done >> "$scratch/tests"
 for direction in none gpio; do echo "bench.turnaround_quick_$direction"; done >> "$scratch/tests"
@@ -107,6 +112,7 @@ s/^\| A-051 \|/& x |/
 /^\| A-084 /s/Manual\/\*/Manual\/No/
 /^\| A-010 /s/HA389815Chapter9/No/
 /^\| A-012 /s/wiring\.md/wire.md/
+/^\| C-037 /s/test_adds_by_drag_and_drop/test_no/
 END
 cat > "$scratch/sentences" <<'END'
 A-044: the row is missing
@@ -120,6 +126,7 @@ A-053: there is neither a test nor a file fdl.OptionBoard.RefusesFewerIdentifier
 A-084: there is neither a test nor a file led.HA389815Chapter9/OptionBoardLeds.ShowTheRowOfTheManual/No
 A-010: there is neither a test nor a file led.No/OptionBoardLeds.ShowTheRowOfTheManual/*
 A-012: there is neither a test nor a file docs/guide/wire.md
+C-037: there is neither a test nor a file page.Lists.test_no
 END
 sed -E -f "$scratch/damages" "$table" > "$scratch/damaged.md"
 faults_of "$scratch/damaged.md" > "$scratch/noticed"

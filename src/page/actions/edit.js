@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the user does to the mapping. Each action is one step of the history and says what happened.
+import {
+    addEntry, clearDirection, documentOf, kListNames, moveEntry, placesOf, removeEntry, setField, stepEntry,
+} from '../mapping/model.js';
+import { newHistory, push, redo, seal, undo } from '../mapping/history.js';
+
+/** The findings that stop an action which adds. */
+const kLimits = ['too_many_parameters', 'too_many_words', 'too_many_octets'];
+
+const kTyped = ['name', 'description', 'ident', 'model', 'max_tsdr']; // the letters of one of these are one step
+
+/** The actions on the mapping. */
+export function editing({ store, ask, say }) {
+    const present = () => store.state().history.present;
+    const placeOf = (document, at) => placesOf(document, document.list[at].direction).indexOf(at) + 1;
+
+    function step(document, parts = {}, key = '') {
+        store.change({ history: push(store.state().history, document, key), notice: null, ...parts });
+    }
+
+    /** Does not let an action through that a limit forbids, and says the limit in the words of the core. */
+    function within(next) {
+        const over = ask.preview(next).findings.filter((one) => kLimits.includes(one.code));
+        if (over.length === 0) return true;
+        say(`Not added. ${over.map((one) => one.text).join(' ')}`, 'error');
+        return false;
+    }
+
+    const nameOf = (document, at) => ask.preview(document).parameters[at]?.name || `tag ${document.list[at].tag}`;
+    const select = (direction, at) => ({ selectedList: direction, selectedAt: at });
+
+    function told(document, at, what) {
+        const { direction } = document.list[at];
+        const errors = ask.preview(document).findings.filter((one) => one.at === at).map((one) => one.text);
+        say([`${nameOf(document, at)} ${what} ${kListNames[direction]}, place ${placeOf(document, at)}.`, ...errors].join(' '));
+    }
+
+    return {
+        add(tag, direction = store.state().selectedList, before = null) {
+            const { document, at } = addEntry(present(), direction, tag, before);
+            if (!within(document)) return;
+            step(document, select(direction, at));
+            told(document, at, 'was added to');
+        },
+        move(from, direction, before = null) {
+            const { document, at } = moveEntry(present(), from, direction, before);
+            const same = document.list.every((one, place) => one.tag === present().list[place].tag &&
+                one.direction === present().list[place].direction);
+            if (same) return;
+            if (direction === 'in-out' && present().list[from].direction !== 'in-out' && !within(document)) return;
+            step(document, select(direction, at));
+            told(document, at, 'was moved to');
+        },
+        step(from, by) {
+            const moved = stepEntry(present(), from, by);
+            if (!moved) return say(`It is already ${by < 0 ? 'the first' : 'the last'} of the ${kListNames[present().list[from].direction]}.`);
+            step(moved.document, select(moved.document.list[moved.at].direction, moved.at));
+            told(moved.document, moved.at, 'is now in');
+        },
+        remove(from) {
+            const { direction } = present().list[from];
+            const name = nameOf(present(), from);
+            const document = removeEntry(present(), from);
+            const places = placesOf(document, direction);
+            const next = places.find((at) => at >= from) ?? places[places.length - 1] ?? -1;
+            step(document, select(direction, next));
+            say(`${name} was deleted from ${kListNames[direction]}.`);
+        },
+        clear(direction) {
+            if (placesOf(present(), direction).length === 0) return say(`The list ${kListNames[direction]} has no parameter.`);
+            step(clearDirection(present(), direction), select(direction, -1));
+            say(`The list ${kListNames[direction]} was cleared. Undo brings it back.`);
+        },
+        set(key, value) {
+            const next = setField(present(), key, value);
+            if (key === 'demand' && value && !within(next)) return store.change({});
+            step(next, key === 'profile' ? { selectedList: 'in', selectedAt: -1, tab: null, treeTag: null } : {}, kTyped.includes(key) ? key : '');
+            if (key === 'demand') say(value ? 'Demand Data is used.' : 'Demand Data is not used.');
+        },
+        seal: () => store.change({ history: seal(store.state().history) }),
+        undo: () => turn(undo, 'The last step was undone.', 'There is nothing to undo.'),
+        redo: () => turn(redo, 'The step was done again.', 'There is nothing to do again.'),
+        /** Another document. What was there before comes back with undo. */
+        open(document, sentence) {
+            const { lists } = ask.profile(document.profile);
+            step(document, { selectedList: lists[0], selectedAt: -1, tab: null, query: '', treeTag: null, screen: 'mapping' });
+            say(sentence);
+        },
+        start: (document) => newHistory(document),
+    };
+
+    function turn(way, done, none) {
+        const { history } = store.state();
+        const next = way(history);
+        if (next === history) return say(none);
+        const { lists } = ask.profile(next.present.profile);
+        const list = lists.includes(store.state().selectedList) ? store.state().selectedList : lists[0];
+        store.change({ history: next, selectedAt: -1, selectedList: list, notice: null });
+        say(done);
+    }
+}
+
+/** The layout with which the page opens: EURO2400.GSD of the handbook. With Demand Data it is EURD2400.GSD. */
+export function standardDocument(ask, demand = false) {
+    const profile = ask.profile('2408f');
+    return documentOf(demand ? 'EURD2400' : 'EURO2400', { profile: profile.name, demand }, profile.default_list);
+}

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page put together: the state, the actions, the views, and the one place where the views learn of a new state.
+import { editing, standardDocument } from './actions/edit.js';
+import { opening } from './actions/files.js';
+import { keeping } from './actions/library.js';
+import { saving } from './actions/saving.js';
+import { copyText } from './files/clipboard.js';
+import { keep, keptText } from './files/storage.js';
+import { newHistory } from './mapping/history.js';
+import { mappingOf } from './mapping/model.js';
+import { questions } from './questions.js';
+import { newStore } from './store.js';
+import { footView, headView, noticeView } from './view/bars.js';
+import { checkView } from './view/check.js';
+import { detailsView } from './view/details.js';
+import { h } from './view/dom.js';
+import { watchFaults, watchInput } from './view/input.js';
+import { listsView } from './view/lists.js';
+import { liveView } from './view/live.js';
+import { watchMenus } from './view/menu.js';
+import { print } from './view/paper.js';
+import { askPrint, askSave, chooseProfile } from './view/questions.js';
+import { startView } from './view/start.js';
+import { treeView } from './view/tree.js';
+
+function firstState(ask) {
+    return {
+        screen: 'mapping', // start, mapping, check
+        history: newHistory(standardDocument(ask)),
+        selectedList: 'in', selectedAt: -1, // the list that is selected, and the place of the chosen parameter in the telegram
+        tab: null, query: '', treeTag: null, // the tree
+        live: 'GSD file', // the tab of the live pane
+        hints: keptText('hints') !== 'off',
+        library: [], storage: true, restored: false,
+        sides: [null, null], // the files that are checked
+        saved: '', // the mapping that was saved last
+        notice: null, said: { text: '', severity: '' },
+    };
+}
+
+/** The actions that lie over several modules. */
+function commands(app) {
+    const { store, say } = app;
+    const picker = h('input', { type: 'file', class: 'unseen', tabIndex: -1, 'aria-label': 'File to open', 'data-open': '', on: {
+        change: () => { if (picker.files[0]) app.files.open(picker.files[0]); picker.value = ''; } } });
+    return {
+        picker,
+        go: (screen) => store.change({ screen, notice: null }),
+        pickToOpen(accept = '.gsd,.gse,.gsg,.gsf,.gsi,.gsp,.gss,.toml,.csv,.json') {
+            picker.accept = accept;
+            picker.click();
+        },
+        setHints(hints) {
+            keep('hints', hints ? 'on' : 'off');
+            store.change({ hints });
+            say(`Hints are ${hints ? 'on' : 'off'}.`);
+        },
+        isSaved: (state) => state.saved === JSON.stringify(mappingOf(state.history.present)),
+        async copy(text, what) {
+            say(await copyText(text) ? `${what} was copied.` : 'The browser does not let the page copy.', '');
+        },
+        async doSave() {
+            if (!await app.save.save()) await app.doSaveAs();
+        },
+        async doSaveAs() {
+            const wanted = await askSave(store.state().history.present, app.save.target()?.kind ?? 'gsd');
+            if (wanted) await app.save.saveAs(wanted.kind, wanted.name, wanted.place);
+        },
+        async doPrint() {
+            const parts = await askPrint();
+            if (parts) print(app, parts);
+        },
+        /** What was dragged to a list: {tag} from the tree, {from} from a list. */
+        dropOn({ list, row, behind }, { tag, from }) {
+            const direction = list.dataset.drop;
+            const before = row?.dataset.at === undefined ? null : Number(row.dataset.at) + (behind ? 1 : 0);
+            if (from === undefined) app.edit.add(tag, direction, before);
+            else app.edit.move(from, direction, before);
+        },
+        showEntry(at) {
+            const { direction } = store.state().history.present.list[at];
+            store.change({ selectedList: direction, selectedAt: at });
+            app.focusList(direction);
+        },
+        async drop(files, side) {
+            if (store.state().screen !== 'check') return app.files.open(files[0]);
+            await app.files.check(files[0], side ?? (files.length === 1 && store.state().sides[0] ? 1 : 0));
+            if (files.length > 1) await app.files.check(files[1], 1);
+            return undefined;
+        },
+    };
+}
+
+function mappingScreen(app) {
+    const views = [treeView(app), listsView(app), detailsView(app), liveView(app)];
+    const [tree, lists, details, live] = views;
+    app.focusList = lists.focusList;
+    return {
+        element: h('div', { class: 'mapping' }, tree.element, h('div', { class: 'middle' }, lists.element, details.element), live.element),
+        update(state) { for (const view of views) view.update(state); },
+    };
+}
+
+function build(app) {
+    const [head, notice, foot] = [headView(app), noticeView(app), footView(app)];
+    const screens = { start: startView(app), mapping: mappingScreen(app), check: checkView(app) };
+    const main = h('main', { id: 'page', tabIndex: -1 }, Object.values(screens).map((one) => one.element));
+    document.body.replaceChildren(h('div', { class: 'scroll' }, head.element, notice.element, main), foot.element);
+    main.append(app.picker);
+    app.store.subscribe((state) => {
+        for (const view of [head, notice, foot]) view.update(state);
+        for (const [name, screen] of Object.entries(screens)) {
+            const left = name !== state.screen && screen.element.contains(document.activeElement);
+            screen.element.hidden = name !== state.screen;
+            if (left) main.focus({ preventScroll: true });
+            if (name === state.screen) screen.update(state);
+        }
+    });
+}
+
+/** Starts the page on a core: call(request). */
+export function startApp(call) {
+    const ask = questions(call);
+    const store = newStore(firstState(ask));
+    const say = (text, severity = '') => store.change({ said: { text, severity } });
+    const notify = (severity, title, sentences) => store.change({ notice: { severity, title, sentences }, said: { text: title, severity } });
+    const app = { ask, store, say, notify };
+    app.edit = editing(app);
+    app.library = keeping(app);
+    app.save = saving(app);
+    app.files = opening({ ...app, chooseProfile: (name, why, names) => chooseProfile(name, why, names, ask.profile) });
+    Object.assign(app, commands(app));
+    build(app);
+    watchMenus();
+    watchInput(app);
+    watchFaults(notify);
+    restore(app);
+    return app;
+}
+
+function restore(app) {
+    const { draft, library } = app.library.restored();
+    let kept = null;
+    app.store.subscribe(({ history }) => {
+        if (history.present === kept) return;
+        kept = history.present;
+        app.library.keepDraft(kept);
+    });
+    app.library.watch();
+    const { lists } = app.ask.profile(draft?.profile ?? '2408f');
+    app.store.change({
+        library, restored: draft !== null, selectedList: lists[0],
+        ...(draft && { history: newHistory(draft) }),
+        said: { text: draft ? `The draft ${draft.name} was restored.` : 'The standard mapping EURO2400 is open.', severity: '' },
+    });
+}

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// What belongs to the mapping beside its lists: words used, Demand Data, texts and numbers of the file.
+import { hexWord } from '../files/octets.js';
+import { area, checkbox, field, h, setText } from './dom.js';
+
+/** A number as it is typed, decimal or 0x; null for nothing, undefined for no number. */
+function numberOf(text) {
+    if (text.trim() === '') return null;
+    return /^\s*(0x[0-9a-f]{1,6}|[0-9]{1,8})\s*$/i.test(text) ? Number(text) : undefined;
+}
+
+/** A field of the document. parse() and show() lie between its text and the document. */
+function boundField(app, key, label, note, { parse = (text) => text || null, show = (value) => value, ...properties } = {}) {
+    const input = h('input', { type: 'text', autocomplete: 'off', spellcheck: false, 'data-field': key, ...properties });
+    const { row } = field(label, input, note);
+    const wrong = h('span', { class: 'wrong-note', role: 'alert' });
+    row.append(wrong);
+    const parsed = () => parse(input.value);
+    function mark() {
+        const bad = parsed() === undefined;
+        input.setAttribute('aria-invalid', String(bad));
+        setText(wrong, bad ? 'No number: write 1234 or 0x04D2.' : '');
+    }
+    input.addEventListener('input', () => {
+        const value = parsed();
+        mark();
+        if (value !== undefined) app.edit.set(key, value);
+    });
+    input.addEventListener('blur', () => { app.edit.seal(); });
+    return {
+        row,
+        update(document) {
+            if (parsed() === document[key] || (parsed() === undefined && window.document.activeElement === input)) return mark();
+            input.value = document[key] === null ? '' : show(document[key]);
+            return mark();
+        },
+    };
+}
+
+/** The view of the details. */
+export function detailsView(app) {
+    const { ask, edit } = app;
+    const meter = h('progress', { 'aria-label': 'Used of the limit' });
+    const used = h('p', { class: 'used', 'data-used': '' });
+    const demand = checkbox('Use Demand Data', false, (checked) => edit.set('demand', checked));
+    const device = field('Device', h('select', { on: { change: () => {
+        app.edit.set('profile', device.input.value);
+        app.say(`The mapping is for ${ask.profile(device.input.value).device}.`);
+    } } }, ask.profiles.map((one) => h('option', { value: one.name }, `${one.name}: ${one.device}`))));
+    const fields = [
+        boundField(app, 'name', 'File name', 'Without .GSD', { parse: (text) => text, maxLength: 120 }),
+        boundField(app, 'description', 'Description', 'Shown in the device list of the master', { maxLength: 300, placeholder: '' }),
+        boundField(app, 'ident', 'Ident_Number', 'Hexadecimal, such as 0x1652', { parse: numberOf, show: hexWord, class: 'short' }),
+        boundField(app, 'model', 'Model_Name', 'Empty: that of the profile', { maxLength: 120 }),
+        boundField(app, 'max_tsdr', 'MaxTsdr', 'Bit times. Empty: those of the profile', { parse: numberOf, show: String, class: 'short', inputMode: 'numeric' }),
+    ];
+    const element = area('File', 'Demand Data reads and writes any parameter when the master asks for it; it takes four words in ' +
+        'each direction. The description is what the master shows in its device list.', { class: 'details' },
+    h('div', { class: 'limit' }, meter, used), demand.row, device.row, h('div', { class: 'fields' }, fields.map((one) => one.row)));
+
+    return {
+        element,
+        update(state) {
+            const document = state.history.present;
+            const profile = ask.profile(document.profile);
+            const preview = ask.preview(document);
+            const count = preview.used ?? null;
+            setText(used, count ? usedText(count) : '');
+            meter.hidden = !count;
+            if (count) {
+                const [most, now] = count.max_words === null ? [count.max_parameters, count.parameters] : [count.max_words, count.words];
+                meter.max = most;
+                meter.value = Math.min(most, now);
+            }
+            device.input.value = document.profile;
+            demand.input.checked = document.demand;
+            demand.row.hidden = !profile.demand && !document.demand;
+            for (const one of fields) one.update(document);
+            element.querySelector('[data-field=model]').placeholder = profile.model;
+            element.querySelector('[data-field=ident]').placeholder = profile.ident === null ? 'not known' : hexWord(profile.ident);
+        },
+    };
+}
+
+function usedText({ parameters, max_parameters: mostParameters, words, max_words: mostWords }) {
+    const full = parameters >= mostParameters || (mostWords !== null && words >= mostWords);
+    const ofWords = mostWords === null ? `${words} words used` : `${words} of ${mostWords} words used`;
+    return `${ofWords}, ${parameters} of ${mostParameters} parameters.${full ? ' The limit is reached: delete one before you add one.' : ''}`;
+}

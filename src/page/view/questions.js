@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// The dialogs of the page: which profile, save as, print.
+import { kKinds } from '../actions/saving.js';
+import { ask } from './dialog.js';
+import { checkbox, field, h } from './dom.js';
+
+/** Which of several profiles a file is for. */
+export function chooseProfile(name, sentences, candidates, ofProfile) {
+    const { row, input } = field('Device', h('select', {}, candidates.map((one) =>
+        h('option', { value: one }, `${one}: ${ofProfile(one)?.device ?? ''}`))));
+    return ask(`Which device is ${name} for?`, [sentences.map((one) => h('p', {}, one)), row], [{ text: 'Open', value: () => input.value }]);
+}
+
+function stationFields() {
+    const name = field('Station name', h('input', { type: 'text', value: 'station-1' }));
+    const address = field('PROFIBUS address', h('input', { type: 'text', inputMode: 'numeric', class: 'short' }), '0 to 125');
+    const line = field('Drive line', h('input', { type: 'text', value: 'p3' }), 'Its name in [[line]]');
+    const unit = field('Unit on that line', h('input', { type: 'text', class: 'short' }), 'As the profile has it: 00 or 1');
+    const parts = h('div', { class: 'fields' }, name.row, address.row, line.row, unit.row);
+    return {
+        parts,
+        value: () => ({ name: name.input.value, address: Number(address.input.value), line: line.input.value, unit: unit.input.value }),
+        valid() {
+            if (!name.input.value.trim()) return 'The station needs a name.';
+            if (!/^[0-9]{1,3}$/.test(address.input.value) || Number(address.input.value) > 125) return 'The PROFIBUS address has to be a number from 0 to 125.';
+            if (!line.input.value.trim()) return 'Name the drive line.';
+            return unit.input.value.trim() ? '' : 'Name the unit on the drive line.';
+        },
+    };
+}
+
+/** Save as: resolves with {kind, name, place}, or null. */
+export function askSave(document, kind) {
+    const kinds = field('Kind of file', h('select', {}, Object.entries(kKinds).map(([value, { what, ending }]) =>
+        h('option', { value, selected: value === kind }, `${what} (${ending})`))));
+    const name = field('File name', h('input', { type: 'text', value: document.name, autocomplete: 'off', spellcheck: false }));
+    const station = stationFields();
+    const show = () => {
+        station.parts.hidden = kinds.input.value !== 'station';
+        if (kinds.input.value === 'station' && name.input.value === document.name) name.input.value = 'station';
+    };
+    kinds.input.addEventListener('change', show);
+    show();
+    return ask('Save as', [kinds.row, name.row, station.parts], [{
+        text: 'Save', value: () => ({ kind: kinds.input.value, name: name.input.value.trim(), place: station.value() }),
+    }], () => {
+        if (!name.input.value.trim()) return 'The file needs a name.';
+        if (/[\\/:*?"<>|\u0000-\u001f]/.test(name.input.value)) return 'These characters cannot stand in a file name: \\ / : * ? " < > |';
+        return kinds.input.value === 'station' ? station.valid() : '';
+    });
+}
+
+/** What to print: resolves with the set of the chosen parts, or null. */
+export function askPrint() {
+    const parts = [['inputs', 'Inputs'], ['outputs', 'Outputs'], ['map', 'I/O map']].map(([key, label]) => [key, checkbox(label, true, () => {})]);
+    const chosen = () => new Set(parts.filter(([, one]) => one.input.checked).map(([key]) => key));
+    return ask('Print', [h('fieldset', {}, h('legend', {}, 'What to print'), parts.map(([, one]) => one.row))],
+        [{ text: 'Print', value: chosen }], () => (chosen().size === 0 ? 'Choose at least one part.' : ''));
+}

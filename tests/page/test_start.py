@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Rows C-031, C-033, C-034, C-042, C-045 and C-046: how a file is begun, opened, named, saved and kept."""
+import json
+import pathlib
+import tempfile
+
+import screen
+import setting
+
+
+
+class Start(screen.PageTest):
+    def go(self, name):
+        self.click("button", name)
+
+    def test_opens_with_the_standard_layout(self):  # C-031
+        wanted = self.browser.call([{"do": "profiles"}])[0]["profiles"]
+        standard = next(one for one in wanted if one["name"] == "2408f")["default_list"]
+        tags = {name: [int(one.split(":")[1]) for one in standard if one.startswith(name + ":")] for name in ("in", "out")}
+        self.assertEqual(self.tags("Inputs"), tags["in"])
+        self.assertEqual(self.tags("Outputs"), tags["out"])
+        self.assertTrue(tags["in"])
+        self.assertEqual(self.value("textbox", "File name"), "EURO2400")
+        self.assertIn("EURO2400", self.said())
+
+    def new_file(self, device):
+        self.choose("Device", device)
+        self.click("button", "New file", "New file")
+
+    def test_begins_a_file_for_each_device(self):  # C-033
+        for profile in self.browser.call([{"do": "profiles"}])[0]["profiles"]:
+            with self.subTest(profile["name"]):
+                self.go("Start")
+                self.new_file(profile["name"])
+                self.assertEqual(self.tags("Inputs") + self.tags("Outputs"), [])
+                self.assertEqual(self.shown("listbox", "Read and write") or self.shown("region", "Read and write"),
+                                 "in-out" in profile["lists"])
+
+    def test_begins_a_file_with_the_keyboard(self):  # C-033
+        self.tab_to("button", "New")
+        self.keys("Enter")
+        self.tab_to("combobox", "Device")
+        self.keys("=605")
+        self.tab_to("button", "New file")
+        self.keys("Enter")
+        self.assertIn("605", self.said())
+
+    def test_opens_a_file_of_a_supported_device_by_the_file_chooser_and_by_a_drop(self):  # C-033
+        file = screen.dpctl("gsd", "make", "--profile", "2408f", "--in", "1,2", "--out", "6", "--ident", "0x1652")
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "MINE1652.GSD")
+            path.write_bytes(file)
+            for trigger in (lambda: self.click("button", "Open"), lambda: self.keys("Control+o")):
+                self.open()
+                self.choose_file(trigger, path)
+                self.choose_profile("2408f")
+                self.assertEqual((self.tags("Inputs"), self.tags("Outputs")), ([1, 2], [6]))
+        self.open()
+        self.drop([("MINE1652.GSD", file)])
+        self.choose_profile("2408f")
+        self.assertEqual((self.tags("Inputs"), self.tags("Outputs")), ([1, 2], [6]))
+        self.assertEqual(self.value("textbox", "File name"), "MINE1652")
+
+    def choose_profile(self, name):
+        """Where the file leaves open which device it is for."""
+        self.browser.wait_for("return document.querySelector('dialog[open]') || /opened/.test(document.getElementById('said').textContent)",
+                              what="the file to be read")
+        if self.shown("dialog"):
+            self.choose("Device", name)
+            self.js("find('button', 'Open', null); [...document.querySelectorAll('dialog[open] button[type=submit]')][0].click()")
+        self.wait_said("was opened")
+
+    def test_refuses_a_file_of_another_device_with_a_reason(self):  # C-033
+        kept = self.tags("Inputs")
+        t630 = (b"#Profibus_DP\r\nGSD_Revision = 1\r\nVendor_Name = \"Eurotherm\"\r\nModel_Name = \"T630\"\r\nRevision = \"1\"\r\n"
+                b"Ident_Number = 0x1234\r\nProtocol_Ident = 0\r\nStation_Type = 0\r\nModule = \"x\" 0x50\r\nEndModule\r\n")
+        self.drop([("T630.GSD", t630)])
+        self.wait_said("was not opened")
+        self.assertRegex(self.notice(), r"T630")
+        self.assertEqual(self.tags("Inputs"), kept)
+
+    def test_saves_under_any_name_the_octets_of_dpctl(self):  # C-034
+        wanted = screen.dpctl("gsd", "make", "--profile", "2408f", "--ident", "0x1652", "--model", "Ofen ü")
+        self.type_into("textbox", "Ident_Number", "0x1652")
+        self.type_into("textbox", "Model_Name", "Ofen ü")
+        self.click("button", "Save as")
+        self.dialog_name("OVEN1652")
+        self.assertEqual(self.saved(lambda: self.keys("Enter")), ("OVEN1652.GSD", wanted))
+        self.wait_said("OVEN1652.GSD")
+        self.assertEqual(self.saved(lambda: self.click("button", "Save")), ("OVEN1652.GSD", wanted))
+        self.assertEqual(self.saved(lambda: self.keys("Control+s")), ("OVEN1652.GSD", wanted))
+
+    def test_saves_to_where_the_browser_lets_the_user_pick(self):  # C-034
+        self.js("""globalThis.written = [];
+            globalThis.showSaveFilePicker = async ({ suggestedName }) => ({
+                name: `picked-${suggestedName}`,
+                createWritable: async () => ({ write: async (octets) => globalThis.written.push(...octets), close: async () => {} }),
+            })""")
+        self.type_into("textbox", "Ident_Number", "0x1652")
+        self.keys("Control+s")
+        self.dialog_name("OVEN")
+        self.keys("Enter")
+        self.wait_said("picked-OVEN.GSD was saved")
+        self.assertEqual(bytes(self.browser.run("return globalThis.written")),
+                         screen.dpctl("gsd", "make", "--profile", "2408f", "--ident", "0x1652"))
+
+    def dialog_name(self, name):
+        self.js("const one = document.querySelector('dialog[open] input[type=text]'); one.value = words[0]; one.focus()", name)
+
+    def test_saves_a_mapping_that_dpctl_takes(self):  # C-034
+        self.type_into("textbox", "Ident_Number", "0x1652")
+        self.keys("Control+Shift+s")
+        self.choose("Kind of file", "mapping")
+        self.dialog_name("mine")
+        name, octets = self.saved(lambda: self.keys("Enter"))
+        self.assertEqual(name, "mine.toml")
+        self.assertEqual(screen.dpctl("gsd", "make", "--mapping", "FILE", text=octets),
+                         screen.dpctl("gsd", "make", "--profile", "2408f", "--ident", "0x1652"))
+
+    def test_puts_the_description_into_the_file(self):  # C-042
+        self.type_into("textbox", "Description", "Oven 3, zone 2")
+        self.assertIn("Oven 3, zone 2", self.text("region", "Text of the GSD file"))
+
+    def test_keeps_several_files_for_one_instrument(self):  # C-045
+        for name, tag in ("COLD", 2), ("HOT", 5):
+            self.type_into("textbox", "File name", name)
+            self.type_into("textbox", "Add tag by number", str(tag))
+            self.keys("Enter")
+            self.go("Start")
+            self.click("button", "Store the mapping in the library")
+            self.go("Mapping")
+        self.open()  # as on another day
+        self.go("Start")
+        self.click("button", "COLD", "Library")
+        self.assertEqual(self.value("textbox", "File name"), "COLD")
+        cold = self.tags("Inputs")
+        self.go("Start")
+        self.focus("button", "HOT", "Library")
+        self.keys("Enter")
+        self.assertEqual(self.value("textbox", "File name"), "HOT")
+        self.assertEqual(len(self.tags("Inputs")), len(cold) + 1)
+
+    def test_takes_library_and_draft_to_another_pc(self):  # C-045
+        self.type_into("textbox", "File name", "TRAVEL")
+        self.go("Start")
+        self.click("button", "Store the mapping in the library")
+        name, octets = self.saved(lambda: self.click("button", "Export library and draft"))
+        self.browser.run("localStorage.clear()")
+        self.open()
+        self.assertEqual(json.loads(octets)["library"][0]["name"], "TRAVEL")
+        self.drop([(name, octets)])
+        self.wait_said("in the library")
+        self.go("Start")
+        self.assertTrue(self.shown("button", "TRAVEL", "Library"))
+
+    def test_restores_the_draft(self):  # C-045
+        self.type_into("textbox", "File name", "DRAFT")
+        self.open()
+        self.assertEqual(self.value("textbox", "File name"), "DRAFT")
+        self.assertIn("restored", self.said())
+
+    def test_opens_the_sample_of_gain_scheduling(self):  # C-046
+        self.go("Start")
+        self.click("button", "gain-scheduling", "Samples")
+        self.assertEqual((self.tags("Inputs"), self.tags("Outputs")), ([1], [6, 8, 9, 18, 17]))
+        self.go("Start")
+        self.tab_to("button", "gain-scheduling")
+        self.keys("Enter")
+        self.assertEqual(self.tags("Outputs"), [6, 8, 9, 18, 17])
