@@ -43,7 +43,7 @@ void ProcessData::end()
     config_ = {};
     received_ = active_ = frozen_ = {};
     inputs_ = {};
-    may_write_ = sync_ = freeze_ = clear_ = false;
+    has_outputs_ = may_write_ = sync_ = freeze_ = clear_ = false;
     end_stat_diag();
     outputs_changed_ = true;
 }
@@ -60,7 +60,7 @@ void ProcessData::receive(Bytes data)
         for (std::uint16_t& word : received_.demand) word = next();
     for (std::size_t i = 0; i < config_.layout.count; ++i)
         if (config_.layout.parameters[i].writes) received_.words[i] = next();
-    allow_writing();
+    has_outputs_ = true;
     if (!sync_) activate_received();
 }
 
@@ -74,7 +74,7 @@ void ProcessData::receive_nothing()
 void ProcessData::clear_outputs()
 {
     received_ = {};
-    allow_writing();
+    has_outputs_ = true;
     activate_received();
 }
 
@@ -88,10 +88,12 @@ void ProcessData::activate_received()
     }
     active_.demand = received_.demand;
     if (config_.demand && !finds_scales()) demand_.request(active_.demand);
+    if (has_outputs_) allow_writing();
 }
 
-/// From the first Data_Exchange or Clear_Data of this layout on; but a master that exchanges although
-/// Stat_Diag holds it off writes nothing to a drive whose scales are not known yet.
+/// From the first outputs of the master that are in force: under Sync those of a Data_Exchange are not. But a
+/// master that exchanges although Stat_Diag holds it off writes nothing to a drive whose scales are not known
+/// yet.
 void ProcessData::allow_writing()
 {
     if (finds_scales()) return;

@@ -62,6 +62,28 @@ TEST_F(ProcessData, HoldTheOutputsUnderSyncUntilSyncOrUnsync)
     EXPECT_EQ(outputs(), "00 03");
 }
 
+/// Outputs in force are 0 then, and no master has sent that 0.
+TEST_F(ProcessData, WriteNothingUnderSyncUntilOutputsOfTheMasterAreInForce)
+{
+    data.set_sync(Switch::on);
+    data.receive(octets("00 02"));
+    EXPECT_FALSE(data.take_outputs()->may_write);
+
+    data.set_sync(Switch::on);
+    const auto outputs = data.take_outputs();
+    ASSERT_TRUE(outputs);
+    EXPECT_TRUE(outputs->may_write);
+    EXPECT_EQ(outputs->words[1], 2);
+}
+
+TEST_F(ProcessData, WriteNothingBecauseOfSyncAlone)
+{
+    data.set_sync(Switch::on);
+    data.set_sync(Switch::off);
+
+    EXPECT_FALSE(data.take_outputs()->may_write);
+}
+
 TEST_F(ProcessData, HoldTheInputsUnderFreezeUntilFreezeOrUnfreeze)
 {
     input_is(0x1111);

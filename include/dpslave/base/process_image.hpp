@@ -38,8 +38,8 @@ struct Layout {
 /// words[i] belongs to layout.parameters[i]; it has a meaning only where that parameter writes.
 struct OutputImage {
     Layout layout{};
-    /// From the first Data_Exchange or Clear_Data accepted in this layout until the layout ends. Nothing is
-    /// written before.
+    /// From the first outputs of this layout that are in force, by Data_Exchange, Sync, Unsync or Clear_Data,
+    /// until the layout ends. Nothing is written before.
     bool may_write = false;
     std::array<std::uint16_t, kMaxParameters> words{};
 };

@@ -95,8 +95,9 @@ private:
     const Personality& personality_;
     Generation generations_ = 0; ///< layouts so far
     Configuration config_{};
-    Image received_{}; ///< D: the outputs as received last
-    Image active_{};   ///< N: the outputs that are in force
+    Image received_{};         ///< D: the outputs as received last
+    Image active_{};           ///< N: the outputs that are in force
+    bool has_outputs_ = false; ///< received at least once in this layout
     bool may_write_ = false;
     bool outputs_changed_ = false;
     InputImage inputs_{}; ///< of the present layout
