@@ -12,27 +12,22 @@ const id = name => document.getElementById(name);
 let picture = null; // the newest document that a follower printed
 let chosen = null; // the name of a station
 
-/// {exit, out, err} of a command. It does not reject: an exit status is an answer.
-function run(words) {
-    return new Promise(resolve => {
-        cockpit.spawn(["dpctl", ...words], { err: "message" })
-            .then(out => resolve({ exit: 0, out, err: "" }))
-            .catch((failure, out) => resolve({
-                exit: failure.exit_status ?? -1,
-                out: out ?? "",
-                err: failure.problem === "not-found" ? "dpctl is not installed." : failure.message ?? String(failure),
-            }));
-    });
-}
+const failure_text = failure => (failure.problem === "not-found" ? "dpctl is not installed." : failure.message ?? String(failure));
 
-/// The document that a command prints with --json; null: none.
-async function ask(words) {
-    const { out } = await run(["--json", ...words]);
-    try {
-        return JSON.parse(out);
-    } catch {
-        return null;
-    }
+/// The document that a command prints with --json, whatever its exit status is; null: none.
+function ask(words) {
+    const document_of = text => {
+        try {
+            return JSON.parse(text);
+        } catch {
+            return null;
+        }
+    };
+    return new Promise(resolve => {
+        cockpit.spawn(["dpctl", "--json", ...words], { err: "message" })
+            .then(out => resolve(document_of(out)))
+            .catch((failure, out) => resolve(document_of(out)));
+    });
 }
 
 // ---- live
@@ -58,7 +53,7 @@ function follow(command) {
         if (before === null || states(before) !== states(picture)) poll();
     });
     follower.then(() => ended("The connection to dpslaved ended."))
-        .catch(failure => ended(failure.problem === "not-found" ? "dpctl is not installed." : failure.message));
+        .catch(failure => ended(failure_text(failure)));
     return follower;
 }
 
@@ -109,13 +104,25 @@ async function poll() {
 
 // ---- the operator's commands
 
-async function operate(words) {
-    show_answer(id("answer"), "...");
-    const { exit, out, err } = await run(words);
-    show_answer(id("answer"), [out, err].map(text => text.trim()).filter(Boolean).join("\n"), exit);
-    poll();
+/// Shows what the command prints as it prints it: a search takes up to a minute.
+function operate(words) {
+    const place = id("answer");
+    let printed = "";
+    show_answer(place, "...");
+    cockpit.spawn(["dpctl", ...words], { err: "out" })
+        .stream(text => show_answer(place, printed += text))
+        .then(() => show_answer(place, printed))
+        .catch(failure => show_answer(place, printed || failure_text(failure), failure.exit_status ?? -1))
+        .finally(poll);
 }
 const of_station = () => (chosen === null ? [] : ["--station", chosen]);
+
+/// The consent that dpctl asks for. It holds for one command only.
+function consent() {
+    const given = id("yes").checked;
+    id("yes").checked = false;
+    return given ? ["--yes"] : [];
+}
 
 id("station").addEventListener("change", event => {
     chosen = event.target.value;
@@ -131,9 +138,9 @@ id("access").addEventListener("submit", event => {
 });
 id("tec").addEventListener("submit", event => {
     event.preventDefault();
-    operate(["tec", "set", ...of_station(), id("tec-name").value, id("tec-value").value]);
+    operate(["tec", "set", ...consent(), ...of_station(), id("tec-name").value, id("tec-value").value]);
 });
-id("probe").addEventListener("click", () => operate(["doctor", "--probe", ...(chosen === null ? [] : [chosen])]));
+id("probe").addEventListener("click", () => operate(["doctor", "--probe", ...consent(), ...(chosen === null ? [] : [chosen])]));
 id("dry-run").addEventListener("click", () => operate(["reload", "--dry-run"]));
 id("reload").addEventListener("click", () => operate(["reload"]));
 

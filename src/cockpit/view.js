@@ -92,8 +92,11 @@ export function show_doctor(place, doctor) {
         return part;
     });
     if (parts.length === 0) parts.push(element("p", "All is well."));
-    for (const note of doctor.notes)
-        parts.push(element("p", `${note.station === null ? "" : note.station + ": "}${note.cause} ${note.evidence}`));
+    for (const note of doctor.notes) {
+        const part = element("div", "");
+        part.append(element("p", `${note.station === null ? "" : note.station + ": "}${note.cause}`), element("p", note.evidence));
+        parts.push(part);
+    }
     place.replaceChildren(...parts);
 }
 
@@ -105,7 +108,8 @@ export function show_tec(form, select, tec) {
     select.replaceChildren(...names.map(name => new Option(name, name)));
 }
 
+/// `exit`: 0 while the command runs and after it succeeded.
 export function show_answer(place, text, exit = 0) {
-    place.textContent = text || (exit === 0 ? "Done." : `dpctl ended with ${exit}.`);
+    place.textContent = text.trim() || (exit === 0 ? "Done." : `dpctl ended with ${exit}.`);
     place.className = exit === 0 ? "" : "trouble";
 }

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""run.py ROOT PROGRAMS [PAGE]: Cockpit's page of dpslaved in Chromium, as an operator and as a user without rights
+"""run.py ROOT PROGRAMS [PAGE [PICTURES]]: Cockpit's page of dpslaved in Chromium, as an operator and as a user without rights
 
 PROGRAMS  the folder with dpslaved, dpctl and dpsim
 PAGE      the folder with configurator.html and its manifest.json; without it that page is not tested
+PICTURES  the folder that gets the picture of the guide; without it none is taken
 """
 import pathlib
 import signal
@@ -13,10 +14,11 @@ import unittest
 
 from selenium import webdriver
 from selenium.webdriver.common.by import By
+from selenium.webdriver.support.ui import Select
 
 from world import OPERATORS, World, wait_for
 
-ROOT, PROGRAMS, PAGE = None, None, None
+ROOT, PROGRAMS, PAGE, PICTURES = None, None, None, None
 setting = {}
 
 
@@ -77,6 +79,16 @@ class Session(unittest.TestCase):
 
         wait_for(answered, word)
 
+    def choose(self, station):
+        self.sees("#station", station)
+        Select(self.browser.find_element(By.ID, "station")).select_by_value(station)
+
+    def set_tec(self, name, value):
+        wait_for(lambda: self.browser.find_element(By.ID, "tec").is_displayed(), "the form of the TEC OPTION")
+        Select(self.browser.find_element(By.ID, "tec-name")).select_by_visible_text(name)
+        self.browser.find_element(By.ID, "tec-value").send_keys(value)
+        self.press("tec-set")
+
     def enter(self, tag, value=""):
         for name, text in (("tag", tag), ("value", value)):
             field = self.browser.find_element(By.ID, name)
@@ -89,13 +101,16 @@ class Looking(Session):
 
     def test_stations_values_lamps_diagnosis_and_doctor_are_shown(self):
         self.open()
-        self.sees("#daemon", "19.2 kbit/s", "1 of 1 stations are in data exchange")
+        self.sees("#daemon", "19.2 kbit/s", "1 of 2 stations are in data exchange")
         self.sees("#stations", "unwinder", "Data_Exch", "answers")
         self.sees("#values", "55", "12.5", "good")
         self.sees("#stations", "red", "green")
         self.sees("#diagnosis", "Octet 1")
         wait_for(lambda: self.text("#doctor") != "", "the doctor")
         self.assertEqual(self.complaints(), [])
+        if PICTURES is not None:
+            self.browser.set_window_size(1000, 1100)
+            self.browser.save_screenshot(str(PICTURES / "cockpit.png"))
 
     def test_a_changed_value_is_shown_without_a_reload(self):
         self.open()
@@ -136,6 +151,12 @@ class Restart(Session):
 
 
 class WithoutRights(Session):
+    def test_an_input_of_the_tec_option_is_not_set(self):
+        self.open()
+        self.choose("winder")
+        self.set_tec("RIDE THROUGH", "2")
+        self.sees("#answer", "dpctl: only root and members of the group")
+
     def test_the_refusal_of_dpctl_is_shown_as_its_sentence(self):
         self.open()
         self.sees("#stations", "Data_Exch")
@@ -163,6 +184,32 @@ class Operator(Session):
         self.enter("62", "9.5")
         self.press_until("write", "9.5")
         wait_for(lambda: "tag 62 written" in self.world.said("drive"), "the drive has it")
+
+    def test_an_input_of_the_tec_option_is_set(self):
+        self.open()
+        self.choose("winder")
+        self.set_tec("UNUSED 1", "1234")
+        wait_for(lambda: self.world.tec("winder", "UNUSED 1") == 1234, "the input")
+
+    def test_only_a_technology_box_has_the_form_of_the_tec_option(self):
+        self.open()
+        self.choose("winder")
+        self.choose("unwinder")
+        wait_for(lambda: not self.browser.find_element(By.ID, "tec").is_displayed(), "no form")
+
+    def test_a_search_that_stops_the_requests_to_other_drives_needs_consent(self):
+        self.open()
+        self.choose("winder")
+        self.press("probe")
+        self.sees("#answer", "unwinder", "add --yes")
+
+    def test_a_search_shows_at_once_how_long_it_may_take(self):
+        self.open()
+        self.choose("winder")
+        self.press("yes")
+        self.press("probe")
+        self.sees("#answer", "searching for the drive of winder", "at most")
+        self.assertFalse(self.browser.find_element(By.ID, "yes").is_selected(), "the consent is for one command")
 
     def test_what_the_drive_refuses_is_shown(self):
         self.open()
@@ -197,12 +244,12 @@ class Configurator(Session):
 
 
 def main():
-    global ROOT, PROGRAMS, PAGE
-    if len(sys.argv) not in (3, 4):
+    global ROOT, PROGRAMS, PAGE, PICTURES
+    if not 3 <= len(sys.argv) <= 5:
         print(__doc__, file=sys.stderr)
         return 2
-    ROOT, PROGRAMS = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
-    PAGE = pathlib.Path(sys.argv[3]).resolve() if len(sys.argv) == 4 else None
+    places = [pathlib.Path(word).resolve() for word in sys.argv[1:]]
+    ROOT, PROGRAMS, PAGE, PICTURES = places + [None] * (4 - len(places))
     return 0 if unittest.main(argv=sys.argv[:1], exit=False, verbosity=2).result.wasSuccessful() else 1
 
 

@@ -62,14 +62,16 @@ class World:
         return self.start(name, self.programs / "real-dpsim", *words)
 
     def bring_up(self):
-        """Station "unwinder" in data exchange; the drive has 12.5 in tag 55."""
+        """Station "unwinder" in data exchange; the drive has 12.5 in tag 55. Station "winder" is a technology box that no master
+        and no drive knows."""
         self.dpsim("bus", "line", "--baud", 19200, "--a", "bus-plc", "--b", "bus-gateway")
         self.dpsim("cable", "line", "--baud", 9600, "--bits", 10, "--a", "drive-end", "--b", "drive-gateway")
         for name in ("bus", "cable"):
             wait_for(lambda name=name: "ready" in self.said(name), f"{name} ready")
-        table = self.root / "config/tags/example.csv"
+        for table in ("example.csv", "empty.csv"):
+            shutil.copy(self.root / "config/tags" / table, self.folder)
         self.drive = self.dpsim("drive", "drive", "--profile", "590", "--port", "drive-end", "--baud", 9600,
-                                "--table", table, "--log")
+                                "--table", "example.csv", "--log")
         wait_for(lambda: "ready" in self.said("drive"), "the drive")
         self.drive.stdin.write(b"set 55 12.50\n")
         self.drive.stdin.flush()
@@ -80,7 +82,7 @@ class World:
                 (led / name).write_text(text + "\n")
         (self.folder / "test.toml").write_text(f"""
 [bus]
-port = "{self.folder}/bus-gateway"
+port = "bus-gateway"
 baud = 19200
 direction = "none"
 [leds]
@@ -90,7 +92,7 @@ socket = "{self.folder}/control.sock"
 operator_group = "{OPERATORS}"
 [[line]]
 name = "p3"
-port = "{self.folder}/drive-gateway"
+port = "drive-gateway"
 protocol = "ei-ascii"
 baud = 9600
 [[station]]
@@ -99,10 +101,17 @@ address = 5
 profile = "590"
 line = "p3"
 unit = "00"
-tags = "{table}"
+tags = "example.csv"
 [station.leds]
 red = "led:red"
 green = "led:green"
+[[station]]
+name = "winder"
+address = 6
+profile = "605"
+line = "p3"
+unit = "01"
+tags = "empty.csv"
 """)
         self.start_daemon()
         (self.folder / "script").write_text("start 30s\nout 1 = 500\nrun 600s\n")
@@ -116,13 +125,18 @@ green = "led:green"
         wait_for((self.folder / "control.sock").exists, "the daemon")
 
     def exchanges(self):
-        wait_for(lambda: subprocess.run([self.programs / "dpctl", "status", "--wait", "0", "--quiet", "--drive"],
+        wait_for(lambda: subprocess.run([self.programs / "dpctl", "status", "unwinder", "--wait", "0", "--quiet", "--drive"],
                                         check=False).returncode == 0, "data exchange")
 
     def causes(self):
         """Those that the doctor names now."""
         said = subprocess.run([self.programs / "dpctl", "--json", "doctor"], check=False, stdout=subprocess.PIPE).stdout
         return [finding["cause"] for finding in json.loads(said)["findings"]]
+
+    def tec(self, station, name):
+        """The value of a row of the TEC OPTION, as dpctl shows it."""
+        said = subprocess.run([self.programs / "dpctl", "--json", "show", station], check=True, stdout=subprocess.PIPE).stdout
+        return next(row["value"] for row in json.loads(said)["stations"][0]["tec"]["rows"] if row["name"] == name)
 
     def packages(self, page):
         """Those of Cockpit, as the Debian packages have them; `page`: the configurator and its manifest, or None."""
