@@ -28,6 +28,7 @@ function firstState(ask) {
         screen: 'mapping', // start, mapping, check
         history: newHistory(standardDocument(ask)),
         selectedList: 'in', selectedAt: -1, // the list that is selected, and the place of the chosen parameter in the telegram
+        inTelegramOrder: false, // one list with all parameters instead of one for each direction
         tab: null, query: '', treeTag: null, // the tree
         live: 'GSD file', // the tab of the live pane
         hints: keptText('hints') !== 'off',
@@ -72,9 +73,11 @@ function commands(app) {
         },
         /** What was dragged to a list: {tag} from the tree, {from} from a list. */
         dropOn({ list, row, behind }, { tag, from }) {
-            const direction = list.dataset.drop;
             const before = row?.dataset.at === undefined ? null : Number(row.dataset.at) + (behind ? 1 : 0);
-            if (from === undefined) app.edit.add(tag, direction, before);
+            const inTelegram = list.dataset.drop === 'telegram';
+            const direction = inTelegram ? store.state().selectedList : list.dataset.drop;
+            if (from !== undefined && inTelegram) app.edit.moveInTelegram(from, before ?? undefined);
+            else if (from === undefined) app.edit.add(tag, direction, before);
             else app.edit.move(from, direction, before);
         },
         showEntry(at) {

@@ -2,6 +2,7 @@
 // What the user does to the mapping. Each action is one step of the history and says what happened.
 import {
     addEntry, clearDirection, documentOf, kListNames, moveEntry, placesOf, removeEntry, setField, stepEntry,
+    stepInTelegram,
 } from '../mapping/model.js';
 import { newHistory, push, redo, seal, undo } from '../mapping/history.js';
 
@@ -36,6 +37,11 @@ export function editing({ store, ask, say }) {
         say([`${nameOf(document, at)} ${what} ${kListNames[direction]}, place ${placeOf(document, at)}.`, ...errors].join(' '));
     }
 
+    function stepped({ document, at }) {
+        step(document, select(document.list[at].direction, at));
+        say(`${nameOf(document, at)} is now parameter ${at + 1} of ${document.list.length} in the telegram.`);
+    }
+
     return {
         add(tag, direction = store.state().selectedList, before = null) {
             const { document, at } = addEntry(present(), direction, tag, before);
@@ -57,6 +63,16 @@ export function editing({ store, ask, say }) {
             if (!moved) return say(`It is already ${by < 0 ? 'the first' : 'the last'} of the ${kListNames[present().list[from].direction]}.`);
             step(moved.document, select(moved.document.list[moved.at].direction, moved.at));
             told(moved.document, moved.at, 'is now in');
+        },
+        /** Before another entry of the telegram, or behind the last one. The direction stays. */
+        moveInTelegram(from, before = present().list.length) {
+            if (before === from || before === from + 1) return;
+            stepped(moveEntry(present(), from, present().list[from].direction, before));
+        },
+        stepInTelegram(from, by) {
+            const moved = stepInTelegram(present(), from, by);
+            if (!moved) return say(`It is already the ${by < 0 ? 'first' : 'last'} parameter of the telegram.`);
+            return stepped(moved);
         },
         remove(from) {
             const { direction } = present().list[from];

@@ -81,6 +81,13 @@ export function stepEntry(document, from, step) {
     return moveEntry(document, from, direction, step < 0 ? other : other + 1);
 }
 
+/** Moves an entry by one place up (-1) or down (+1) in the telegram, whatever its neighbour's direction. Null: it is at that end. */
+export function stepInTelegram(document, from, step) {
+    const to = from + step;
+    if (to < 0 || to >= document.list.length) return null;
+    return moveEntry(document, from, document.list[from].direction, step < 0 ? to : to + 1);
+}
+
 /** Removes one entry. */
 export function removeEntry(document, from) {
     return withList(document, document.list.filter((_, at) => at !== from));

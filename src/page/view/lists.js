@@ -2,10 +2,13 @@
 // The lists of the mapping: inputs, outputs, and on technology boxes the third one, read and write.
 import { kDirections, kListNames, placesOf } from '../mapping/model.js';
 import { demandText } from './about.js';
-import { area, button, h, hueOf, setText } from './dom.js';
+import { area, button, h, setText } from './dom.js';
 import { makeDraggable } from './drag.js';
 import { listbox } from './listbox.js';
 import { openMenu } from './menu.js';
+import { orderView } from './order.js';
+import { entryRow } from './rows.js';
+import { tabs } from './tabs.js';
 
 /** The headings of the lists. */
 export const kTitles = { in: 'Inputs', out: 'Outputs', 'in-out': 'Read and write' };
@@ -134,40 +137,33 @@ function listView(app, direction) {
     };
 }
 
-/** Where a parameter is in the telegrams. */
-function octetText(facts) {
-    if (facts?.in && facts.out) return `octet ${facts.in[0]} in, ${facts.out[0]} out`;
-    const pair = facts?.in ?? facts?.out;
-    return pair ? `octet ${pair[0]}` : '';
-}
-
 function rowsOf(preview, document, direction) {
-    return placesOf(document, direction).map((at, place) => {
-        const found = preview.findings.filter((one) => one.at === at);
-        const facts = preview.parameters[at];
-        const octets = octetText(facts);
-        const severity = found.some((one) => one.severity === 'error') ? 'error' : 'warning';
-        return h('div', {
-            role: 'option', id: `${direction}-${at}-${document.list[at].tag}`, class: found.length > 0 ? `row ${severity}` : 'row',
-            'aria-selected': 'false', 'data-at': at, 'data-tag': document.list[at].tag,
-            title: found.map((one) => one.text).join(' '),
-        },
-        h('span', { class: 'grip', 'aria-hidden': 'true' }, '⠿'),
-        h('span', { class: 'unseen' }, `${place + 1}.`),
-        h('span', { class: hueOf(at + 1), 'aria-hidden': 'true' }, String(at + 1)),
-        h('span', { class: 'number' }, String(document.list[at].tag)),
-        h('span', { class: 'name' }, facts?.name || `tag ${document.list[at].tag}`),
-        found.length > 0 ? h('span', { class: 'severity' }, severity) : null,
-        octets ? h('span', { class: 'about' }, octets) : null);
-    });
+    return placesOf(document, direction).map((at, place) => entryRow(preview, document, at, { list: direction, place }));
 }
 
-/** All lists of the mapping. */
+const kWays = ['By direction', 'In telegram order'];
+
+/** All lists of the mapping, by direction or as one. */
 export function listsView(app) {
     const views = kDirections.map((direction) => [direction, listView(app, direction)]);
+    const order = orderView(app);
+    const panel = h('div', { class: 'lists' }, views.map(([, view]) => view.element), order.element);
+    const strip = tabs('Lists', panel, (way) => app.store.change({ inTelegramOrder: way === kWays[1] }));
     return {
-        element: h('div', { class: 'lists' }, views.map(([, view]) => view.element)),
-        update(state) { for (const [, view] of views) view.update(state); },
-        focusList: (direction) => views.find(([one]) => one === direction)[1].list.focus(),
+        element: h('div', { class: 'lists' }, strip.list, panel),
+        update(state) {
+            strip.show(kWays, kWays[state.inTelegramOrder ? 1 : 0]);
+            order.element.hidden = !state.inTelegramOrder;
+            if (state.inTelegramOrder) order.update(state);
+            for (const [, view] of views) {
+                if (state.inTelegramOrder) view.element.hidden = true;
+                else view.update(state);
+            }
+        },
+        /** The focus goes to the list of a direction, or to the one that has all. */
+        focusList(direction) {
+            if (app.store.state().inTelegramOrder) order.list.focus();
+            else views.find(([one]) => one === direction)[1].list.focus();
+        },
     };
 }
