@@ -23,6 +23,8 @@ test_packages=(libgtest-dev libgmock-dev systemd udev binutils python3 python3-p
 
 # What the page of the GSD configurator needs beside that.
 page_packages=(clang lld wasi-libc libc++-dev-wasm32 libclang-rt-dev-wasm32 esbuild python3)
+# What drives the page in Chromium (tests/page/browser.py).
+chromium_packages=(chromium chromium-driver)
 
 # Installs those of the named packages that are missing; asks nothing, and touches apt only when it must.
 install_missing() {
@@ -70,4 +72,13 @@ build() {
     say "Building ($preset)"
     cmake --preset "$preset" >/dev/null || cmake --preset "$preset"
     cmake --build --preset "$preset" ${*:+--target "$@"}
+}
+
+# Builds the page of the GSD configurator in a folder of its own: build/release stays without it. Further words are targets.
+build_page() {
+    local folder=$1
+    shift
+    say "Building the page ($folder)"
+    cmake -S . -B "$folder" -G Ninja -DDPSLAVE_CONFIGURATOR=ON -DBUILD_TESTING=OFF >/dev/null
+    cmake --build "$folder" --target configurator "$@"
 }

@@ -135,21 +135,23 @@ class WebDriver(Browser):
 class Chromium(WebDriver):
     name = "chromium"
 
-    def __init__(self):
+    def __init__(self, logs=True, arguments=()):
+        """Without `logs` the driver does not watch console and network: a measurement would see its work."""
         def capabilities(folder):
             return {
-                "goog:loggingPrefs": {"browser": "ALL", "performance": "ALL"},
+                "goog:loggingPrefs": {"browser": "ALL", "performance": "ALL"} if logs else {},
                 "goog:chromeOptions": {
                     "binary": "/usr/bin/chromium",
                     "args": ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-background-networking",
-                             "--window-size=1280,900", "--force-device-scale-factor=1", f"--user-data-dir={folder}/profile"],
+                             "--window-size=1280,900", "--force-device-scale-factor=1", f"--user-data-dir={folder}/profile", *arguments],
                     "prefs": {"download.default_directory": f"{folder}/downloads"},
                 },
             }
         super().__init__(["chromedriver"], capabilities)
         self.downloads = pathlib.Path(self.folder, "downloads")
         self.open("about:blank")
-        self.requests()
+        if logs:
+            self.requests()
 
     def quit(self):
         if self.session:
