@@ -139,7 +139,7 @@ def words_of_the_caller():
     parser.add_argument("--opens", type=int, default=5, help="openings of each page in a block")
     parser.add_argument("--seed", type=int, default=14, help="of the order of the pages")
     parser.add_argument("--paced", action="store_true", help="with the 60 frames per second of a screen")
-    parser.add_argument("--quick", action="store_true", help="a look: three blocks with one opening each")
+    parser.add_argument("--quick", action="store_true", help="a look that judges nothing: three blocks of one opening each")
     parser.add_argument("--json", type=pathlib.Path, metavar="FILE", help="also writes the figures there")
     words = parser.parse_args()
     if words.quick:
@@ -165,7 +165,7 @@ def main():
     show(found)
     if words.json:
         words.json.write_text(json.dumps({**told, "each_block": blocks}, indent=1) + "\n", encoding="utf-8")
-    off = [name for name, one in found.items() if abs(one["a_a"] - 1) > ERROR]
+    off = [] if words.quick else [name for name, one in found.items() if abs(one["a_a"] - 1) > ERROR]
     if off:
         print(f"A/A of {', '.join(off)} is more than {ERROR} from 1: measure again on a machine without other load.")
     return 1 if off else 0
