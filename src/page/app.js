@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page put together: the state, the actions, the views, and the one place where the views learn of a new state.
+import { drafting } from './actions/draft.js';
 import { editing, standardDocument } from './actions/edit.js';
 import { opening } from './actions/files.js';
 import { keeping } from './actions/library.js';
@@ -10,7 +11,7 @@ import { newHistory } from './mapping/history.js';
 import { mappingOf } from './mapping/model.js';
 import { questions } from './questions.js';
 import { newStore } from './store.js';
-import { footView, headView, noticeView } from './view/bars.js';
+import { footView, headView, noticeView, otherDraftView } from './view/bars.js';
 import { checkView } from './view/check.js';
 import { detailsView } from './view/details.js';
 import { h } from './view/dom.js';
@@ -35,6 +36,7 @@ function firstState(ask) {
         library: [], storage: true, restored: false,
         sides: [null, null], // the files that are checked
         saved: '', // the mapping that was saved last
+        otherDraft: null, // the draft of another window, as long as it is not decided which one stays
         notice: null, said: { text: '', severity: '' },
     };
 }
@@ -105,13 +107,13 @@ function mappingScreen(app) {
 }
 
 function build(app) {
-    const [head, notice, foot] = [headView(app), noticeView(app), footView(app)];
+    const [head, notice, other, foot] = [headView(app), noticeView(app), otherDraftView(app), footView(app)];
     const screens = { start: startView(app), mapping: mappingScreen(app), check: checkView(app) };
     const main = h('main', { id: 'page', tabIndex: -1 }, Object.values(screens).map((one) => one.element));
-    document.body.replaceChildren(h('div', { class: 'scroll' }, head.element, notice.element, main), foot.element);
+    document.body.replaceChildren(h('div', { class: 'scroll' }, head.element, other.element, notice.element, main), foot.element);
     main.append(app.picker);
     app.store.subscribe((state) => {
-        for (const view of [head, notice, foot]) view.update(state);
+        for (const view of [head, notice, other, foot]) view.update(state);
         for (const [name, screen] of Object.entries(screens)) {
             const left = name !== state.screen && screen.element.contains(document.activeElement);
             screen.element.hidden = name !== state.screen;
@@ -130,6 +132,7 @@ export function startApp(call) {
     const app = { ask, store, say, notify };
     app.edit = editing(app);
     app.library = keeping(app);
+    app.draft = drafting({ ...app, collect: app.library.add });
     app.save = saving(app);
     app.files = opening({ ...app, chooseProfile: (name, why, names) => chooseProfile(name, why, names, ask.profile) });
     Object.assign(app, commands(app));
@@ -142,18 +145,21 @@ export function startApp(call) {
 }
 
 function restore(app) {
-    const { draft, library } = app.library.restored();
+    const draft = app.draft.restored();
     let kept = null;
     app.store.subscribe(({ history }) => {
         if (history.present === kept) return;
         kept = history.present;
-        app.library.keepDraft(kept);
+        app.draft.keep(kept);
     });
     app.library.watch();
+    app.draft.watch();
     const { lists } = app.ask.profile(draft?.profile ?? '2408f');
     app.store.change({
-        library, restored: draft !== null, selectedList: lists[0],
+        library: app.library.restored(), restored: draft !== null, selectedList: lists[0],
         ...(draft && { history: newHistory(draft) }),
-        said: { text: draft ? `The draft ${draft.name} was restored.` : 'The standard mapping EURO2400 is open.', severity: '' },
     });
+    const others = app.draft.collected();
+    app.say([draft ? `The draft ${draft.name} was restored.` : 'The standard mapping EURO2400 is open.',
+        others.length > 0 ? `The library has what other windows had kept: ${others.join(', ')}.` : ''].join(' ').trim());
 }

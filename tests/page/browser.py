@@ -101,6 +101,22 @@ class WebDriver(Browser):
     def open(self, address):
         self.post("/url", {"url": address})
 
+    def window(self):
+        """The window that all else is about."""
+        return self._send("GET", self.session + "/window")
+
+    def go_to(self, window):
+        self.post("/window", {"handle": window})
+
+    def new_window(self):
+        """Opens a further window and goes to it."""
+        self.go_to(self.post("/window/new", {"type": "window"})["handle"])
+
+    def close_window(self, window):
+        """Closes the window that all else is about, and goes to another one."""
+        self._send("DELETE", self.session + "/window")
+        self.go_to(window)
+
     def run(self, body, *words):
         script = ("const words = [...arguments], done = words.pop();"
                   f"(async () => {{ {body} }})().then((value) => done({{ value }}), (error) => done({{ error: String(error) }}));")
@@ -244,6 +260,20 @@ class Firefox(Browser):
                     return line.removeprefix(sign).strip() + "/session"
             time.sleep(0.05)
         raise RuntimeError("Firefox does not listen")
+
+    def window(self):
+        return self.context
+
+    def go_to(self, window):
+        self.context = window
+        self.bidi.send("browsingContext.activate", context=window)
+
+    def new_window(self):
+        self.go_to(self.bidi.send("browsingContext.create", type="window")["context"])
+
+    def close_window(self, window):
+        self.bidi.send("browsingContext.close", context=self.context)
+        self.go_to(window)
 
     def open(self, address):
         self.bidi.send("browsingContext.navigate", context=self.context, url=address, wait="complete")

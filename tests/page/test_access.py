@@ -53,6 +53,13 @@ class Access(screen.PageTest):
         self.wait_said("was not opened")
         self.findings("notice")
 
+    def test_the_question_about_another_draft_has_no_findings(self):
+        self.js("""const key = 'dpslaved.configurator.draft';
+            const newValue = localStorage.getItem(key).replace('EURO2400', 'OTHER');
+            dispatchEvent(new StorageEvent('storage', { key, newValue }))""")
+        self.assertIn("OTHER", self.notice())
+        self.findings("another draft")
+
     def test_the_browser_computes_the_names_by_which_the_tests_find_parts(self):
         if self.browser.name != "chromium":
             self.skipTest("of Chromium's driver")

@@ -1,29 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// The library of several files for one instrument, and the draft: kept by the browser, exported and imported as one file.
+// The library of several files for one instrument: kept by the browser, exported and imported as one file with the draft.
 import { documentOf, mappingOf } from '../mapping/model.js';
 import { isSame, merged, readKept, textOf, withDocument } from '../mapping/keeping.js';
 import { keep, keptText, onKeptElsewhere } from '../files/storage.js';
 
-/** The actions with library and draft. */
+/** The actions with the library. */
 export function keeping({ store, ask, say, notify, edit }) {
     const known = (document) => document !== null && ask.profile(document.profile) !== undefined;
     const copyOf = ({ name, table, ...rest }) => documentOf(name, mappingOf(rest), [], table);
 
+    const stamp = () => new Date().toISOString().slice(0, 16).replace('T', ' ');
+
     function setLibrary(library) {
-        store.change({ library, storage: keep('library', textOf({ library })) });
+        const storage = keep('library', textOf({ library }));
+        store.change({ library, storage });
+        return storage;
     }
 
     return {
-        /** What the browser has kept: {draft, library}. */
+        /** What the browser has kept. */
         restored() {
-            const draft = readKept(keptText('draft') ?? '')?.draft ?? null;
             const library = readKept(keptText('library') ?? '')?.library ?? [];
-            return { draft: known(draft) ? draft : null, library: library.filter((one) => known(one.document)) };
-        },
-        /** Keeps the draft; the state says whether the browser can. */
-        keepDraft(document) {
-            const storage = keep('draft', textOf({ draft: document }));
-            if (storage !== store.state().storage) store.change({ storage });
+            return library.filter((one) => known(one.document));
         },
         watch: () => onKeptElsewhere('library', (text) => {
             const kept = readKept(text);
@@ -31,9 +29,11 @@ export function keeping({ store, ask, say, notify, edit }) {
         }),
         store() {
             const document = store.state().history.present;
-            setLibrary(withDocument(store.state().library, document, new Date().toISOString().slice(0, 16).replace('T', ' ')));
+            setLibrary(withDocument(store.state().library, document, stamp()));
             say(`${document.name} was stored in the library.`);
         },
+        /** Adds a document; one of the same name with other content stays. False: the browser cannot keep it. */
+        add: (document) => setLibrary(merged(store.state().library, [{ document, stored: stamp() }])),
         open: (entry) => edit.open(copyOf(entry.document), `${entry.document.name} was opened from the library.`),
         remove(entry) {
             setLibrary(store.state().library.filter((one) => !isSame(one, entry)));

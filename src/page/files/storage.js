@@ -22,6 +22,24 @@ export function keep(name, text) {
     }
 }
 
+/** The names, under which a text is kept, that start so. */
+export function keptNames(start) {
+    try {
+        return Object.keys(localStorage).filter((key) => key.startsWith(kPrefix + start)).map((key) => key.slice(kPrefix.length));
+    } catch {
+        return [];
+    }
+}
+
+/** Keeps the text under a name no longer. */
+export function forget(name) {
+    try {
+        localStorage.removeItem(kPrefix + name);
+    } catch {
+        // without storage nothing was kept
+    }
+}
+
 /** Calls a function when another window of the page keeps a text under this name. */
 export function onKeptElsewhere(name, listener) {
     addEventListener('storage', (event) => {

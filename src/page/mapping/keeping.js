@@ -66,6 +66,11 @@ export function isSame(one, other) {
 
 const contentOf = (document) => JSON.stringify([mappingOf(document), document.table]);
 
+/** Whether two documents are the same draft. */
+export function isSameDraft(one, other) {
+    return one.name === other.name && contentOf(one) === contentOf(other);
+}
+
 /** The library with the entries of another one. One that has the name but not the content of an old one gets a further name. */
 export function merged(library, entries) {
     let all = library;

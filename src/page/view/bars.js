@@ -81,6 +81,27 @@ export function noticeView(app) {
     };
 }
 
+/** Another window has changed the draft: it is taken, or this window keeps its own. */
+export function otherDraftView(app) {
+    const title = h('strong', {});
+    const answer = (action) => () => {
+        action();
+        document.getElementById('page').focus({ preventScroll: true }); // the button that had the focus is gone
+    };
+    const box = h('div', { class: 'notice warning', hidden: true, 'data-other-draft': '' },
+        h('div', {}, h('p', {}, title), h('p', {}, 'If you take it, undo brings back the mapping of this window. If you keep this one, ' +
+            'the library has it when the page is opened again.')),
+        h('div', { class: 'bar' }, button('Take the other draft', answer(() => app.draft.takeOther())),
+            button('Keep this one', answer(() => app.draft.keepOwn()))));
+    return {
+        element: h('div', { role: 'alert' }, box),
+        update({ otherDraft }) {
+            box.hidden = !otherDraft;
+            if (otherDraft) setText(title, otherDraft.title);
+        },
+    };
+}
+
 /** The foot: what happened, and the hint. */
 export function footView(app) {
     const said = h('p', { id: 'said', role: 'status', 'aria-live': 'polite' });
