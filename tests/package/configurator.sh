@@ -23,7 +23,9 @@ policy=$(grep -oE 'Content-Security-Policy" content="[^"]+"' "$page") || fail "t
 case $policy in *"default-src 'none'"*) ;; *) fail "the page may ask the network: $policy" ;; esac
 ! grep -qE '<(script|link|img|iframe)[^>]+(src|href)="?(https?:)?//' "$page" || fail "the page loads something from elsewhere"
 ! grep -qF "$root" "$page" || fail "a path of the machine that built it is in the page"
-[ "$(wc -c <"$page")" -gt 100000 ] || fail "the page is too small to have the libraries"
+size=$(wc -c <"$page")
+[ "$size" -gt 100000 ] || fail "the page has $size octets: too few to have the libraries"
+[ "$size" -le 800000 ] || fail "the page has $size octets: 800 000 at most, so that it opens at once on an old PC"
 
 [ "$(sed -n 's/^Exec=xdg-open //p' "$entry")" = "/$page" ] || fail "the menu opens another file"
 ! command -v desktop-file-validate >/dev/null || desktop-file-validate "$entry" || fail "the menu entry is faulty"
