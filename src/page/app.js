@@ -3,6 +3,7 @@
 import { drafting } from './actions/draft.js';
 import { editing, standardDocument } from './actions/edit.js';
 import { opening } from './actions/files.js';
+import { keptNotes } from './actions/kept.js';
 import { keeping } from './actions/library.js';
 import { saving } from './actions/saving.js';
 import { copyText } from './files/clipboard.js';
@@ -19,7 +20,7 @@ import { watchFaults, watchInput } from './view/input.js';
 import { listsView } from './view/lists.js';
 import { liveView } from './view/live.js';
 import { watchMenus } from './view/menu.js';
-import { print } from './view/paper.js';
+import { print, watchPrint } from './view/paper.js';
 import { askPrint, askSave, chooseProfile } from './view/questions.js';
 import { startView } from './view/start.js';
 import { treeView } from './view/tree.js';
@@ -33,7 +34,8 @@ function firstState(ask) {
         tab: null, query: '', treeTag: null, // the tree
         live: 'GSD file', // the tab of the live pane
         hints: keptText('hints') !== 'off',
-        library: [], storage: true, restored: false,
+        library: [], restored: false,
+        kept: { draft: true, library: true }, // whether the browser has kept the newest one
         sides: [null, null], // the files that are checked
         saved: '', // the mapping that was saved last
         otherDraft: null, // the draft of another window, as long as it is not decided which one stays
@@ -130,6 +132,7 @@ export function startApp(call) {
     const say = (text, severity = '') => store.change({ said: { text, severity } });
     const notify = (severity, title, sentences) => store.change({ notice: { severity, title, sentences }, said: { text: title, severity } });
     const app = { ask, store, say, notify };
+    app.noteKept = keptNotes(app);
     app.edit = editing(app);
     app.library = keeping(app);
     app.draft = drafting({ ...app, collect: app.library.add });
@@ -140,6 +143,7 @@ export function startApp(call) {
     watchMenus();
     watchInput(app);
     watchFaults(notify);
+    watchPrint(app);
     restore(app);
     return app;
 }

@@ -32,6 +32,7 @@ SCRIPT = [
     (r"\bFloat16Array\b", "new Float16Array(1)"),  # 135, 129
     (r"\bJSON\.(rawJSON|isRawJSON)\b", "JSON.rawJSON('1')"),  # 114, 135
     (r"[pP]opover", "menu.showPopover()"),  # 114, 125
+    (r"beforeunload(?![\s\S]{0,600}returnValue)", "addEventListener('beforeunload', (event) => event.preventDefault())"),  # Chrome 119
     (r"\b(commandForElement|commandfor)\b", "button.commandForElement = menu"),  # 135, 144
     (r"\bAbortSignal\.any\b", "AbortSignal.any(list)"),  # 116, 124
     (r"\bscheduler\.", "scheduler.yield()"),  # 94, 142

@@ -69,6 +69,12 @@ class Lists(screen.PageTest):
         self.assertGreaterEqual(len(shown), min(20, len(numbers)))
         self.assertIn(f"{len(numbers)} parameters", self.text("region", "Device parameters"))
 
+    def test_the_tabs_are_reached_by_the_keyboard_while_one_searches(self):
+        tabs = self.names("tab", "Device parameters")
+        self.click("tab", tabs[2])
+        self.search("setpoint")
+        self.tab_to("tab", tabs[0])
+
     def test_the_search_finds_by_number_name_and_words(self):
         self.search("proportional band")
         found = self.tags("Parameters")

@@ -117,6 +117,25 @@ class Start(screen.PageTest):
         self.assertEqual(screen.dpctl("gsd", "make", "--mapping", "FILE", text=octets),
                          screen.dpctl("gsd", "make", "--profile", "2408f", "--ident", "0x1652"))
 
+    def test_takes_an_ident_number_as_hexadecimal_with_and_without_0x(self):
+        wanted = screen.dpctl("gsd", "make", "--profile", "2408f", "--ident", "0x1652")
+        for typed in "1652", "0x1652", "  0X1652 ":
+            self.type_into("textbox", "Ident_Number", typed)
+            self.keys("Tab")
+            self.assertEqual(self.value("textbox", "Ident_Number"), "0x1652")
+            self.assertRegex(self.text("region", "Text of the GSD file"), r"Ident_Number +\= 0x1652")
+        self.keys("Control+Shift+s")
+        self.js("document.querySelector('dialog[open] input[type=text]').focus()")
+        self.assertEqual(self.saved(lambda: self.keys("Enter"))[1], wanted)
+
+    def test_does_not_use_a_number_that_is_out_of_range(self):
+        before = self.text("region", "Text of the GSD file")
+        for name, numbers in ("Ident_Number", ("0", "0x", "10000", "word")), ("MaxTsdr", ("1", "10", "65536", "0x100")):
+            for number in numbers:
+                self.type_into("textbox", name, number)
+                self.assertEqual(self.text("region", "Text of the GSD file"), before, number)
+                self.assertIn("Not used", self.js("return find('textbox', words[0]).closest('.field').innerText", name))
+
     def test_puts_the_description_into_the_file(self):  # C-042
         self.type_into("textbox", "Description", "Oven 3, zone 2")
         self.assertIn("Oven 3, zone 2", self.text("region", "Text of the GSD file"))

@@ -9,7 +9,7 @@ const kShared = 'draft';
 const kBeside = 'draft.'; // and what is this window's own
 
 /** The actions with the draft. `collect` takes the documents of windows that are no longer there: true, they are kept. */
-export function drafting({ store, ask, say, edit, collect }) {
+export function drafting({ store, ask, say, noteKept, edit, collect }) {
     const beside = `${kBeside}${Date.now().toString(36)}${Math.random().toString(36).slice(2)}`;
     let met = null; // the text of the shared draft as this window has read or written it last
     let shares = true;
@@ -22,9 +22,9 @@ export function drafting({ store, ask, say, edit, collect }) {
 
     function write(document) {
         const text = textOf({ draft: document });
-        if (shares) met = text;
-        const storage = keep(shares ? kShared : beside, text);
-        if (storage !== store.state().storage) store.change({ storage });
+        const isKept = keep(shares ? kShared : beside, text);
+        if (shares && isKept) met = text; // else the older one of this window would pass for that of another
+        noteKept('draft', isKept);
     }
 
     /** The shared draft is not what this window has left there. */

@@ -22,7 +22,9 @@ export function editing({ store, ask, say }) {
 
     /** Does not let an action through that a limit forbids, and says the limit in the words of the core. */
     function within(next) {
-        const over = ask.preview(next).findings.filter((one) => kLimits.includes(one.code));
+        const { findings, used } = ask.preview(next);
+        // A mapping that is refused has no count: nothing shows then that it still fits.
+        const over = used ? findings.filter((one) => kLimits.includes(one.code)) : findings;
         if (over.length === 0) return true;
         say(`Not added. ${over.map((one) => one.text).join(' ')}`, 'error');
         return false;

@@ -5,16 +5,18 @@ import { isSame, merged, readKept, textOf, withDocument } from '../mapping/keepi
 import { keep, keptText, onKeptElsewhere } from '../files/storage.js';
 
 /** The actions with the library. */
-export function keeping({ store, ask, say, notify, edit }) {
+export function keeping({ store, ask, say, notify, noteKept, edit }) {
     const known = (document) => document !== null && ask.profile(document.profile) !== undefined;
     const copyOf = ({ name, table, ...rest }) => documentOf(name, mappingOf(rest), [], table);
 
     const stamp = () => new Date().toISOString().slice(0, 16).replace('T', ' ');
 
+    /** True: the browser has kept it. */
     function setLibrary(library) {
-        const storage = keep('library', textOf({ library }));
-        store.change({ library, storage });
-        return storage;
+        const isKept = keep('library', textOf({ library }));
+        store.change({ library });
+        noteKept('library', isKept);
+        return isKept;
     }
 
     return {
@@ -29,8 +31,9 @@ export function keeping({ store, ask, say, notify, edit }) {
         }),
         store() {
             const document = store.state().history.present;
-            setLibrary(withDocument(store.state().library, document, stamp()));
-            say(`${document.name} was stored in the library.`);
+            const isKept = setLibrary(withDocument(store.state().library, document, stamp()));
+            say(isKept ? `${document.name} was stored in the library.` : `${document.name} is in the library until the page is closed.`,
+                isKept ? '' : 'error');
         },
         /** Adds a document; one of the same name with other content stays. False: the browser cannot keep it. */
         add: (document) => setLibrary(merged(store.state().library, [{ document, stored: stamp() }])),

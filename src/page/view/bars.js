@@ -48,7 +48,9 @@ export function headView(app) {
             h('nav', { 'aria-label': 'Screens', 'data-hint': 'Start: new file, samples, library. Mapping: edit. Check and compare: any GSD file.' }, screens.map(([, one]) => one)), tools.element),
         update(state) {
             const document = state.history.present;
-            setText(file, `${document.name} · ${document.profile}${app.isSaved(state) ? '' : ' · not saved'}`);
+            const unkept = Object.keys(state.kept).filter((one) => !state.kept[one]);
+            setText(file, [document.name, document.profile, app.isSaved(state) ? '' : 'not saved',
+                unkept.length > 0 ? `the browser does not keep the ${unkept.join(' and ')}` : ''].filter(Boolean).join(' · '));
             window.document.title = `${document.name} – GSD configurator of dpslaved`;
             for (const [key, one] of screens) {
                 if (key === state.screen) one.setAttribute('aria-current', 'page');

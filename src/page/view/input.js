@@ -46,6 +46,8 @@ export function watchInput(app) {
     });
     addEventListener('beforeunload', (event) => {
         const state = app.store.state();
-        if (!state.storage && state.history.past && !app.isSaved(state)) event.preventDefault();
+        if (state.kept.library && (state.kept.draft || !state.history.past || app.isSaved(state))) return;
+        event.preventDefault();
+        event.returnValue = true; // Chrome before 119 looks at this alone
     });
 }

@@ -24,8 +24,8 @@ function hashPart(made) {
     return h('p', { 'data-hash': '' }, `SHA-256 of the file: ${sha256(octetsOf(made.octets))}`);
 }
 
-/** Prints parts of the mapping: a set of inputs, outputs, map. The third list counts as both. */
-export function print(app, parts) {
+/** Parts of the mapping as they are printed: a set of inputs, outputs, map. The third list counts as both. */
+function putPaper(app, parts) {
     const document = app.store.state().history.present;
     const preview = app.ask.preview(document);
     const profile = app.ask.profile(document.profile);
@@ -38,7 +38,24 @@ export function print(app, parts) {
         wanted.map((direction) => listPart(direction, document, preview)),
         parts.has('map') ? [h('h2', {}, 'I/O map'), mapPart(preview)] : null,
         hashPart(app.ask.make(document, `${document.name}.GSD`)));
-    window.document.getElementById('paper')?.remove();
+    removePaper();
     window.document.body.append(paper);
+}
+
+function removePaper() {
+    window.document.getElementById('paper')?.remove();
+}
+
+/** Prints parts of the mapping. */
+export function print(app, parts) {
+    putPaper(app, parts);
     window.print();
+}
+
+/** The menu of the browser prints too: then all parts, as they are now. What was printed is not left for the next time. */
+export function watchPrint(app) {
+    addEventListener('beforeprint', () => {
+        if (!window.document.getElementById('paper')) putPaper(app, new Set(['inputs', 'outputs', 'map']));
+    });
+    addEventListener('afterprint', removePaper);
 }

@@ -71,9 +71,9 @@ export function startView(app) {
         update(state) {
             const document = state.history.present;
             setText(now, `${document.name}: ${app.ask.profile(document.profile).device}, ${document.list.length} parameters`);
-            setText(draft, state.storage ? `${state.restored ? 'The draft of the last time was restored. ' : ''}The draft is kept in this browser on this PC.`
-                : 'This browser does not let the page keep anything: the draft is lost when the page is closed. Save it, or export it.');
-            draft.classList.toggle('warning', !state.storage);
+            setText(draft, state.kept.draft ? `${state.restored ? 'The draft of the last time was restored. ' : ''}The draft is kept in this browser on this PC.`
+                : 'This browser does not keep the draft: it is lost when the page is closed. Save it, or export it.');
+            draft.classList.toggle('warning', !state.kept.draft);
             library.update(state);
         },
     };

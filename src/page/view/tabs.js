@@ -31,9 +31,9 @@ export function tabs(label, panel, choose, { vertical = false } = {}) {
         }
         [...list.children].forEach((tab, at) => {
             const selected = names[at] === chosen;
+            tab.tabIndex = selected || (chosen === null && at === 0) ? 0 : -1;
             if (tab.getAttribute('aria-selected') === String(selected)) return;
             tab.setAttribute('aria-selected', String(selected));
-            tab.tabIndex = selected || (chosen === null && at === 0) ? 0 : -1;
             if (selected) panel.setAttribute('aria-labelledby', tab.id);
             if (selected && list.contains(document.activeElement)) tab.scrollIntoView({ block: 'nearest', inline: 'nearest' });
         });
