@@ -10,8 +10,8 @@ std::optional<profile::Profile> load(const Files& files, const std::string& name
     if (name.empty() || name.find('/') != std::string::npos) {
         outcome.exit = name.empty() ? kUsage : kNo;
         outcome.refusals.push_back(name.empty()
-                                       ? "--profile is missing: name the device that the file is for."
-                                       : "--profile is a name such as 590; the folder goes to --profiles.");
+                                       ? "no profile is named: name that of the device that the file is for."
+                                       : "the profile is a name such as 590, without its folder.");
         return std::nullopt;
     }
     auto profile = profile::load_profile(files.source, files.profiles, name);

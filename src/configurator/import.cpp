@@ -58,7 +58,7 @@ std::string find_profile(const Files& files, const gsd::Document& document, Outc
     outcome.refusals.push_back("the file does not say which device it is for: Ident_Number " +
                                hex_of(document.number("Ident_Number").value_or(0)) + " and Model_Name \"" +
                                printable(document.text("Model_Name")) +
-                               "\" do not belong to one profile alone. Name it with --profile, one of " +
+                               "\" do not belong to one profile alone. Name the profile, one of " +
                                joined(names) + '.');
     return {};
 }

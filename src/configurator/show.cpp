@@ -80,9 +80,7 @@ void add_map(Lines& lines, const gsd::Document& document, const gsd::IoMap& map)
     add_direction(lines, "Outputs, from the master to the slave", map.outputs, map.out_octets);
     lines.emplace_back();
     lines.emplace_back("octets: places in the Data_Exchange telegram, counted from 0");
-    lines.emplace_back(
-        "word: counted from 1 after Demand Data, as dpctl io and dpsim do; D1 to D4 are Demand "
-        "Data");
+    lines.emplace_back("word: counted from 1 after Demand Data; D1 to D4 are Demand Data");
 }
 
 } // namespace
@@ -93,7 +91,7 @@ Outcome show(const Files& files, std::string_view file, const std::string& profi
     const gsd::Document document = gsd::parse(file);
     const gsd::Findings findings = gsd::check(document, gsd::Reading::tolerant);
     if (any_error(findings))
-        outcome.messages.push_back("warning: the file has " + summary(findings) + ": see dpctl gsd check.");
+        outcome.messages.push_back("warning: the file has " + summary(findings) + ": check it to read them.");
     if (!document.has_section) {
         outcome.exit = kNo;
         return outcome;

@@ -15,6 +15,8 @@ namespace {
 
 constexpr std::size_t kPrmHeader = 7; ///< octets of Set_Prm before User_Prm_Data (wire reference 4.4)
 
+constexpr const char* kLate = ". Make the machine answer sooner, or make the file with a larger MaxTsdr.";
+
 struct StationFinding {
     std::string_view code;
     bool is_error = true;
@@ -92,7 +94,7 @@ private:
                 error("max_tsdr", "MaxTsdr_" + name + " is " + std::to_string(*waits) + " in the file and " +
                                       std::to_string(own->second) +
                                       " in the station: the master does not wait long enough. Make the file "
-                                      "with --max-tsdr, or lower [bus] max_tsdr.");
+                                      "with this MaxTsdr, or lower [bus] max_tsdr.");
         }
     }
 
@@ -106,11 +108,11 @@ private:
         if (*station_.usual_reply > *waits)
             error("measured", "replies take up to " + std::to_string(*station_.usual_reply) +
                                   " bit times, and " + keyword + " of the file is " + std::to_string(*waits) +
-                                  ": see dpctl tune.");
+                                  kLate);
         else if (station_.slowest_reply.value_or(0) > *waits)
             warn("measured", "a single reply took " + std::to_string(*station_.slowest_reply) +
                                  " bit times, more than " + keyword + " of the file, " +
-                                 std::to_string(*waits) + ": see dpctl tune.");
+                                 std::to_string(*waits) + kLate);
     }
 
     void parameters()
@@ -144,13 +146,13 @@ private:
         else if (tag == nullptr)
             warn("no_scale",
                  name + " is in no tag table: if it is a number, data exchange does not start. Add "
-                        "its row, see dpctl survey.",
+                        "its row.",
                  number);
         else if (!drive::has_scale(*tag))
             warn("no_scale",
                  name + " (" + tag->name +
                      ") has no decimals in the tag table: if it is a number, data exchange does "
-                     "not start. Add them, see dpctl survey.",
+                     "not start. Add them.",
                  number);
     }
 

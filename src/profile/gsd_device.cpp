@@ -89,11 +89,10 @@ private:
             refuse(
                 "ident_missing",
                 "the profile " + profile_.name +
-                    " has no Ident_Number, because no source states it: give it with --ident. It is in the "
-                    "GSD file that came with the device, in the present project of the master, and in octets "
-                    "5 and 6 of the "
-                    "device's "
-                    "diagnosis. Write the same into the station (ident = 0x...).");
+                    " has no Ident_Number, because no source states it: give that of your device. It is in "
+                    "the GSD file that came with the device, in the present project of the master, and in "
+                    "octets 5 and 6 of the device's diagnosis. Write the same into the station (ident = "
+                    "0x...).");
         else if (*ident == 0)
             refuse("ident_missing", "the Ident_Number 0 belongs to no device: give that of your device.");
         else if (profile_.ident && *ident != *profile_.ident)
@@ -123,8 +122,7 @@ private:
         if (wanted_.max_tsdr && !larger)
             refuse("max_tsdr_no_effect",
                    "MaxTsdr " + std::to_string(own) + " is at no rate larger than that of the profile " +
-                       profile_.name +
-                       ": leave --max-tsdr out, or give what [bus] max_tsdr of the daemon says.");
+                       profile_.name + ": leave it out, or give what [bus] max_tsdr of the daemon says.");
         if (own > 1000)
             warn("max_tsdr_long",
                  "MaxTsdr is above 1000 bit times: many masters do not wait that long; check that yours "
@@ -162,11 +160,10 @@ private:
         if (personality_.max_words > 0) sum = std::min(sum, 2 * personality_.max_words);
         const dp::PrmLayout& prm = personality_.prm;
         if (prm.list == dp::TagList::exact)
-            refuse(
-                "no_mapping",
-                "the tags of a " + profile_.name +
-                    " stand in the GSD, one for each word, and the profile has no mapping: choose tags with "
-                    "--in and --out, or Demand Data alone with --demand.");
+            refuse("no_mapping",
+                   "the tags of a " + profile_.name +
+                       " stand in the GSD, one for each word, and the profile has no mapping: choose tags "
+                       "as inputs and outputs, or Demand Data alone.");
         device_.choice_of_modules = true;
         device_.max_module = static_cast<std::uint8_t>(parameters + (demand ? 1 : 0));
         device_.max_in = device_.max_out = static_cast<std::uint8_t>(std::min(longest, kMaxOctets));
@@ -196,12 +193,10 @@ private:
             at_ = at;
             const std::string name = "tag " + std::to_string(word.tag);
             if (identifier(word) == nullptr)
-                refuse(
-                    "no_such_direction",
-                    name + ": the profile " + profile_.name +
-                        " has no identifier for a parameter that is both read and written: give it once with "
-                        "--in and "
-                        "once with --out.");
+                refuse("no_such_direction",
+                       name + ": the profile " + profile_.name +
+                           " has no identifier for a parameter that is both read and written: choose it "
+                           "once as input and once as output.");
             if (personality_.prm.list == dp::TagList::none)
                 refuse("no_tags", name + ": the device of the profile " + profile_.name +
                                       " takes no tags from the master.");
@@ -224,7 +219,7 @@ private:
         const drive::Tag* tag = profile_.tags.find(word.tag);
         if (tag == nullptr && profile_.tags_only_from_table)
             refuse("tag_not_listed", name + " is not in the tag table of the profile " + profile_.name +
-                                         ", and the profile allows no other: look for it with dpctl tag.");
+                                         ", and the profile allows no other: choose one of the table.");
         const auto& never = profile_.never_written;
         const bool locked = std::find(never.begin(), never.end(), word.tag) != never.end();
         if (writes(word) && locked)
@@ -248,7 +243,7 @@ private:
             out_ += dp::kDemandOctets;
             if (personality_.demand_identifier == 0)
                 refuse("no_demand_data", "the device of the profile " + profile_.name +
-                                             " has no Demand Data: leave --demand out.");
+                                             " has no Demand Data: leave Demand Data out.");
         }
         if (words_.size() > personality_.max_parameters)
             refuse("too_many_parameters", std::to_string(words_.size()) + " parameters are more than a " +
@@ -257,7 +252,7 @@ private:
                                               ": remove some, and use Demand Data for them.");
         if (words_.empty() && !personality_.may_have_no_parameters)
             refuse("no_parameters",
-                   "a " + profile_.name + " needs at least one parameter: choose one with --in or --out.");
+                   "a " + profile_.name + " needs at least one parameter: choose one as input or output.");
         const std::size_t words = (in_ + out_) / 2;
         if (personality_.max_words > 0 && words > personality_.max_words)
             refuse("too_many_words", std::to_string(words) + " words in and out" +

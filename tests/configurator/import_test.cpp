@@ -33,7 +33,7 @@ TEST(Import, RefusesWhatMayBeOfSeveralProfilesAndNamesThem)
     const json drives = import_of(made_file({{"profile", "590"}, {"list", {"in:55"}}}));
     EXPECT_EQ(drives["exit"], 1);
     EXPECT_EQ(drives["candidates"], json({"584s", "590"})) << "the same ident and the same model";
-    EXPECT_THAT(texts(drives, "refusals"), HasSubstr("Name it with --profile, one of 584s, 590."));
+    EXPECT_THAT(texts(drives, "refusals"), HasSubstr("Name the profile, one of 584s, 590."));
 
     const json renamed =
         import_of(made_file({{"profile", "620"}, {"list", {"in:55"}}, {"model", "Unwinder"}}));

@@ -234,8 +234,9 @@ TEST(GsdMake, RefusesWhereNoIdentIsKnownAndSaysWhereToFindIt)
     for (const char* name : {"584sv", "590plus", "690plus", "2408f", "2404f"}) {
         const auto reasons = refusals(name, {});
         ASSERT_THAT(reasons, SizeIs(1)) << name;
-        EXPECT_THAT(reasons[0], testing::AllOf(HasSubstr("has no Ident_Number"), HasSubstr("--ident"),
-                                               HasSubstr("octets 5 and 6")));
+        EXPECT_THAT(reasons[0],
+                    testing::AllOf(HasSubstr("has no Ident_Number"), HasSubstr("give that of your device"),
+                                   HasSubstr("octets 5 and 6")));
     }
 }
 
@@ -285,7 +286,7 @@ TEST(GsdMake, RefusesATagTwiceInOneDirectionAndAllowsItInBoth)
 TEST(GsdMake, RefusesBothDirectionsAtOnceWhereTheDeviceHasNoIdentifierForThem)
 {
     EXPECT_THAT(refusals("590", {.in_out = {5}}),
-                ElementsAre(HasSubstr("give it once with --in and once with --out")));
+                ElementsAre(HasSubstr("choose it once as input and once as output")));
 }
 
 TEST(GsdMake, RefusesToWriteWhatMustNeverBeWritten)
@@ -337,7 +338,7 @@ TEST(GsdMake, GoesByTheProfileAlone)
     profile::Profile profile = load("590");
     profile.personality.prm.list = dp::TagList::exact;
     profile.personality.prm.min_length = 0;
-    EXPECT_THAT(device_of(profile, {}).error(), ElementsAre(HasSubstr("choose tags with --in and --out")));
+    EXPECT_THAT(device_of(profile, {}).error(), ElementsAre(HasSubstr("choose tags as inputs and outputs")));
 
     profile.gsd.in_tags = {7};
     EXPECT_THAT(second_hand(made(profile, {})).octets("User_Prm_Data"), ElementsAre(0, 7));

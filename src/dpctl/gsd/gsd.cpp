@@ -86,9 +86,9 @@ void add_make(CLI::App& app, GsdOptions& options)
            "A TOML file with profile, list, in, out, in_out, demand, ident, max_tsdr, description, model; "
            "the command line overrides it")
         ->type_name("FILE");
-    add_tags(app, "--in", options.in, "Tags that the master reads, in the order of the telegram");
-    add_tags(app, "--out", options.out, "Tags that the master writes");
-    add_tags(app, "--in-out", options.in_out, "Tags that it reads and writes, after those");
+    add_tags(app, "--in", options.in, "Inputs: tags that the master reads, in the order of the telegram");
+    add_tags(app, "--out", options.out, "Outputs: tags that the master writes");
+    add_tags(app, "--in-out", options.in_out, "Both: tags that it reads and writes, after those");
     app.add_option(
            "--list", options.list,
            "Parameters of all directions in the order of the telegram, instead of --in, --out, --in-out")

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 
@@ -39,6 +40,28 @@ std::optional<std::uint32_t> number_of(std::string_view text)
     return value;
 }
 
+/// What dpctl has for a finding. The page shows the same sentences, so they cannot name it.
+constexpr struct {
+    std::string_view code, hint;
+} kHints[] = {
+    {"ident_missing", "Give the Ident_Number with --ident."},
+    {"no_mapping", "Choose parameters with --in, --out or --list, Demand Data with --demand."},
+    {"no_parameters", "Choose parameters with --in, --out or --list."},
+    {"tag_not_listed", "Look for the tag with dpctl tag --profile NAME."},
+    {"max_tsdr", "Make the file with dpctl gsd make --max-tsdr."},
+    {"measured", "Run dpctl tune: it says which MaxTsdr this machine needs."},
+    {"no_scale", "Run dpctl survey: it makes the rows of a tag table."},
+};
+
+void print_hints(const Outcome& outcome, Terminal& terminal)
+{
+    const Json findings = Json::parse(outcome.facts, nullptr, false).value("findings", Json::array());
+    for (const auto& each : kHints)
+        if (std::any_of(findings.begin(), findings.end(),
+                        [&](const Json& finding) { return finding.value("code", "") == each.code; }))
+            fmt::print(terminal.err, "{}\n", each.hint);
+}
+
 int print(const Outcome& outcome, const GsdOptions& options, Terminal& terminal)
 {
     if (options.json) {
@@ -49,6 +72,7 @@ int print(const Outcome& outcome, const GsdOptions& options, Terminal& terminal)
     for (const std::string& line : outcome.messages) fmt::print(terminal.err, "{}\n", line);
     for (const std::string& sentence : outcome.refusals)
         fmt::print(terminal.err, "dpctl: {}\n", printable(sentence));
+    print_hints(outcome, terminal);
     if (options.output.empty()) terminal.out << outcome.octets;
     return outcome.exit;
 }

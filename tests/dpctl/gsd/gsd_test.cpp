@@ -125,6 +125,7 @@ TEST(GsdCheckCommand, AsksTheDaemonForTheStationAndJudgesTheFileAgainstIt)
         ran.out,
         AllOf(HasSubstr("unwinder: error: the file has the Ident_Number 0x1649, the station has 0x0533"),
               HasSubstr("unwinder: warning: a single reply took ")));
+    EXPECT_THAT(ran.err, HasSubstr("Run dpctl tune: it says which MaxTsdr this machine needs.\n"));
     EXPECT_THAT(check("unwinder", {"--json"}).out, HasSubstr("\"code\": \"ident\""));
     EXPECT_EQ(check("nobody").exit, dpctl::kUsage);
     EXPECT_EQ(gsd_command({"check", file, "--station", "unwinder", "--socket", "/nonexistent"}).exit,
@@ -227,7 +228,9 @@ TEST(GsdMakeCommand, TakesInputsAndOutputsInAnyOrderAsOneList)
 TEST(GsdMakeCommand, MakesFilesForEveryProfileWhoseIdentTheSiteMustSay)
 {
     for (const char* name : {"584sv", "590plus", "690plus", "2408f", "2404f"}) {
-        EXPECT_EQ(make({"--profile", name}).exit, dpctl::kNo) << name;
+        const Ran refused = make({"--profile", name});
+        EXPECT_EQ(refused.exit, dpctl::kNo) << name;
+        EXPECT_THAT(refused.err, HasSubstr("\nGive the Ident_Number with --ident.\n")) << name;
         const Ran ran = make({"--profile", name, "--ident", "0x7EA5"});
         EXPECT_EQ(ran.exit, dpctl::kFine) << name;
         EXPECT_THAT(test::findings_of(ran.out, gsd::Reading::strict, "SITE7EA5.GSD"), IsEmpty()) << name;
@@ -277,27 +280,25 @@ TEST(GsdShowCommand, PrintsTheMapWithNamesOctetsAndWords)
     const Ran ran =
         gsd_command({"show", file, "--profile", "2408f", "--profiles", kSource / "config/profiles"});
     EXPECT_EQ(ran.exit, dpctl::kFine) << ran.err;
-    EXPECT_EQ(ran.out,
-              "EUROTHERM CONTROLS, 2408f/2404f, Ident_Number 0x7EA5\n"
-              "Standard parameter mapping\n"
-              "\n"
-              "Inputs, from the slave to the master: 8 octets, 4 words\n"
-              "  octets    word    tag    value\n"
-              "  0-1       1       1      Process variable\n"
-              "  2-3       2       5      Working setpoint\n"
-              "  4-5       3       3      Output power %\n"
-              "  6-7       4       75     Summary output status word\n"
-              "\n"
-              "Outputs, from the master to the slave: 8 octets, 4 words\n"
-              "  octets    word    tag    value\n"
-              "  0-1       1       24     Setpoint 1\n"
-              "  2-3       2       25     Setpoint 2\n"
-              "  4-5       3       15     Select setpoint\n"
-              "  6-7       4       274    Acknowledge all alarms\n"
-              "\n"
-              "octets: places in the Data_Exchange telegram, counted from 0\n"
-              "word: counted from 1 after Demand Data, as dpctl io and dpsim do; D1 to D4 are Demand "
-              "Data\n");
+    EXPECT_EQ(ran.out, "EUROTHERM CONTROLS, 2408f/2404f, Ident_Number 0x7EA5\n"
+                       "Standard parameter mapping\n"
+                       "\n"
+                       "Inputs, from the slave to the master: 8 octets, 4 words\n"
+                       "  octets    word    tag    value\n"
+                       "  0-1       1       1      Process variable\n"
+                       "  2-3       2       5      Working setpoint\n"
+                       "  4-5       3       3      Output power %\n"
+                       "  6-7       4       75     Summary output status word\n"
+                       "\n"
+                       "Outputs, from the master to the slave: 8 octets, 4 words\n"
+                       "  octets    word    tag    value\n"
+                       "  0-1       1       24     Setpoint 1\n"
+                       "  2-3       2       25     Setpoint 2\n"
+                       "  4-5       3       15     Select setpoint\n"
+                       "  6-7       4       274    Acknowledge all alarms\n"
+                       "\n"
+                       "octets: places in the Data_Exchange telegram, counted from 0\n"
+                       "word: counted from 1 after Demand Data; D1 to D4 are Demand Data\n");
 }
 
 TEST(GsdShowCommand, OfADriveShowsNoExtendedTagsAndCountsDemandDataByItself)
@@ -405,7 +406,7 @@ TEST(GsdImportCommand, AsksForTheProfileWhereTheFileDoesNotSayIt)
     const Ran ran =
         gsd_command({"import", kSource / "gsd/590/590_0533.GSD", "--profiles", kSource / "config/profiles"});
     EXPECT_EQ(ran.exit, dpctl::kNo);
-    EXPECT_THAT(ran.err, HasSubstr("Name it with --profile, one of 584s, 590."));
+    EXPECT_THAT(ran.err, HasSubstr("Name the profile, one of 584s, 590."));
 }
 
 TEST(GsdDiffCommand, PrintsMeaningAndLines)
