@@ -6,6 +6,7 @@ import { opening } from './actions/files.js';
 import { keptNotes } from './actions/kept.js';
 import { keeping } from './actions/library.js';
 import { saving } from './actions/saving.js';
+import { checking } from './actions/sides.js';
 import { copyText } from './files/clipboard.js';
 import { keep, keptText } from './files/storage.js';
 import { newHistory } from './mapping/history.js';
@@ -91,8 +92,8 @@ function commands(app) {
         },
         async drop(files, side) {
             if (store.state().screen !== 'check') return app.files.open(files[0]);
-            await app.files.check(files[0], side ?? (files.length === 1 && store.state().sides[0] ? 1 : 0));
-            if (files.length > 1) await app.files.check(files[1], 1);
+            await app.sides.check(files[0], side ?? (files.length === 1 && store.state().sides[0] ? 1 : 0));
+            if (files.length > 1) await app.sides.check(files[1], 1);
             return undefined;
         },
     };
@@ -138,6 +139,7 @@ export function startApp(call) {
     app.draft = drafting({ ...app, collect: app.library.add });
     app.save = saving(app);
     app.files = opening({ ...app, chooseProfile: (name, why, names) => chooseProfile(name, why, names, ask.profile) });
+    app.sides = checking(app);
     Object.assign(app, commands(app));
     build(app);
     watchMenus();

@@ -4,46 +4,46 @@ import {
     addEntry, clearDirection, documentOf, kListNames, moveEntry, placesOf, removeEntry, setField, stepEntry,
     stepInTelegram,
 } from '../mapping/model.js';
-import { newHistory, push, redo, seal, undo } from '../mapping/history.js';
+import { push, redo, seal, undo } from '../mapping/history.js';
 
 /** The findings that stop an action which adds. */
 const kLimits = ['too_many_parameters', 'too_many_words', 'too_many_octets'];
 
 const kTyped = ['name', 'description', 'ident', 'model', 'max_tsdr']; // the letters of one of these are one step
 
-/** The actions on the mapping. */
-export function editing({ store, ask, say }) {
+/** What all actions on the mapping need: how a step is done, what a limit forbids, how it is said. */
+function stepping({ store, ask, say }) {
     const present = () => store.state().history.present;
     const placeOf = (document, at) => placesOf(document, document.list[at].direction).indexOf(at) + 1;
-
-    function step(document, parts = {}, key = '') {
-        store.change({ history: push(store.state().history, document, key), notice: null, ...parts });
-    }
-
-    /** Does not let an action through that a limit forbids, and says the limit in the words of the core. */
-    function within(next) {
-        const { findings, used } = ask.preview(next);
-        // A mapping that is refused has no count: nothing shows then that it still fits.
-        const over = used ? findings.filter((one) => kLimits.includes(one.code)) : findings;
-        if (over.length === 0) return true;
-        say(`Not added. ${over.map((one) => one.text).join(' ')}`, 'error');
-        return false;
-    }
-
     const nameOf = (document, at) => ask.preview(document).parameters[at]?.name || `tag ${document.list[at].tag}`;
-    const select = (direction, at) => ({ selectedList: direction, selectedAt: at });
+    return {
+        present,
+        nameOf,
+        step(document, parts = {}, key = '') {
+            store.change({ history: push(store.state().history, document, key), notice: null, ...parts });
+        },
+        /** Does not let an action through that a limit forbids, and says the limit in the words of the core. */
+        within(next) {
+            const { findings, used } = ask.preview(next);
+            // A mapping that is refused has no count: nothing shows then that it still fits.
+            const over = used ? findings.filter((one) => kLimits.includes(one.code)) : findings;
+            if (over.length === 0) return true;
+            say(`Not added. ${over.map((one) => one.text).join(' ')}`, 'error');
+            return false;
+        },
+        /** Says where an entry is now, and what is wrong with it there. */
+        told(document, at, what) {
+            const { direction } = document.list[at];
+            const errors = ask.preview(document).findings.filter((one) => one.at === at).map((one) => one.text);
+            say([`${nameOf(document, at)} ${what} ${kListNames[direction]}, place ${placeOf(document, at)}.`, ...errors].join(' '));
+        },
+    };
+}
 
-    function told(document, at, what) {
-        const { direction } = document.list[at];
-        const errors = ask.preview(document).findings.filter((one) => one.at === at).map((one) => one.text);
-        say([`${nameOf(document, at)} ${what} ${kListNames[direction]}, place ${placeOf(document, at)}.`, ...errors].join(' '));
-    }
+const select = (direction, at) => ({ selectedList: direction, selectedAt: at });
 
-    function stepped({ document, at }) {
-        step(document, select(document.list[at].direction, at));
-        say(`${nameOf(document, at)} is now parameter ${at + 1} of ${document.list.length} in the telegram.`);
-    }
-
+/** The actions on the entries of one direction's list. */
+function editingLists({ store, say }, { present, nameOf, step, within, told }) {
     return {
         add(tag, direction = store.state().selectedList, before = null) {
             const { document, at } = addEntry(present(), direction, tag, before);
@@ -66,16 +66,6 @@ export function editing({ store, ask, say }) {
             step(moved.document, select(moved.document.list[moved.at].direction, moved.at));
             told(moved.document, moved.at, 'is now in');
         },
-        /** Before another entry of the telegram, or behind the last one. The direction stays. */
-        moveInTelegram(from, before = present().list.length) {
-            if (before === from || before === from + 1) return;
-            stepped(moveEntry(present(), from, present().list[from].direction, before));
-        },
-        stepInTelegram(from, by) {
-            const moved = stepInTelegram(present(), from, by);
-            if (!moved) return say(`It is already the ${by < 0 ? 'first' : 'last'} parameter of the telegram.`);
-            return stepped(moved);
-        },
         remove(from) {
             const { direction } = present().list[from];
             const name = nameOf(present(), from);
@@ -90,6 +80,41 @@ export function editing({ store, ask, say }) {
             step(clearDirection(present(), direction), select(direction, -1));
             say(`The list ${kListNames[direction]} was cleared. Undo brings it back.`);
         },
+    };
+}
+
+/** The actions on the order of the telegram, in which the directions may alternate. */
+function editingOrder({ say }, { present, nameOf, step }) {
+    function stepped({ document, at }) {
+        step(document, select(document.list[at].direction, at));
+        say(`${nameOf(document, at)} is now parameter ${at + 1} of ${document.list.length} in the telegram.`);
+    }
+    return {
+        /** Before another entry of the telegram, or behind the last one. The direction stays. */
+        moveInTelegram(from, before = present().list.length) {
+            if (before === from || before === from + 1) return;
+            stepped(moveEntry(present(), from, present().list[from].direction, before));
+        },
+        stepInTelegram(from, by) {
+            const moved = stepInTelegram(present(), from, by);
+            if (!moved) return say(`It is already the ${by < 0 ? 'first' : 'last'} parameter of the telegram.`);
+            return stepped(moved);
+        },
+    };
+}
+
+/** The actions on the document as a whole and on its history. */
+function editingDocument({ store, ask, say }, { present, step, within }) {
+    function turn(way, done, none) {
+        const { history } = store.state();
+        const next = way(history);
+        if (next === history) return say(none);
+        const { lists } = ask.profile(next.present.profile);
+        const list = lists.includes(store.state().selectedList) ? store.state().selectedList : lists[0];
+        store.change({ history: next, selectedAt: -1, selectedList: list, notice: null });
+        say(done);
+    }
+    return {
         set(key, value) {
             const next = setField(present(), key, value);
             if (key === 'demand' && value && !within(next)) return store.change({});
@@ -105,18 +130,13 @@ export function editing({ store, ask, say }) {
             step(document, { selectedList: lists[0], selectedAt: -1, tab: null, query: '', treeTag: null, screen: 'mapping' });
             say(sentence);
         },
-        start: (document) => newHistory(document),
     };
+}
 
-    function turn(way, done, none) {
-        const { history } = store.state();
-        const next = way(history);
-        if (next === history) return say(none);
-        const { lists } = ask.profile(next.present.profile);
-        const list = lists.includes(store.state().selectedList) ? store.state().selectedList : lists[0];
-        store.change({ history: next, selectedAt: -1, selectedList: list, notice: null });
-        say(done);
-    }
+/** The actions on the mapping. */
+export function editing(app) {
+    const steps = stepping(app);
+    return { ...editingLists(app, steps), ...editingOrder(app, steps), ...editingDocument(app, steps) };
 }
 
 /** The layout with which the page opens: EURO2400.GSD of the handbook. With Demand Data it is EURD2400.GSD. */

@@ -8,18 +8,18 @@ import { readFile, readLibrary, readTable } from '../files/disk.js';
 const stem = (name) => name.replace(/\.[^.]*$/, '') || name;
 const ending = (name) => (/\.([^.]*)$/.exec(name)?.[1] ?? '').toLowerCase();
 
-/** The actions with files from the disk. */
-export function opening({ store, ask, say, notify, edit, library, chooseProfile }) {
-    /** A folder that was dropped, or a file that is gone, cannot be read. */
-    async function readOrSay(file) {
-        try {
-            return await readFile(file);
-        } catch (error) {
-            notify('error', `${file.name} cannot be read.`, [error.message]);
-            return null;
-        }
+/** A folder that was dropped, or a file that is gone, cannot be read: null. */
+export async function readOrSay(file, notify) {
+    try {
+        return await readFile(file);
+    } catch (error) {
+        notify('error', `${file.name} cannot be read.`, [error.message]);
+        return null;
     }
+}
 
+/** Files that are a mapping: {openGsd, openToml}. */
+function openingMappings({ ask, say, notify, edit, chooseProfile }) {
     function openMapping(name, reply, lost = []) {
         const profile = ask.profile(reply.mapping.profile);
         if (!profile) return notify('error', `${name} was not opened.`, [`There is no profile "${reply.mapping.profile}" in this page.`]);
@@ -43,6 +43,11 @@ export function opening({ store, ask, say, notify, edit, library, chooseProfile 
         return notify('error', `${file.name} was not opened.`, sentencesOf(reply));
     }
 
+    return { openGsd, openToml };
+}
+
+/** Files that belong to mappings: {openKept, openTable}. */
+function openingOthers({ store, ask, say, notify, edit, library }) {
     async function openKept(file) {
         const text = await readLibrary(file);
         const kept = text === null ? null : readKept(text);
@@ -61,40 +66,24 @@ export function opening({ store, ask, say, notify, edit, library, chooseProfile 
         return say(`The table ${file.name} was loaded: ${ask.tags(store.state().history.present).tags.length} rows.`);
     }
 
+    return { openKept, openTable };
+}
+
+/** The actions that open files from the disk. */
+export function opening(app) {
+    const { openGsd, openToml } = openingMappings(app);
+    const { openKept, openTable } = openingOthers(app);
     return {
         openTable,
         /** Opens a file of any kind that the page knows. */
         async open(file) {
-            store.change({ notice: null });
+            app.store.change({ notice: null });
             if (ending(file.name) === 'json') return openKept(file);
             if (ending(file.name) === 'csv') return openTable(file);
-            const read = await readOrSay(file);
+            const read = await readOrSay(file, app.notify);
             if (!read) return undefined;
             return ending(file.name) === 'toml' ? openToml(read) : openGsd(read);
         },
         openRead: openGsd,
-        /** Reads a file into one side of check and compare: 0 or 1. */
-        async check(file, side) {
-            const read = await readOrSay(file);
-            if (read) setSide(side, read);
-        },
-        /** The mapping that is edited, as the file it would be. */
-        checkPresent(side) {
-            const document = store.state().history.present;
-            const reply = ask.make(document, `${document.name}.GSD`);
-            if (!reply.octets) return notify('error', 'The mapping gives no file yet.', sentencesOf(reply));
-            return setSide(side, { name: `${document.name}.GSD`, octets: reply.octets });
-        },
-        forget: (side) => setSide(side, null),
     };
-
-    function setSide(side, file) {
-        const sides = [...store.state().sides];
-        sides[side] = file;
-        store.change({ sides, screen: 'check', notice: null });
-        if (!file) return say('The file was removed.');
-        const bad = sides.find((one) => one && !ask.check(one).findings);
-        if (bad) return say(`${bad.name}: ${sentencesOf(ask.check(bad)).join(' ')}`, 'error');
-        return say(sides.every(Boolean) ? `${sides[0].name} and ${sides[1].name} are compared.` : ask.check(file).lines.slice(-1)[0]);
-    }
 }

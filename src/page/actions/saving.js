@@ -13,22 +13,23 @@ export const kKinds = {
     station: { ending: '.toml', what: 'Block for dpslaved.toml' },
 };
 
+/** The octets of a kind of file, or null and a notice why there are none. */
+function octetsFor({ ask, notify }, document, kind, { name, place = null }) {
+    if (kind === 'station') return new TextEncoder().encode(stationBlock(document, ask.profile(document.profile), place));
+    const reply = kind === 'gsd' ? ask.make(document, name) : ask.mappingFile(document);
+    if (!reply.octets) {
+        notify('error', `${name} was not saved.`, sentencesOf(reply));
+        return null;
+    }
+    if (reply.messages.length > 0) notify('warning', `${name} has warnings:`, reply.messages);
+    return octetsOf(reply.octets);
+}
+
 /** The actions that save. */
-export function saving({ store, ask, say, notify, edit }) {
+export function saving(app) {
+    const { store, say, notify, edit } = app;
     const targets = new Map(); // by document: where it was saved last
     const present = () => store.state().history.present;
-
-    /** The octets of a kind of file, or null and a notice why there are none. */
-    function octetsFor(kind, name, place) {
-        if (kind === 'station') return new TextEncoder().encode(stationBlock(present(), ask.profile(present().profile), place));
-        const reply = kind === 'gsd' ? ask.make(present(), name) : ask.mappingFile(present());
-        if (!reply.octets) {
-            notify('error', `${name} was not saved.`, sentencesOf(reply));
-            return null;
-        }
-        if (reply.messages.length > 0) notify('warning', `${name} has warnings:`, reply.messages);
-        return octetsOf(reply.octets);
-    }
 
     async function write(target, name, octets) {
         try {
@@ -52,7 +53,7 @@ export function saving({ store, ask, say, notify, edit }) {
             store.change({ notice: null });
             const { ending, what } = kKinds[kind];
             const full = /\.[^.]+$/.test(name) ? name : name + ending;
-            const octets = octetsFor(kind, full, place);
+            const octets = octetsFor(app, present(), kind, { name: full, place });
             if (!octets) return;
             let handle = null;
             if (hasPicker()) {
@@ -68,7 +69,7 @@ export function saving({ store, ask, say, notify, edit }) {
             const target = targets.get(present().id);
             if (!target) return false;
             store.change({ notice: null });
-            const octets = octetsFor(target.kind, target.name, null);
+            const octets = octetsFor(app, present(), target.kind, target);
             if (octets) await write(target, target.name, octets);
             return true;
         },

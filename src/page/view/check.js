@@ -8,13 +8,13 @@ const kSides = ['First file', 'Second file'];
 
 function slot(app, side) {
     const input = h('input', { type: 'file', class: 'unseen', tabIndex: -1, 'aria-label': kSides[side], on: {
-        change: () => { if (input.files[0]) app.files.check(input.files[0], side); input.value = ''; } } });
+        change: () => { if (input.files[0]) app.sides.check(input.files[0], side); input.value = ''; } } });
     const name = h('p', { class: 'file-name' });
-    const forget = button('Remove', () => app.files.forget(side), { more: kSides[side] });
+    const forget = button('Remove', () => app.sides.forget(side), { more: kSides[side] });
     const edit = button('Open for editing', () => app.files.openRead(app.store.state().sides[side]), { more: kSides[side] });
     const element = area(kSides[side], side === 0 ? 'Any GSD file: it is checked.' : 'With a second file, both are compared.', { class: 'card slot', 'data-drop-file': side },
         name, h('div', { class: 'bar' }, button('Choose…', () => input.click(), { more: kSides[side] }), input,
-            button('Take the mapping', () => app.files.checkPresent(side), { more: `as ${kSides[side]}` }), edit, forget));
+            button('Take the mapping', () => app.sides.checkPresent(side), { more: `as ${kSides[side]}` }), edit, forget));
     return {
         element,
         update(state) {
