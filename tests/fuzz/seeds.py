@@ -1,0 +1,43 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""seeds.py ROOT TARGET FOLDER: the inputs that a fuzz target begins with, from golden files and gsd/."""
+import pathlib
+import re
+import sys
+
+root, target, folder = pathlib.Path(sys.argv[1]), sys.argv[2], pathlib.Path(sys.argv[3])
+folder.mkdir(parents=True, exist_ok=True)
+
+
+def counted(octets):
+    return bytes([len(octets)]) + bytes(octets)
+
+
+def golden():
+    """Every telegram of the wire reference."""
+    text = (root / "tests/fdl/golden.hpp").read_text()
+    return [bytes.fromhex(row) for row in re.findall(r'\{"\w+", "([0-9A-F ]+)"', text)]
+
+
+def fdl():
+    for octets in golden():
+        yield bytes([4, 0, 0, 0]) + counted(octets)  # at 187.5 kbit/s, read whole
+        yield bytes([6, 0, 0x30, 0]) + counted(octets) + bytes([8, 2]) + counted(octets)
+    yield b"\x03\x00" + b"".join(b"\x10\x0e" + counted(octets) for octets in golden())
+    for fc in (0x49, 0x6D, 0x5D, 0x7D):
+        yield bytes([5, 0, 1, 0, 3, 5, 2, fc, 3, 0, 7, 0x80, 0x82, fc, 60, 62, 1, 2])
+
+
+def files(*patterns):
+    for pattern in patterns:
+        for path in sorted(root.glob(pattern)):
+            yield path.read_bytes()
+
+
+def gsd():
+    yield from files("gsd/**/*.GSD", "gsd/**/*.gsd", "gsd/**/*.GS?", "gsd/**/*.gs?")
+    yield bytes([0, 4, 1, 2, 3, 4, 4, 5, 6, 7, 8, 5, 0x33, 3, 9, 9, 9, 2, 1, 1, 0x50, 1, 2, 0x60])
+
+
+for number, octets in enumerate(globals()[target]()):
+    (folder / f"seed-{number:03}").write_bytes(octets)
