@@ -203,8 +203,7 @@ void Generator::user_prm(const model::Device& device, Step& step)
     if (device.prm_may_be_absent && one_in(10)) return;
     const unsigned first = device.dpv1_status && one_in(4) ? (one_in(6) ? octet() : below(8)) : 0;
     for (int i = 0; i < device.tags_at; ++i) step.push(i == 0 ? first : (one_in(60) ? octet() : 0));
-    const unsigned most = one_in(20) ? static_cast<unsigned>(device.longest_prm - device.tags_at) / 2 : 4;
-    const unsigned tags = below(most + 1);
+    const unsigned tags = how_many_tags(device);
     for (unsigned i = 0; i < tags; ++i) {
         const unsigned highest = static_cast<unsigned>(device.highest_tag);
         unsigned tag = 1 + below(one_in(4) ? highest : 40);
@@ -212,13 +211,25 @@ void Generator::user_prm(const model::Device& device, Step& step)
         step.push(tag / 256);
         step.push(tag % 256);
     }
-    unsigned zeros = 0;
-    if (device.list == model::first_zero_ends || (device.list == model::zeros_at_end && one_in(2)))
-        zeros = (static_cast<unsigned>(device.longest_prm) + 7 - static_cast<unsigned>(step.length)) / 2;
-    for (unsigned i = 0; i < zeros; ++i) {
+    const auto full = static_cast<std::size_t>(device.longest_prm) + 7;
+    const bool pads =
+        device.list == model::first_zero_ends || (device.list == model::zeros_at_end && one_in(2));
+    const std::size_t zeros = pads && step.length < full ? (full - step.length) / 2 : 0;
+    for (std::size_t i = 0; i < zeros; ++i) {
         step.push(0);
         step.push(i > 0 && one_in(200) ? octet() : 0);
     }
+}
+
+/// Mostly few; else as many as the telegram takes, or about as many as the device takes.
+unsigned Generator::how_many_tags(const model::Device& device)
+{
+    if (!one_in(20)) return below(5);
+    const int room = (device.longest_prm - device.tags_at) / 2;
+    const int limits[] = {room, device.most_parameters, device.most_words, device.most_words - 8};
+    const int chosen = limits[below(4)];
+    if (chosen <= 0 || one_in(3)) return below(static_cast<unsigned>(room) + 1);
+    return static_cast<unsigned>(std::min(room + 1, chosen + static_cast<int>(below(2))));
 }
 
 void Generator::chk_cfg(const model::Slave& slave, Step& step)

@@ -38,6 +38,7 @@ private:
     void set_prm(const model::Slave& slave, Step& step);
     void prm_header(const model::Slave& slave, Step& step);
     void user_prm(const model::Device& device, Step& step);
+    unsigned how_many_tags(const model::Device& device);
     void chk_cfg(const model::Slave& slave, Step& step);
     void data_exchange(const model::Slave& slave, Step& step);
     void registers(Step& step);

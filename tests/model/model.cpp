@@ -187,15 +187,15 @@ void Slave::set_prm(const Request& asked)
     const bool wants_sync = (asked.data[0] & 0x20) != 0;
     const bool wants_freeze = (asked.data[0] & 0x10) != 0;
     const bool wants_watchdog = (asked.data[0] & 0x08) != 0;
-    if (asked.data[4] * 256 + asked.data[5] != device.ident) {
+    const bool other_ident = asked.data[4] * 256 + asked.data[5] != device.ident;
+    const bool unsupported = (wants_sync && !device.sync) || (wants_freeze && !device.freeze);
+    const bool no_time = wants_watchdog && (asked.data[1] == 0 || asked.data[2] == 0);
+    if (other_ident || (no_time && !unsupported))
         refuse_prm(false);
-    } else if ((wants_sync && !device.sync) || (wants_freeze && !device.freeze)) {
+    else if (unsupported)
         refuse_prm(true);
-    } else if (wants_watchdog && (asked.data[1] == 0 || asked.data[2] == 0)) {
-        refuse_prm(false);
-    } else {
+    else
         take_parameters(asked);
-    }
 }
 
 void Slave::refuse_prm(bool unsupported)

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Random steps for the real slave and for the model. MODEL_STEPS and MODEL_SEED choose how many, and from
 /// which seed on; tools/check-model sets them.
+#include "devices.hpp"
+#include "generator.hpp"
+#include "pair.hpp"
 #include "run.hpp"
 
 #include <gtest/gtest.h>
@@ -35,6 +38,51 @@ TEST(Model, AgreesWithTheSlaveAfterEachRandomStep)
         static_cast<unsigned long long>(all.replies[1]), static_cast<unsigned long long>(all.replies[2]),
         static_cast<unsigned long long>(all.replies[3]));
 }
+
+/// A property of a device in which slave and model are told different things.
+struct Property {
+    const char* name;
+    std::size_t device;
+    void (*change)(model::Device&);
+};
+
+class ModelOfAnotherDevice : public testing::TestWithParam<Property> {};
+
+TEST_P(ModelOfAnotherDevice, IsFoundToDiffer)
+{
+    const model::Device& device = model_devices()[GetParam().device];
+    model::Device other = device;
+    GetParam().change(other);
+    std::string difference;
+
+    for (std::uint64_t seed = 1; difference.empty() && seed <= 100; ++seed) {
+        Generator generator{seed};
+        Pair pair{device, other};
+        Step step;
+        bool same = true;
+        for (std::uint64_t i = 0; same && i < kStepsOfARun; ++i) {
+            generator.next(pair.model(), pair.now(), step);
+            same = pair.take(step);
+        }
+        difference = pair.difference();
+    }
+
+    EXPECT_NE(difference, "") << "200 000 steps agree";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Model, ModelOfAnotherDevice,
+    testing::Values(Property{"HighestTag", 1, [](model::Device& d) { --d.highest_tag; }},
+                    Property{"MostWords", 6, [](model::Device& d) { --d.most_words; }},
+                    Property{"MostParameters", 2, [](model::Device& d) { --d.most_parameters; }},
+                    Property{"LongestDiagnosis", 0, [](model::Device& d) { --d.longest_diag; }},
+                    Property{"MaxTsdr", 6, [](model::Device& d) { --d.max_tsdr; }},
+                    Property{"Dpv1Status", 2, [](model::Device& d) { d.dpv1_status = false; }},
+                    Property{"FailSafe", 4, [](model::Device& d) { d.fail_safe = false; }},
+                    Property{"Scales", 5, [](model::Device& d) { d.tries_outputs = false; }},
+                    Property{"ErrorBase", 5, [](model::Device& d) { d.error_base = 0; }},
+                    Property{"ExtendedReply", 6, [](model::Device& d) { d.replies_as_example = false; }}),
+    [](const auto& one) { return std::string{one.param.name}; });
 
 } // namespace
 } // namespace test

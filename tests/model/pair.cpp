@@ -50,8 +50,8 @@ fdl::Telegram telegram_of(const Step& step)
 
 } // namespace
 
-Pair::Pair(const model::Device& device)
-    : personality_(personality_of(device)), slave_(personality_, kAddress), model_(device, kAddress)
+Pair::Pair(const model::Device& of_slave, const model::Device& of_model)
+    : personality_(personality_of(of_slave)), slave_(personality_, kAddress), model_(of_model, kAddress)
 {
     slave_.start(instant());
     stations_.attach(kAddress, slave_, personality_.max_tsdr);

@@ -15,7 +15,9 @@ namespace test {
 
 class Pair {
 public:
-    explicit Pair(const model::Device& device);
+    explicit Pair(const model::Device& device) : Pair(device, device) {}
+    /// With two that are not the same, to see that a difference is found.
+    Pair(const model::Device& of_slave, const model::Device& of_model);
     Pair(const Pair&) = delete;
     Pair& operator=(const Pair&) = delete;
 
