@@ -28,6 +28,18 @@ def fdl():
         yield bytes([5, 0, 1, 0, 3, 5, 2, fc, 3, 0, 7, 0x80, 0x82, fc, 60, 62, 1, 2])
 
 
+def dp():
+    """A start-up of each device, then exchange, Demand Data, Sync and Freeze."""
+    tags = bytes([0, 1, 0, 2]) + bytes(20)
+    boards = {0: tags, 1: b"\x00\x00\x00\x00\x01\x00\x02", 2: b"\x00\x01\x00\x02"}
+    for device, user in boards.items():
+        start = bytes([device, 1, 0x38, 20]) + counted(user) + b"\x02" + counted(b"\x73\x50\x60") + bytes([11, 1, 1, 0, 7] + [1] * 8)
+        for order in (b"\x10\x01", b"\x20\x05", b"\x30\x00", b"\x00\x00"):
+            data = order + bytes([0, 3, 0, 0, 0, 7, 0x12, 0x34])
+            yield start + b"\x06\x04" + counted(data) + bytes([12, 1, 0, 0, 9, 4]) + counted(data) + b"\x08\x09\x07"
+        yield start + b"\x06\x04" + counted(bytes(range(10))) + bytes([5, 0x20, 1, 5, 8, 1, 5, 2, 1, 10, 200])
+
+
 def files(*patterns):
     for pattern in patterns:
         for path in sorted(root.glob(pattern)):
