@@ -265,8 +265,8 @@ class Firefox(Browser):
         return self.context
 
     def go_to(self, window):
+        # Without a screen the focus stays in the newest window: a button of another one answers no key.
         self.context = window
-        self.bidi.send("browsingContext.activate", context=window)
 
     def new_window(self):
         self.go_to(self.bidi.send("browsingContext.create", type="window")["context"])

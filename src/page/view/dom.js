@@ -53,7 +53,7 @@ export function setText(element, text) {
     if (element.textContent !== text) element.textContent = text;
 }
 
-/** The class of a parameter's colour. The number beside it says the same without colour. */
+/** The class of a parameter's colour, "D" for Demand Data. The number beside it says the same without colour. */
 export function hueOf(number) {
-    return `hue hue-${number % 8}`;
+    return `hue hue-${number === 'D' ? 'd' : number % 8}`;
 }

@@ -3,6 +3,7 @@
 import { area, button, h, setText } from './dom.js';
 import { mapPart, mapText, octetsPart, octetsText } from './octets.js';
 import { tabs } from './tabs.js';
+import { textPart } from './text.js';
 
 const kTabs = ['GSD file', 'Octets', 'I/O map'];
 
@@ -22,7 +23,7 @@ function textOfTab(tab, preview) {
 function partOfTab(tab, preview) {
     if (tab === 'Octets') return octetsPart(preview);
     if (tab === 'I/O map') return mapPart(preview);
-    return preview.text ? h('pre', { tabIndex: 0, role: 'region', 'aria-label': 'Text of the GSD file' }, preview.text)
+    return preview.text ? h('pre', { tabIndex: 0, role: 'region', 'aria-label': 'Text of the GSD file' }, textPart(preview))
         : h('p', {}, 'The mapping does not fit into a telegram, or it is refused: see the findings.');
 }
 

@@ -4,11 +4,17 @@ import { hex } from '../files/octets.js';
 import { kTitles } from './lists.js';
 import { h, hueOf } from './dom.js';
 
-/** Runs of octets by what they belong to: {octets, number} with the parameter's number, "D" for Demand Data, "" for others. */
-function runsOf(octets, pairs) {
-    const owner = octets.map(() => '');
-    for (const { pair, number } of pairs)
-        if (pair) for (let at = pair[0]; at < pair[0] + pair[1]; ++at) owner[at] = number;
+/** What each octet of a telegram belongs to: the parameter's number, "D" for Demand Data, "" for others. */
+export function ownersOf(preview, telegram) {
+    const owner = preview[telegram].map(() => '');
+    const own = (pair, number) => { if (pair) owner.fill(number, pair[0], pair[0] + pair[1]); };
+    own(preview.demand?.[telegram], 'D');
+    preview.parameters.forEach((one, at) => own(one[telegram], at + 1));
+    return owner;
+}
+
+/** Runs of octets by what they belong to: {octets, number}. */
+function runsOf(octets, owner) {
     const runs = [];
     octets.forEach((octet, at) => {
         const last = runs[runs.length - 1];
@@ -18,11 +24,12 @@ function runsOf(octets, pairs) {
     return runs;
 }
 
-function strip(title, octets, pairs) {
+function strip(title, preview, telegram) {
+    const octets = preview[telegram];
     const text = octets.length === 0 ? 'no octets' : `${octets.length} octet${octets.length === 1 ? '' : 's'}`;
     return [h('h3', {}, title, ' ', h('span', { class: 'count' }, text)),
-        h('p', { class: 'octets' }, runsOf(octets, pairs).map(({ octets: run, number }) =>
-            h('span', { class: `chip ${number === '' ? 'hue' : number === 'D' ? 'hue hue-d' : hueOf(number)}` },
+        h('p', { class: 'octets' }, runsOf(octets, ownersOf(preview, telegram)).map(({ octets: run, number }) =>
+            h('span', { class: `chip ${number === '' ? 'hue' : hueOf(number)}` },
                 h('span', { class: 'of' }, number === '' ? '·' : String(number)), ' ', run.map(hex).join(' '), ' ')))];
 }
 
@@ -31,15 +38,14 @@ const range = (pair) => (pair ? (pair[1] === 1 ? `${pair[0]}` : `${pair[0]}–${
 /** The octets of a preview: Set_Prm, Chk_Cfg, and each parameter's part of them. */
 export function octetsPart(preview) {
     const numbered = preview.parameters.map((one, at) => ({ ...one, number: at + 1 }));
-    const demand = preview.demand ? [{ pair: preview.demand.chk_cfg, number: 'D' }] : [];
     const row = (number, hue, cells) => h('tr', {}, h('td', {}, h('span', { class: hue }, String(number))), cells.map((cell) => h('td', {}, cell)));
     return h('div', {},
-        strip('Set_Prm: User_Prm_Data', preview.set_prm, numbered.map((one) => ({ pair: one.set_prm, number: one.number }))),
-        strip('Chk_Cfg', preview.chk_cfg, [...demand, ...numbered.map((one) => ({ pair: one.chk_cfg, number: one.number }))]),
+        strip('Set_Prm: User_Prm_Data', preview, 'set_prm'),
+        strip('Chk_Cfg', preview, 'chk_cfg'),
         h('table', {}, h('caption', { class: 'unseen' }, 'Octets of each parameter'),
             h('thead', {}, h('tr', {}, ['No.', 'Parameter', 'Set_Prm', 'Chk_Cfg', 'Input', 'Output'].map((one) => h('th', { scope: 'col' }, one)))),
             h('tbody', {},
-                preview.demand ? row('D', 'hue hue-d', ['Demand Data', '', range(preview.demand.chk_cfg), range(preview.demand.in), range(preview.demand.out)]) : null,
+                preview.demand ? row('D', hueOf('D'), ['Demand Data', '', range(preview.demand.chk_cfg), range(preview.demand.in), range(preview.demand.out)]) : null,
                 numbered.map((one) => row(one.number, hueOf(one.number),
                     [`${one.tag} ${one.name || ''}`, range(one.set_prm), range(one.chk_cfg), range(one.in), range(one.out)])))));
 }
@@ -51,7 +57,7 @@ function mapTable(direction, values, preview) {
     return h('table', {}, h('caption', {}, kTitles[direction]),
         h('thead', {}, h('tr', {}, ['No.', 'Octets', 'Tag', 'What'].map((one) => h('th', { scope: 'col' }, one)))),
         h('tbody', {}, values.map((one) => h('tr', {},
-            h('td', {}, h('span', { class: one.demand ? 'hue hue-d' : hueOf(number(one.octet)) }, one.demand ? 'D' : String(number(one.octet) || '·'))),
+            h('td', {}, h('span', { class: hueOf(one.demand ? 'D' : number(one.octet)) }, one.demand ? 'D' : String(number(one.octet) || '·'))),
             h('td', {}, range([one.octet, one.octets])), h('td', {}, one.tag === null ? '' : String(one.tag)), h('td', {}, one.what)))));
 }
 
