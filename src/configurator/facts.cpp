@@ -66,9 +66,8 @@ Json findings_of(const gsd::Findings& findings)
 Json mapping_of(const profile::Mapping& mapping)
 {
     const profile::Selection& selection = mapping.selection;
-    Json all{{"profile", mapping.profile},
-             {"list", list_of(selection.parameters())},
-             {"demand", selection.demand}};
+    Json all{{"profile", mapping.profile}, {"demand", selection.demand}};
+    if (selection.says_parameters()) all["list"] = list_of(selection.parameters());
     if (selection.ident) all["ident"] = *selection.ident;
     if (selection.max_tsdr) all["max_tsdr"] = *selection.max_tsdr;
     if (selection.description) all["description"] = *selection.description;

@@ -115,6 +115,7 @@ private:
         const std::vector<std::uint8_t> identifiers = identifiers_of(document_);
         const std::vector<std::uint8_t> prm = document_.user_prm_data();
         std::size_t at = personality.prm.tags_at;
+        if (!identifiers.empty()) mapping_.selection.list.emplace(); // else the master's tool chooses
         for (std::size_t i = 0; i < identifiers.size(); ++i) {
             if (i == 0 && personality.demand_identifier != 0 &&
                 identifiers[0] == personality.demand_identifier) {
@@ -131,13 +132,13 @@ private:
             const std::uint16_t tag = at + 2 <= prm.size() ? be16(prm, at) : std::uint16_t{0};
             if (tag == 0) {
                 refused_.push_back(
-                    "parameter " + std::to_string(mapping_.selection.list.size() + 1) +
+                    "parameter " + std::to_string(mapping_.selection.list->size() + 1) +
                     " has no tag in User_Prm_Data: the file leaves it to the master's tool, or it "
                     "is for another device than the profile " +
                     profile_.name + '.');
                 return;
             }
-            mapping_.selection.list.push_back({*direction, tag});
+            mapping_.selection.list->push_back({*direction, tag});
             at += 2;
         }
     }

@@ -76,11 +76,11 @@ private:
         return std::nullopt;
     }
 
-    std::vector<profile::Parameter> list()
+    std::optional<std::vector<profile::Parameter>> list()
     {
-        std::vector<profile::Parameter> all;
         const Json* found = value("list");
-        if (found == nullptr) return all;
+        if (found == nullptr) return std::nullopt;
+        std::vector<profile::Parameter> all;
         if (!found->is_array()) wrong("list", "a list");
         for (const Json& one : *found) {
             const auto parameter =
@@ -127,8 +127,9 @@ std::string mapping_file(const profile::Mapping& mapping, const drive::TagTable&
     if (selection.model) out += "model = " + toml_text(*selection.model) + '\n';
     if (selection.description) out += "description = " + toml_text(*selection.description) + '\n';
     if (selection.demand) out += "demand = true\n";
+    if (!selection.says_parameters()) return out;
     const auto parameters = selection.parameters();
-    if (parameters.empty()) return out;
+    if (parameters.empty()) return out + "list = []\n";
     out += "list = [\n";
     for (const profile::Parameter& parameter : parameters) {
         const drive::Tag* tag = tags.find(parameter.tag);

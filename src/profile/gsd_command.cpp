@@ -54,10 +54,14 @@ std::string hex_of(std::uint16_t word)
 }
 
 std::string make_command(const Profile& profile, const Selection& selection,
-                         const std::vector<Parameter>& words, const std::string& description)
+                         const std::optional<std::vector<Parameter>>& words, const std::string& description)
 {
     Command command{profile.name};
-    command.parameters(words);
+    const bool has_own = !profile.gsd.in_tags.empty() || !profile.gsd.out_tags.empty();
+    if (words && words->empty() && has_own)
+        command.option("list", "none");
+    else if (words)
+        command.parameters(*words);
     if (selection.demand) command.flag("demand");
     if (selection.ident && selection.ident != profile.ident)
         command.option("ident", hex_of(*selection.ident));

@@ -30,7 +30,7 @@ public:
         own.in = facts_.in_tags;
         own.out = facts_.out_tags;
         words_ = selection.parameters();
-        standard_ = !own.parameters().empty() && (words_.empty() || words_ == own.parameters());
+        standard_ = !own.parameters().empty() && (!selection.says_parameters() || words_ == own.parameters());
         if (standard_) words_ = own.parameters();
         generic_ = words_.empty() && !selection.demand;
     }
@@ -160,10 +160,10 @@ private:
         if (personality_.max_words > 0) sum = std::min(sum, 2 * personality_.max_words);
         const dp::PrmLayout& prm = personality_.prm;
         if (prm.list == dp::TagList::exact)
-            refuse("no_mapping",
-                   "the tags of a " + profile_.name +
-                       " stand in the GSD, one for each word, and the profile has no mapping: choose tags "
-                       "as inputs and outputs, or Demand Data alone.");
+            return refuse("no_mapping",
+                          "the tags of a " + profile_.name +
+                              " stand in the GSD, one for each word, and none is chosen: choose tags as "
+                              "inputs and outputs, or Demand Data alone.");
         device_.choice_of_modules = true;
         device_.max_module = static_cast<std::uint8_t>(parameters + (demand ? 1 : 0));
         device_.max_in = device_.max_out = static_cast<std::uint8_t>(std::min(longest, kMaxOctets));
@@ -342,7 +342,7 @@ private:
     {
         device_.comments.push_back("Made for the profile " + profile_.name + " of dpslaved by the command");
         device_.comments.push_back(make_command(
-            profile_, wanted_, standard_ ? std::vector<Parameter>{} : words_, own_description()));
+            profile_, wanted_, standard_ ? std::nullopt : std::optional{words_}, own_description()));
     }
 
     const Profile& profile_;

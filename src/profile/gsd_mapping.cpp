@@ -15,10 +15,12 @@ std::vector<std::uint16_t> tags_of(toml::Table& table, std::string_view key)
     return tags;
 }
 
-std::vector<Parameter> list_of(toml::Table& table)
+std::optional<std::vector<Parameter>> list_of(toml::Table& table)
 {
+    const auto texts = table.texts("list", 0);
+    if (!texts) return std::nullopt;
     std::vector<Parameter> list;
-    for (const std::string& one : table.texts("list").value_or(std::vector<std::string>{})) {
+    for (const std::string& one : *texts) {
         if (const auto parameter = parse_parameter(one))
             list.push_back(*parameter);
         else
@@ -28,7 +30,7 @@ std::vector<Parameter> list_of(toml::Table& table)
                              "tag for 1.");
     }
     for (const char* key : {"in", "out", "in_out"})
-        if (table.has("list") && table.has(key))
+        if (table.has(key))
             table.refuse(key,
                          "'" + std::string{key} + "' and 'list' both name parameters: keep one of them.");
     return list;
@@ -70,8 +72,13 @@ std::vector<Parameter> Selection::parameters() const
     for (const std::uint16_t tag : in) all.push_back({Direction::in, tag});
     for (const std::uint16_t tag : out) all.push_back({Direction::out, tag});
     for (const std::uint16_t tag : in_out) all.push_back({Direction::in_out, tag});
-    all.insert(all.end(), list.begin(), list.end());
+    if (list) all.insert(all.end(), list->begin(), list->end());
     return all;
+}
+
+bool Selection::says_parameters() const
+{
+    return list || !in.empty() || !out.empty() || !in_out.empty();
 }
 
 Result<Mapping, toml::Faults> load_mapping(const toml::TextSource& source, const std::string& file)

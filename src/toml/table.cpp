@@ -111,7 +111,7 @@ std::optional<bool> Table::boolean(std::string_view key)
     return std::nullopt;
 }
 
-std::optional<std::vector<std::string>> Table::texts(std::string_view key)
+std::optional<std::vector<std::string>> Table::texts(std::string_view key, std::size_t least)
 {
     if (!has(key)) return std::nullopt;
     const Value& value = node_->find(key)->value;
@@ -125,8 +125,10 @@ std::optional<std::vector<std::string>> Table::texts(std::string_view key)
         }
         out.push_back(*text);
     }
-    if (!out.empty()) return out;
-    refuse(key, wrong(key, "a list of texts in quotes, one at least", value));
+    if (list != nullptr && out.size() >= least) return out;
+    refuse(key,
+           wrong(key, least > 0 ? "a list of texts in quotes, one at least" : "a list of texts in quotes",
+                 value));
     return std::nullopt;
 }
 

@@ -125,6 +125,34 @@ TEST(ConfiguratorCall, PreviewsWhatIsRefusedAndNamesTheFindingByItsCode)
     EXPECT_EQ(ask({{"do", "make"}, {"mapping", mapping}})["exit"], 1);
 }
 
+TEST(ConfiguratorCall, TakesAnEmptyListAsNoParameterAndNotAsTheStandardMapping)
+{
+    json mapping{{"profile", "2408f"}, {"ident", 0x1652}, {"list", json::array()}};
+    const json preview = ask({{"do", "preview"}, {"mapping", mapping}});
+
+    EXPECT_EQ(preview["parameters"], json::array());
+    EXPECT_EQ(preview["used"]["words"], 0);
+    EXPECT_FALSE(preview.contains("text"));
+    EXPECT_EQ(preview["findings"][0]["code"], "no_mapping");
+    EXPECT_EQ(ask({{"do", "make"}, {"mapping", mapping}})["exit"], 1);
+
+    mapping["demand"] = true;
+    const json made = ask({{"do", "make"}, {"mapping", mapping}});
+    EXPECT_EQ(made["chk_cfg"], json({0x73}));
+    const json imported = ask({{"do", "import"}, {"file", made["octets"]}, {"profile", "2408f"}});
+    EXPECT_EQ(imported["mapping"], mapping);
+    EXPECT_EQ(ask({{"do", "read_mapping"}, {"file", imported["octets"]}})["mapping"], mapping);
+}
+
+TEST(ConfiguratorCall, LeavesTheListOutWhereAMappingFileHasNone)
+{
+    const std::string file = "profile = \"2408f\"\nident = 0x1652\n";
+    const json read = ask({{"do", "read_mapping"}, {"file", to_base64(file)}});
+
+    EXPECT_FALSE(read["mapping"].contains("list"));
+    EXPECT_EQ(ask({{"do", "make"}, {"mapping", read["mapping"]}})["parameters"].size(), 8U);
+}
+
 TEST(ConfiguratorCall, WarnsAbove32OctetsAndAbove32Words)
 {
     json list = json::array();

@@ -73,7 +73,7 @@ TEST(Import, TakesTheFilesOfTheManualsAndNamesTheirDifferences)
 {
     const json reply = import_of(content_of(kSource / "gsd/manual/584s-590/EURO0533.GSD"), "590");
     EXPECT_EQ(reply["exit"], 0) << texts(reply, "refusals");
-    EXPECT_EQ(reply["mapping"]["list"], json::array()) << "its modules are put together by the master's tool";
+    EXPECT_FALSE(reply["mapping"].contains("list")) << "its modules are put together by the master's tool";
 }
 
 TEST(Import, RefusesAnotherDeviceWithTheReason)

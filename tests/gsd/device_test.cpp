@@ -128,6 +128,23 @@ TEST(GsdMake, MakesDemandDataAloneWhereNothingElseIsChosen)
     EXPECT_EQ(gsd.octets("User_Prm_Data"), std::vector<std::uint8_t>(24, 0));
 }
 
+TEST(GsdMake, MakesDemandDataAloneOfAControllerWhereTheListIsEmpty)
+{
+    const std::string file = made(load("2408f"), {.list = std::vector<profile::Parameter>{}, .demand = true});
+    const auto gsd = second_hand(file);
+    EXPECT_THAT(gsd.cfg(), ElementsAre(0x73));
+    EXPECT_FALSE(gsd.keys.contains("User_Prm_Data"));
+    EXPECT_THAT(file, HasSubstr("dpctl gsd make --profile 2408f --list none --demand"));
+}
+
+TEST(GsdMake, MakesNoFileOfAControllerWithoutParametersAndWithoutDemandData)
+{
+    const auto device =
+        device_of(load("2408f"), {.list = std::vector<profile::Parameter>{}, .ident = 0x1652});
+    ASSERT_FALSE(device);
+    EXPECT_THAT(device.error(), ElementsAre(HasSubstr("none is chosen")));
+}
+
 TEST(GsdMake, SplitsMoreThan17IdentifiersIntoModulesOfAFixedOrder)
 {
     const auto gsd = second_hand(made(load("2408f"), {.in = tags(1, 17), .out = {24}}));
@@ -191,9 +208,10 @@ TEST(GsdMake, LeavesOutOfTheCommandWhatTheProfileSaysItself)
 TEST(GsdMake, KeepsInputsAndOutputsInTheOrderOfTheList)
 {
     using profile::Direction;
-    const std::string file = made(
-        load("605"),
-        {.list = {{Direction::out, 3}, {Direction::in, 1}, {Direction::in_out, 9}, {Direction::out, 2}}});
+    const std::string file =
+        made(load("605"),
+             {.list = std::vector<profile::Parameter>{
+                  {Direction::out, 3}, {Direction::in, 1}, {Direction::in_out, 9}, {Direction::out, 2}}});
     const auto gsd = second_hand(file);
     EXPECT_THAT(gsd.octets("User_Prm_Data"), ElementsAre(0, 0, 0, 0, 3, 0, 1, 0, 9, 0, 2));
     EXPECT_THAT(gsd.cfg(), ElementsAre(0x60, 0x50, 0x70, 0x60));
@@ -216,8 +234,9 @@ TEST(GsdDraft, OfAnySelectionIsMadeToItsEnd)
     using profile::Direction;
     for (const std::string& name : test::kProfiles)
         for (const std::size_t count : {0U, 1U, 12U, 13U, 118U, 119U, 200U, 400U}) {
-            const profile::Draft draft =
-                profile::draft_of(load(name), {.in = tags(1, count), .list = {{Direction::in_out, 0}}});
+            const profile::Draft draft = profile::draft_of(
+                load(name),
+                {.in = tags(1, count), .list = std::vector<profile::Parameter>{{Direction::in_out, 0}}});
             EXPECT_THAT(draft.parameters, SizeIs(count + 1)) << name;
         }
 }

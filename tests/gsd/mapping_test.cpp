@@ -45,6 +45,18 @@ TEST(MappingFile, NeedsNothingButTheProfile)
     EXPECT_EQ(mapping->selection.ident, std::nullopt);
 }
 
+TEST(MappingFile, WithAnEmptyListSaysThatThereIsNoParameter)
+{
+    const Folder folder;
+    const auto silent = load_mapping(io::read_regular_file, folder.write("s.toml", "profile = \"2408f\"\n"));
+    const auto empty =
+        load_mapping(io::read_regular_file, folder.write("e.toml", "profile = \"2408f\"\nlist = []\n"));
+    ASSERT_TRUE(silent && empty);
+    EXPECT_FALSE(silent->selection.says_parameters());
+    EXPECT_TRUE(empty->selection.says_parameters());
+    EXPECT_THAT(empty->selection.parameters(), IsEmpty());
+}
+
 TEST(MappingFile, HasAListWhoseDirectionsMayAlternate)
 {
     using profile::Direction, profile::Parameter;

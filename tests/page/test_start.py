@@ -117,6 +117,25 @@ class Start(screen.PageTest):
         self.assertEqual(screen.dpctl("gsd", "make", "--mapping", "FILE", text=octets),
                          screen.dpctl("gsd", "make", "--profile", "2408f", "--ident", "0x1652"))
 
+    def test_a_new_file_of_a_controller_has_no_parameter_and_no_octets(self):
+        self.click("button", "Clear inputs")
+        self.click("button", "Clear outputs")
+        self.assertIn("0 of 117 words", self.js("return document.querySelector('[data-used]').innerText"))
+        self.assertFalse(self.shown("region", "Text of the GSD file"))
+        self.click("checkbox", "Use Demand Data")
+        self.type_into("textbox", "Ident_Number", "1652")
+        self.keys("Control+Shift+s")
+        self.js("document.querySelector('dialog[open] input[type=text]').focus()")
+        self.assertEqual(self.saved(lambda: self.keys("Enter"))[1],
+                         screen.dpctl("gsd", "make", "--profile", "2408f", "--ident", "0x1652", "--list", "none", "--demand"))
+
+    def test_opens_a_mapping_that_leaves_the_list_to_the_profile(self):
+        standard = self.tags("Inputs"), self.tags("Outputs")
+        self.click("button", "Clear inputs")
+        self.drop([("plain.toml", b'profile = "2408f"\nident = 0x1652\n')])
+        self.wait_said("plain.toml was opened")
+        self.assertEqual((self.tags("Inputs"), self.tags("Outputs")), standard)
+
     def test_takes_an_ident_number_as_hexadecimal_with_and_without_0x(self):
         wanted = screen.dpctl("gsd", "make", "--profile", "2408f", "--ident", "0x1652")
         for typed in "1652", "0x1652", "  0X1652 ":

@@ -32,15 +32,18 @@ std::optional<Parameter> parse_parameter(std::string_view text);
 /// in each as it is given, nothing is sorted.
 struct Selection {
     std::vector<std::uint16_t> in = {}, out = {}, in_out = {}; ///< tags
-    std::vector<Parameter> list = {};                          ///< directions in any order
-    bool demand = false;                                       ///< Demand Data in front of them
-    std::optional<std::uint16_t> ident = {};                   ///< needed where the profile has none
+    /// Directions in any order. Nothing: not said, so that the profile's own mapping stands where nothing is
+    /// said of in, out and in_out either. Empty: no parameter, for Demand Data alone.
+    std::optional<std::vector<Parameter>> list = {};
+    bool demand = false;                     ///< Demand Data in front of them
+    std::optional<std::uint16_t> ident = {}; ///< needed where the profile has none
     /// The machine's own MaxTsdr, T_bit ([bus] max_tsdr of the daemon): for each rate where it is larger than
     /// the profile's.
     std::optional<std::uint32_t> max_tsdr = {};
     std::optional<std::string> description = {}, model = {};
 
     std::vector<Parameter> parameters() const; ///< all, in the order of the file
+    bool says_parameters() const;              ///< which ones, or that there are none
     friend bool operator==(const Selection&, const Selection&) = default;
 };
 

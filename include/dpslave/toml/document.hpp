@@ -48,7 +48,7 @@ public:
     std::optional<std::int64_t> integer(std::string_view key, std::int64_t min, std::int64_t max);
     std::optional<double> real(std::string_view key, double min, double max);
     std::optional<bool> boolean(std::string_view key);
-    std::optional<std::vector<std::string>> texts(std::string_view key);
+    std::optional<std::vector<std::string>> texts(std::string_view key, std::size_t least = 1);
     std::optional<std::vector<std::int64_t>> integers(std::string_view key, std::int64_t min,
                                                       std::int64_t max);
 

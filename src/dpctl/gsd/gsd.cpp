@@ -89,9 +89,9 @@ void add_make(CLI::App& app, GsdOptions& options)
     add_tags(app, "--in", options.in, "Inputs: tags that the master reads, in the order of the telegram");
     add_tags(app, "--out", options.out, "Outputs: tags that the master writes");
     add_tags(app, "--in-out", options.in_out, "Both: tags that it reads and writes, after those");
-    app.add_option(
-           "--list", options.list,
-           "Parameters of all directions in the order of the telegram, instead of --in, --out, --in-out")
+    app.add_option("--list", options.list,
+                   "Parameters of all directions in the order of the telegram, instead of --in, --out, "
+                   "--in-out; none: no parameter, for Demand Data alone")
         ->type_name("in:TAG,out:TAG,in-out:TAG,...")
         ->delimiter(',');
     app.add_flag("--demand", options.demand, "Puts Demand Data before the parameters");

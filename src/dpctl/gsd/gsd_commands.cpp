@@ -154,7 +154,8 @@ private:
     {
         if (texts.empty()) return;
         into.clear();
-        std::erase_if(into_.selection.list, [&](const auto& one) { return one.direction == direction; });
+        if (into_.selection.list)
+            std::erase_if(*into_.selection.list, [&](const auto& one) { return one.direction == direction; });
         for (const std::string& text : texts)
             if (const auto tag = number(option, text, 1)) into.push_back(static_cast<std::uint16_t>(*tag));
     }
@@ -164,13 +165,14 @@ private:
     {
         if (texts.empty()) return;
         selection.in = selection.out = selection.in_out = {};
-        selection.list.clear();
+        selection.list.emplace();
+        if (texts == std::vector<std::string>{"none"}) return;
         for (const std::string& text : texts) {
             if (const auto parameter = profile::parse_parameter(text))
-                selection.list.push_back(*parameter);
+                selection.list->push_back(*parameter);
             else
                 refuse("--list " + text +
-                       ": write in:1, out:1 or in-out:1, with the number of the tag for 1.");
+                       ": write in:1, out:1 or in-out:1, with the number of the tag for 1; or none alone.");
         }
     }
 
