@@ -120,8 +120,9 @@ TEST(Words, NameNoOptionWhereTheProfileOrTheTableIsWrong)
                          {"profile", "590"},
                          {"mapping", {{"profile", "590"}}},
                          {"table", "rubbish"}}));
-    const Result<std::string, Unreadable> none = Failure{Unreadable{"it is not there"}};
-    const toml::TextSource nothing = [&](const std::string&) { return none; };
+    const toml::TextSource nothing = [](const std::string&) -> Result<std::string, Unreadable> {
+        return Failure{Unreadable{"it is not there"}};
+    };
     answers.add(json::parse(configurator::reply_of(
         configurator::make({nothing, "profiles", {"590"}}, {"620", {}}, "mine.csv", ""))));
 }
