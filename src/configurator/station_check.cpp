@@ -160,10 +160,11 @@ private:
     {
         const std::vector<std::uint8_t> prm = octets_of_hex(station_.last_prm),
                                         cfg = octets_of_hex(station_.last_cfg);
+        // Without a fixed order of modules the tags and the modules are those of the master's tool.
+        if (document_.plugged().empty()) return;
         if (prm.size() >= kPrmHeader)
             compare("Set_Prm", {prm.begin() + kPrmHeader, prm.end()}, document_.user_prm_data(), kPrmHeader);
-        const bool is_fixed = !document_.plugged().empty(); // else the master's tool chooses
-        if (!cfg.empty() && is_fixed) compare("Chk_Cfg", cfg, identifiers_of(document_), 0);
+        if (!cfg.empty()) compare("Chk_Cfg", cfg, identifiers_of(document_), 0);
     }
 
     void compare(const std::string& telegram, const std::vector<std::uint8_t>& sent,
@@ -189,6 +190,12 @@ private:
     const profile::Profile& profile_;
     std::vector<StationFinding> findings_;
 };
+
+std::string counts(std::size_t errors, std::size_t warnings)
+{
+    return std::to_string(errors) + (errors == 1 ? " error, " : " errors, ") + std::to_string(warnings) +
+           (warnings == 1 ? " warning" : " warnings");
+}
 
 } // namespace
 
@@ -216,9 +223,10 @@ Outcome check_with_station(const Files& files, std::string_view file, const std:
         if (one.tag) findings.back()["tag"] = *one.tag;
     }
     outcome.lines.push_back(printable(station.name) + ": " +
-                            (found.empty() ? "the file fits the station"
-                                           : std::to_string(errors) + " errors, " +
-                                                 std::to_string(found.size() - errors) + " warnings"));
+                            (!found.empty()          ? counts(errors, found.size() - errors)
+                             : outcome.exit == kFine ? "the file fits the station"
+                                                     : "nothing differs from the station, but the file has "
+                                                       "errors: correct them first"));
     if (errors > 0) outcome.exit = kNo;
     outcome.facts = text_of({{"station", printable(station.name)}, {"findings", findings}});
     return outcome;

@@ -107,6 +107,30 @@ TEST(StationCheck, NamesTheFirstOctetWhereTheMasterSentSomethingElse)
     EXPECT_THAT(codes(judge(file_of({"out:58"}), station, "mine.csv")), IsEmpty());
 }
 
+TEST(StationCheck, DoesNotCompareTheTagsOfAFileThatLeavesThemToTheMastersTool)
+{
+    RunningStation station = unwinder();
+    station.last_prm = "88 01 0A 0B 05 33 00 00 3A";
+    station.last_cfg = "60";
+    const json mapping{{"profile", "620"}};
+    EXPECT_THAT(codes(judge(made_file(mapping), station, "mine.csv")), IsEmpty());
+}
+
+TEST(StationCheck, CountsOneErrorAsOne)
+{
+    RunningStation station = unwinder();
+    station.ident = 0x1234;
+    EXPECT_THAT(texts(judge(file_of({"out:58"}), station, "mine.csv"), "lines"),
+                HasSubstr("unwinder: 1 error, 0 warnings"));
+}
+
+TEST(StationCheck, DoesNotCallAFileWithErrorsFit)
+{
+    const json reply = judge(with(file_of({"out:58"}), "EndModule", ""), unwinder(), "mine.csv");
+    EXPECT_EQ(reply["exit"], 1) << texts(reply, "lines");
+    EXPECT_THAT(texts(reply, "lines"), testing::Not(HasSubstr("fits the station")));
+}
+
 TEST(StationCheck, FindsTheFileOfAnotherDevice)
 {
     RunningStation station = unwinder();
