@@ -33,10 +33,11 @@ class Browser:
         raise NotImplementedError
 
     def wait_for(self, body, *words, what=""):
-        """Runs `body` until it returns something that is true, and gives that."""
+        """Runs `body` until it returns something that is true, and gives that; of an element only that it is there."""
         end = time.monotonic() + PATIENCE_S
         while True:
-            value = self.run(body, *words)
+            # An element has no JSON: Firefox would give an empty object for it, which is not true in Python.
+            value = self.run(f"const found = await (async () => {{ {body} }})(); return found instanceof Node ? true : found", *words)
             if value:
                 return value
             if time.monotonic() > end:
