@@ -36,6 +36,7 @@ ControlConfig read_control(Document& document, Table table, Faults& warnings)
         config.socket = *std::move(socket);
     }
     if (auto group = table.text("operator_group")) config.operator_group = *std::move(group);
+    config.read_only = table.boolean("read_only").value_or(config.read_only);
     if (!operator_group_of(config)) {
         const toml::Place at = table.place_of("operator_group");
         warnings.push_back(

@@ -79,6 +79,9 @@ void judge_tags(toml::Document& document, toml::Table& table, const StationConfi
 void read_device_keys(toml::Document& document, toml::Table& table, StationConfig& station,
                       toml::Faults& warnings);
 
+/// [station.write_limits]. To be called after read_device_keys(): limits are values of the tag table in use.
+void read_write_limits(toml::Table& table, StationConfig& station);
+
 /// Values of one kind that must not stand in the file twice.
 class Unlike {
 public:

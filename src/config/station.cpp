@@ -108,6 +108,7 @@ public:
         read_tag_keys(document_, table, station, shelf_, protocol);
         read_leds(table, station);
         read_device_keys(document_, table, station, warnings_);
+        read_write_limits(table, station);
         judge_tags(document_, table, station, protocol, warnings_);
         return station;
     }

@@ -6,6 +6,7 @@
 #include "dpslave/toml/wording.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <map>
 #include <utility>
 
@@ -26,6 +27,15 @@ std::string listed_tags(const std::vector<std::uint16_t>& tags)
         list += (i > 0 ? ", " : "") + std::to_string(tags[i]);
     if (tags.size() > shown) list += " and " + std::to_string(tags.size() - shown) + " more";
     return list;
+}
+
+/// A tag as the key of a table: "62".
+std::optional<std::uint16_t> tag_number(std::string_view key)
+{
+    std::uint16_t number = 0;
+    const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), number);
+    if (error != std::errc{} || end != key.data() + key.size()) return std::nullopt;
+    return number;
 }
 
 std::vector<std::uint16_t> tags_where(const drive::TagTable& table, bool (*is_so)(const drive::Tag&))
@@ -144,6 +154,34 @@ void read_tag_keys(Document& document, Table& table, StationConfig& station, She
             table.refuse(key, "'" + std::string{key} +
                                   "' has a meaning only on an EI-ASCII line, where numbers travel as text: "
                                   "remove it.");
+}
+
+void read_write_limits(Table& table, StationConfig& station)
+{
+    Table limits = table.table("write_limits");
+    if (!limits.exists()) return;
+    for (const std::string& key : limits.keys()) {
+        const auto values = limits.texts(key);
+        if (!values || !station.tags) continue;
+        const auto tag = tag_number(key);
+        const drive::Tag* const row = tag ? station.tags->find(*tag) : nullptr;
+        if (row == nullptr || !row->confirmed || !row->decimals_known) {
+            limits.refuse(key, "tag " + in_quotes(key) +
+                                   " has no limits that can be checked: " + station.tag_file +
+                                   " has no confirmed row with its type and decimals. Complete the row, or "
+                                   "remove the limits.");
+            continue;
+        }
+        const auto range =
+            values->size() == 2 ? limits_of(*row, values->front(), values->back()) : std::nullopt;
+        if (range)
+            station.write_limits[*tag] = *range;
+        else
+            limits.refuse(key, "the limits of tag " + key +
+                                   " are wrong: write the smallest and the largest value as the drive "
+                                   "displays them, within the limits of " +
+                                   station.tag_file + R"(, as in )" + key + R"( = ["0.0", "50.0"].)");
+    }
 }
 
 void judge_tags(Document& document, Table& table, const StationConfig& station, std::string_view protocol,

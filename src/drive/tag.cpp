@@ -230,6 +230,15 @@ ParsedValue parse_value(const Tag& tag, std::string_view text)
     return checked(tag, *counts);
 }
 
+std::optional<Limits> limits_of(const Tag& tag, std::string_view min, std::string_view max)
+{
+    const ParsedValue least = parse_value(tag, min);
+    const ParsedValue most = parse_value(tag, max);
+    if (least.error != AccessError::none || most.error != AccessError::none) return std::nullopt;
+    const Limits limits{counts_of(tag, least.word), counts_of(tag, most.word)};
+    return limits.min <= limits.max ? std::optional{limits} : std::nullopt;
+}
+
 bool is_within_limits(const Tag& tag, std::uint16_t word)
 {
     return checked(tag, counts_of(tag, word)).error == AccessError::none;

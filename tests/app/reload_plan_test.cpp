@@ -144,6 +144,8 @@ TEST_P(AppliedKey, IsNamedAndNoStationLeavesTheBus)
 INSTANTIATE_TEST_SUITE_P(
     Of, AppliedKey,
     testing::Values(Change{"output_refresh_s", "unit =", "output_refresh_s = 2.0\nunit ="},
+                    Change{"write_limits", "unit = \"01\"",
+                           "unit = \"01\"\n[station.write_limits]\n55 = [\"1\", \"2\"]\n"},
                     Change{"output_loss", "unit =", "output_loss = \"hold\"\nunit ="},
                     Change{"station reel: its name, which was winder", "\"winder\"", "\"reel\""},
                     Change{"tags", "unit =", "tags = \"../tags/590plus.csv\"\nunit ="}),
@@ -411,12 +413,18 @@ INSTANTIATE_TEST_SUITE_P(
                     Change{"[control] socket", "[control]", "[control]\nsocket = \"/run/other.sock\""}),
     testing::PrintToStringParamName());
 
-TEST_F(ReloadPlan, MayChangeTheOperatorsAndTheSinksOfTheLamps)
+TEST_F(ReloadPlan, MayChangeTheOperatorsWhatTheyMayAndTheSinksOfTheLamps)
 {
     const Plan group = plan(one, with(one, "\"root\"", "\"daemon\""));
     EXPECT_THAT(group.refusals, IsEmpty());
     EXPECT_THAT(group.changes, ElementsAre("group daemon may operate, from the next call on"));
     EXPECT_THAT(stays(group), ElementsAre(0U));
+
+    const Plan shows = plan(one, with(one, "[control]", "[control]\nread_only = true"));
+    EXPECT_THAT(shows.refusals, IsEmpty());
+    EXPECT_THAT(shows.changes,
+                ElementsAre("nothing can be written over the control socket, from the next call on"));
+    EXPECT_THAT(stays(shows), ElementsAre(0U));
 
     const Plan lamps = plan(one, with(one, "[control]", "[leds]\nsysfs = \"/tmp\"\n[control]"));
     EXPECT_THAT(lamps.refusals, IsEmpty());

@@ -315,6 +315,59 @@ TEST_F(DiagnosisKeys, of_demand_data_choose_the_extended_reply)
                 ElementsAre(HasSubstr("Did you mean \"example\"?")));
 }
 
+class WriteLimits : public test::ConfigFile {
+protected:
+    WriteLimits()
+    {
+        folder_.write("tags/limited.csv", R"(tag,name,type,decimals,min,max,values,confirmed
+8,RAMP,INT,1,0.0,600.0,,
+9,TRIM,INT,2,,,,
+10,MASK,WORD,,,,,
+11,MODE,ENUM,,,,0=off;1=local;2=remote,
+12,BARE,INT,,,,,
+13,FOUND,INT,1,,,,no
+)");
+    }
+
+    std::string file(const std::string& limits) const
+    {
+        return std::string{test::kGood} + "tags = \"../tags/limited.csv\"\n[station.write_limits]\n" + limits;
+    }
+    void expect_refused(const std::string& limits, const std::string& words) const
+    {
+        EXPECT_THAT(short_forms(bad(file(limits))), ElementsAre(HasSubstr(words))) << limits;
+    }
+};
+
+TEST_F(WriteLimits, are_values_as_the_drive_displays_them)
+{
+    const auto limits = good(file("8 = [\"10.5\", \"50.0\"]\n9 = [\"-1.25\", \"0.00\"]\n"
+                                  "10 = [\">0001\", \"0x8000\"]\n11 = [\"off\", \"local\"]\n"))
+                            .stations.at(0)
+                            .write_limits;
+    using L = drive::Limits;
+    EXPECT_THAT(limits,
+                ElementsAre(std::pair{std::uint16_t{8}, L{105, 500}}, std::pair{std::uint16_t{9}, L{-125, 0}},
+                            std::pair{std::uint16_t{10}, L{1, 0x8000}},
+                            std::pair{std::uint16_t{11}, L{0, 1}}));
+    EXPECT_THAT(good(test::kGood).stations.at(0).write_limits, IsEmpty());
+}
+
+TEST_F(WriteLimits, that_are_no_values_of_the_tag_are_refused)
+{
+    const std::string wrong = "write the smallest and the largest value";
+    for (const char* const pair :
+         {R"(["10.5"])", R"(["1.0", "2.0", "3.0"])", R"(["50.0", "10.5"])", R"(["0.05", "1.0"])",
+          R"(["-0.1", "1.0"])", R"(["0.0", "600.1"])", R"(["low", "1.0"])"})
+        expect_refused("8 = " + std::string{pair} + "\n", wrong);
+}
+
+TEST_F(WriteLimits, of_a_tag_whose_scale_is_not_known_are_refused)
+{
+    for (const char* const tag : {"12", "13", "14", "70000", "RAMP", "-1"})
+        expect_refused(std::string{tag} + " = [\"1\", \"2\"]\n", "has no limits that can be checked");
+}
+
 class Resolution : public test::ConfigFile {
 protected:
     Resolution()

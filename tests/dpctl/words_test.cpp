@@ -96,6 +96,9 @@ INSTANTIATE_TEST_SUITE_P(
         Explained{"BadTecValue", "org.dpslaved.Control.BadTecValue",
                   R"({"parameter":"TYPE","value":"ARCNET","reason":"no such type"})",
                   "TYPE cannot be set to 'ARCNET': no such type"},
+        Explained{"ReadOnly", "org.dpslaved.Control.ReadOnly", "{}",
+                  "the daemon only shows: 'read_only' is set in [control] of its configuration; to write, "
+                  "remove it and reload"},
         Explained{"Busy", "org.dpslaved.Control.Busy", "{}",
                   "the daemon has too many connections or requests at once; try again"},
         Explained{

@@ -103,6 +103,7 @@ TEST(Replies, HaveAStructForEachErrorThatHasParameters)
 {
     Described errors = test::control_varlink().errors;
     ASSERT_EQ(errors.erase("Busy"), 1U);
+    ASSERT_EQ(errors.erase("ReadOnly"), 1U);
 
     EXPECT_EQ((described<NoSuchStation, StationRequired, NotPermitted, DriveRefused, BadValue, NoTecOption,
                          BadTecValue, LineInUse, WouldSilence>()),

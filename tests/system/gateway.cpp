@@ -150,6 +150,7 @@ std::string Gateway::config_text() const
                     "[control]\n"
                     "socket = \"{}\"\n"
                     "operator_group = \"{}\"\n"
+                    "{}"
                     "[[line]]\n"
                     "name = \"p3\"\n"
                     "port = \"{}\"\n"
@@ -157,8 +158,8 @@ std::string Gateway::config_text() const
                     "baud = {}\n",
                     (folder_ / "bus-gateway").string(), wiring_.bus_baud,
                     wiring_.max_tsdr.value_or(patient_max_tsdr(wiring_.bus_baud)), lamp_folder().string(),
-                    socket().string(), own_group(), (folder_ / "drive-gateway").string(), wiring_.protocol,
-                    wiring_.drive_baud);
+                    socket().string(), own_group(), wiring_.control_keys,
+                    (folder_ / "drive-gateway").string(), wiring_.protocol, wiring_.drive_baud);
     text += wiring_.line_keys;
     for (std::size_t i = 0; i < wiring_.units.size(); ++i) {
         text +=

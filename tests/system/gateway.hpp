@@ -51,13 +51,14 @@ struct Wiring {
     std::string model{}; ///< of the simulated drive; empty: as the profile
     Arguments drive{};   ///< more options of dpsim drive
     std::string table{}; ///< a tag table of the test, for the drive and the daemon; empty: that of the drive
-    std::string profiles{};    ///< folder of the profiles; empty: those that are shipped
-    std::string line_keys{};   ///< more lines of the drive line
-    std::string keys{};        ///< more lines of each station, its tables last
-    bool simulated = true;     ///< false: the test brings a drive of its own to drive_end()
-    bool lamps = false;        ///< red on GPIO 23, green on the LED class, both in lamp_folder()
-    Environment environment{}; ///< of the daemon
-    bool started = true;       ///< false: the test starts the daemon by itself, or sees it refuse
+    std::string profiles{};     ///< folder of the profiles; empty: those that are shipped
+    std::string line_keys{};    ///< more lines of the drive line
+    std::string control_keys{}; ///< more lines of [control]
+    std::string keys{};         ///< more lines of each station, its tables last
+    bool simulated = true;      ///< false: the test brings a drive of its own to drive_end()
+    bool lamps = false;         ///< red on GPIO 23, green on the LED class, both in lamp_folder()
+    Environment environment{};  ///< of the daemon
+    bool started = true;        ///< false: the test starts the daemon by itself, or sees it refuse
 };
 
 class Gateway {

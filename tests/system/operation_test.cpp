@@ -80,6 +80,37 @@ TEST(Dpctl, ReadsAndWritesATagOfTheDriveInItsOwnUnits)
     EXPECT_THAT(silent.err, HasSubstr("does not answer"));
 }
 
+TEST(Dpctl, IsRefusedAValueOutsideTheLimitsForWrites)
+{
+    Gateway gateway{{.keys = "[station.write_limits]\n62 = [\"80.0\", \"110.0\"]\n"}};
+    for (const char* const value : {"79.9", "110.1", "-80.0", "200.1"}) {
+        const Outcome refused = gateway.dpctl({"write", "62", value});
+        EXPECT_EQ(refused.status, 1) << value;
+        EXPECT_THAT(refused.err, HasSubstr("takes 80.0 to 110.0, as [station.write_limits] says")) << value;
+    }
+    EXPECT_EQ(gateway.json({"read", "62"}).at("value"), "110.0") << "never changed to the limit";
+    for (const char* const value : {"80.0", "110.0", "95.5"})
+        EXPECT_EQ(gateway.dpctl({"write", "62", value}).status, 0) << value;
+    EXPECT_EQ(gateway.dpctl({"write", "56", "-12.5"}).status, 0) << "a tag without limits";
+
+    Master master{gateway, {"--tags", "62w"}};
+    ASSERT_TRUE(master.does("start 30s"));
+    EXPECT_TRUE(master.does("out 1 = 1200"));
+    EXPECT_TRUE(gateway.drive().says("tag 62 written 120.0")) << "the master is not limited";
+}
+
+TEST(Dpctl, WritesNothingWhileTheDaemonOnlyShows)
+{
+    Gateway gateway{{.profile = "605", .control_keys = "read_only = true\n"}};
+    for (const Arguments& command :
+         {Arguments{"write", "1", "5"}, {"write", "60000", "x"}, {"tec", "set", "RIDE_THROUGH", "1"}}) {
+        const Outcome refused = gateway.dpctl(command);
+        EXPECT_EQ(refused.status, 1);
+        EXPECT_THAT(refused.err, HasSubstr("the daemon only shows"));
+    }
+    EXPECT_EQ(gateway.dpctl({"reload"}).status, 0) << "the way out of it";
+}
+
 TEST(Dpctl, EachWriteIsALineOfTheLogWithTheUserAndTheValueBefore)
 {
     Gateway gateway;

@@ -17,6 +17,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -45,6 +46,7 @@ struct RealtimeConfig {
 struct ControlConfig {
     std::filesystem::path socket = "/run/dpslaved/control.sock";
     std::string operator_group = "dpslaved";
+    bool read_only = false; ///< no caller, root included, writes a tag or sets an input of TEC OPTION
     friend bool operator==(const ControlConfig&, const ControlConfig&) = default;
 };
 
@@ -116,6 +118,8 @@ struct StationConfig {
     bool integer_resolution = false;    ///< 2408f/2404f: resolution = "integer"
     std::optional<TecConfig> tec;       ///< there where the profile has the block
     std::vector<std::uint16_t> watched; ///< tags that the drive side reads for diagnosis and lamps
+    /// [station.write_limits]: by tag, for writes over the control socket. The master is not limited by them.
+    std::map<std::uint16_t, drive::Limits> write_limits;
     std::vector<LedConfig> leds;
     /// What it points to counts as well: see is_same() in reload_plan.hpp.
     friend bool operator==(const StationConfig&, const StationConfig&) = default;

@@ -101,6 +101,15 @@ struct ParsedValue {
 };
 ParsedValue parse_value(const Tag& tag, std::string_view text);
 
+/// Limits in counts, both included: displayed value x 10^decimals.
+struct Limits {
+    std::int32_t min = 0, max = 0;
+    friend bool operator==(const Limits&, const Limits&) = default;
+};
+/// The limits that two displayed values of the row state. None: one of them is no value of the row, or min is
+/// above max.
+std::optional<Limits> limits_of(const Tag& tag, std::string_view min, std::string_view max);
+
 /// Within the type and the limits of the row.
 bool is_within_limits(const Tag& tag, std::uint16_t word);
 

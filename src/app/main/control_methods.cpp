@@ -144,6 +144,7 @@ Reply ControlMethods::set_tec(const Station& station, const Json& parameters, co
 {
     const std::string& name = station.config->name;
     DeviceState& device = *station.device;
+    if (parts_.monitor.config().control.read_only) return Error{"ReadOnly", Json::object()};
     if (!device.has_tec()) return Error{"NoTecOption", {{"station", name}}};
 
     const auto parameter = parameters["parameter"].get<std::string>();

@@ -35,7 +35,8 @@ Result<std::uint16_t, Error> tag_of(const Json& parameters)
     return static_cast<std::uint16_t>(number);
 }
 
-/// `value`, as it is displayed, as the word of this tag.
+/// `value`, as it is displayed, as the word of this tag: within the limits of its row, and within those of
+/// [station.write_limits], which are never wider.
 Result<std::uint16_t, Error> word_to_write(const config::StationConfig& station, std::uint16_t tag,
                                            const std::string& value)
 {
@@ -44,8 +45,16 @@ Result<std::uint16_t, Error> word_to_write(const config::StationConfig& station,
     };
     const drive::Tag* row = station.tags->find(tag);
     if (row == nullptr) return refused("its type and decimals are not known; " + row_advice(station, tag));
-    const drive::ParsedValue parsed = drive::parse_value(*row, value);
-    if (parsed.error != AccessError::none) return refused(bad_value_words(*row, parsed.error));
+    drive::Tag limited = *row;
+    const auto limits = station.write_limits.find(tag);
+    if (limits != station.write_limits.end()) {
+        limited.min = limits->second.min;
+        limited.max = limits->second.max;
+    }
+    const drive::ParsedValue parsed = drive::parse_value(limited, value);
+    if (parsed.error != AccessError::none)
+        return refused(bad_value_words(limited, parsed.error) +
+                       (limits != station.write_limits.end() ? ", as [station.write_limits] says" : ""));
     return parsed.word;
 }
 
@@ -129,6 +138,7 @@ Reply PendingAccesses::read(const Station& station, const Json& parameters, cons
 
 Reply PendingAccesses::write(const Station& station, const Json& parameters, const control::Caller& caller)
 {
+    if (monitor_.config().control.read_only) return Error{"ReadOnly", Json::object()};
     const auto tag = tag_of(parameters);
     if (!tag) return tag.error();
     const auto word = word_to_write(*station.config, *tag, parameters["value"].get<std::string>());

@@ -234,6 +234,11 @@ void plan_rest(const config::Config& present, Plan& plan)
     if (present.control.operator_group != plan.config.control.operator_group)
         plan.changes.push_back(
             fmt::format("group {} may operate, from the next call on", plan.config.control.operator_group));
+    if (present.control.read_only != plan.config.control.read_only)
+        plan.changes.emplace_back(
+            plan.config.control.read_only
+                ? "nothing can be written over the control socket, from the next call on"
+                : "operators may write over the control socket, from the next call on");
 }
 
 /// The order alone changes no function, but the index of a line or station.

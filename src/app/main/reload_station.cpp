@@ -70,6 +70,7 @@ void look_at_keys(const config::StationConfig& before, const config::StationConf
     applied.look(before.integer_resolution, now.integer_resolution, "resolution");
     applied.look(before.unlisted_decimals, now.unlisted_decimals, "unlisted_decimals");
     applied.look(before.unscaled_holds, now.unscaled_holds, "unscaled_tags");
+    applied.look(before.write_limits, now.write_limits, "write_limits");
     applied.look(before.leds, now.leds, "other lamps");
 
     config::StationConfig like = now;
@@ -91,6 +92,7 @@ void look_at_keys(const config::StationConfig& before, const config::StationConf
     like.unlisted_decimals = before.unlisted_decimals;
     like.unscaled_holds = before.unscaled_holds;
     like.watched = before.watched;
+    like.write_limits = before.write_limits;
     like.leds = before.leds;
     leaves.look(like, before, "another key");
 }

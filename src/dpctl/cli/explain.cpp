@@ -89,6 +89,12 @@ std::string line_in_use(const report::LineInUse& p)
                        "requests for up to a minute; to do it anyway, add --yes",
                        p.line, joined(p.stations, ", "));
 }
+std::string read_only(const Json&)
+{
+    return "the daemon only shows: 'read_only' is set in [control] of its configuration; to write, remove it "
+           "and "
+           "reload";
+}
 std::string busy(const Json&)
 {
     return "the daemon has too many connections or requests at once; try again";
@@ -123,6 +129,7 @@ constexpr std::array kSentences = std::to_array<Row>({
     {"org.dpslaved.Control.BadTecValue", said<report::BadTecValue, bad_tec_value>},
     {"org.dpslaved.Control.WouldSilence", said<report::WouldSilence, would_silence>},
     {"org.dpslaved.Control.LineInUse", said<report::LineInUse, line_in_use>},
+    {"org.dpslaved.Control.ReadOnly", read_only},
     {"org.dpslaved.Control.Busy", busy},
     {"org.varlink.service.InvalidParameter", said<InvalidParameter, invalid_parameter>},
     {"org.varlink.service.MethodNotFound", said<MethodNotFound, method_not_found>},
