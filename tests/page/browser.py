@@ -48,6 +48,9 @@ class Browser:
         self.open(pathlib.Path(path).resolve().as_uri())
         self.wait_for("return document.documentElement.dataset.ready === 'yes'", what="the page to be ready")
 
+    def release_buttons(self):
+        """No button of the pointer stays pressed, whatever was done with it before."""
+
     def call(self, requests):
         """The replies of the page's libraries to a list of requests."""
         return json.loads(self.run("return JSON.stringify(JSON.parse(words[0]).map((one) => dpslaved.call(one)))",
@@ -64,13 +67,18 @@ class WebDriver(Browser):
         self.said = open(f"{self.folder}/driver.log", "w+", encoding="utf-8", errors="replace")
         self.driver = subprocess.Popen(command + [f"--port={port}"], stdout=self.said, stderr=subprocess.STDOUT,
                                        start_new_session=True)
+        self.capabilities = capabilities(self.folder)
         self.session = ""
         try:
             self._wait_until_it_listens(port)
-            made = self._send("POST", "/session", {"capabilities": {"alwaysMatch": capabilities(self.folder)}})
+            self.begin()
         except BaseException:
             self.close()
             raise
+
+    def begin(self):
+        """Begins a session: the driver starts the browser."""
+        made = self._send("POST", "/session", {"capabilities": {"alwaysMatch": self.capabilities}})
         self.session = f"/session/{made['sessionId']}"
         self.version = made["capabilities"].get("browserVersion", "")
         self.post("/timeouts", {"script": PATIENCE_S * 1000, "pageLoad": PATIENCE_S * 1000})
@@ -197,14 +205,30 @@ class WebKit(WebDriver):
                                        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, start_new_session=True)
         display = self.screen.stdout.readline().strip()
         self.downloads = None
+        self.other_button = False  # whether another than the left one was pressed in this session
         try:
             # Without its sandbox: a container has no user namespaces.
             super().__init__(["env", f"DISPLAY=:{display}", "WEBKIT_DISABLE_SANDBOX_THIS_IS_DANGEROUS=1",
                               "LIBGL_ALWAYS_SOFTWARE=1", "WebKitWebDriver"], capabilities)
-            self.post("/window/rect", {"width": 1280, "height": 900})
         except BaseException:
             stop(self.screen)
             raise
+
+    def begin(self):
+        super().begin()
+        self.post("/window/rect", {"width": 1280, "height": 900})
+
+    def act(self, *sources):
+        super().act(*sources)
+        self.other_button |= any(one.get("button") for source in sources for one in source["actions"])
+
+    def release_buttons(self):
+        # The driver (2.50.6) releases the left button, whichever was pressed. As long as another one stays pressed the page
+        # gets no pointerup, and letters come without their Shift. Only a new session ends that.
+        if self.other_button:
+            self._send("DELETE", self.session)
+            self.begin()
+            self.other_button = False
 
     def messages(self):
         raise unittest.SkipTest("WebKitGTK's driver does not tell what came to the console")

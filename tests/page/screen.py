@@ -52,6 +52,7 @@ class PageTest(unittest.TestCase):
 
     def setUp(self):
         self.browser = setting.browser
+        self.browser.release_buttons()
         self.open()
         self.addCleanup(self.forget)
 
