@@ -2,12 +2,14 @@
 """Several windows of the page share one draft: none writes over what another one has, and nothing is lost (C-045)."""
 
 import screen
+import setting
 
 TAKE, KEEP = "Take the other draft", "Keep this one"
 
 
 class Windows(screen.PageTest):
     def setUp(self):
+        setting.browser.load_for_the_first_time()
         super().setUp()
         self.first = self.browser.window()
         self.change("FIRST")
