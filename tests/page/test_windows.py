@@ -135,3 +135,43 @@ class Keyboard(screen.PageTest):
             self.assertFalse(self.shown("button", button))
             self.assertEqual(self.value("textbox", "File name"), name)
             self.assertEqual(self.js("return document.activeElement.id"), "page")
+
+
+class Untold(screen.PageTest):
+    """What another window has kept, and of which the browser has told this one nothing: here it is written without an event."""
+
+    def other_window_keeps(self, name, old, new):
+        self.js("""const key = `dpslaved.configurator.${words[0]}`;
+            localStorage.setItem(key, localStorage.getItem(key).replaceAll(words[1], words[2]))""", name, old, new)
+
+    def store(self, name):
+        self.type_into("textbox", "File name", name)
+        self.click("button", "Start")
+        self.click("button", "Store the mapping in the library")
+
+    def test_a_library_is_not_written_over(self):
+        self.store("MINE")
+        self.other_window_keeps("library", "MINE", "UNTOLD")
+        self.click("button", "Mapping")
+        self.store("SECOND")
+        self.open()
+        self.click("button", "Start")
+        for name in "UNTOLD", "SECOND":
+            self.assertTrue(self.shown("button", name, "Library"), name)
+
+    def test_an_entry_is_deleted_from_the_library_that_is_there(self):
+        self.store("MINE")
+        self.other_window_keeps("library", "MINE", "UNTOLD")
+        self.click("button", "Delete MINE", "Library")
+        self.assertTrue(self.shown("button", "UNTOLD", "Library"))
+
+    def test_a_window_looks_when_it_gets_the_focus(self):
+        self.store("MINE")
+        self.other_window_keeps("library", "MINE", "UNTOLD")
+        self.other_window_keeps("draft", "MINE", "OTHER")
+        self.js("dispatchEvent(new Event('focus'))")
+        self.assertTrue(self.shown("button", "UNTOLD", "Library"))
+        self.assertIn("changed the draft: OTHER", self.notice())
+        self.click("button", KEEP)
+        self.js("dispatchEvent(new Event('focus'))")
+        self.assertFalse(self.shown("button", KEEP))

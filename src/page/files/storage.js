@@ -3,10 +3,14 @@
 
 const kPrefix = 'dpslaved.configurator.';
 
+const seen = new Map(); // by name: the text that this window has read, written or been told of last
+
 /** The text kept under a name. Null: none, or there is no storage. */
 export function keptText(name) {
     try {
-        return localStorage.getItem(kPrefix + name);
+        const text = localStorage.getItem(kPrefix + name);
+        seen.set(name, text);
+        return text;
     } catch {
         return null;
     }
@@ -16,6 +20,7 @@ export function keptText(name) {
 export function keep(name, text) {
     try {
         localStorage.setItem(kPrefix + name, text);
+        seen.set(name, text);
         return true;
     } catch {
         return false;
@@ -40,9 +45,21 @@ export function forget(name) {
     }
 }
 
-/** Calls a function when another window of the page keeps a text under this name. */
+/**
+ * Calls a function when another window of the page keeps a text under this name. The window also looks itself when it gets
+ * the focus: WebKitGTK 2.50 tells nothing to a page that was loaded again.
+ */
 export function onKeptElsewhere(name, listener) {
+    const meet = (text) => {
+        seen.set(name, text);
+        listener(text);
+    };
     addEventListener('storage', (event) => {
-        if (event.key === kPrefix + name && event.newValue !== null) listener(event.newValue);
+        if (event.key === kPrefix + name && event.newValue !== null) meet(event.newValue);
+    });
+    addEventListener('focus', () => {
+        const before = seen.get(name);
+        const text = keptText(name);
+        if (text !== null && text !== before) meet(text);
     });
 }
