@@ -159,6 +159,16 @@ class Start(screen.PageTest):
         self.type_into("textbox", "Description", "Oven 3, zone 2")
         self.assertIn("Oven 3, zone 2", self.text("region", "Text of the GSD file"))
 
+    def test_another_device_drops_what_was_of_the_one_before(self):
+        self.type_into("textbox", "Ident_Number", "1652")
+        self.type_into("textbox", "Description", "Oven 3")
+        self.choose("Device", "605")
+        self.assertIn("Ident_Number. Undo brings it back", self.said())
+        self.assertEqual((self.value("textbox", "Ident_Number"), self.value("textbox", "Description")), ("", "Oven 3"))
+        self.assertRegex(self.text("region", "Text of the GSD file"), r"Ident_Number +\= 0x1649")
+        self.click("button", "Undo")
+        self.assertEqual(self.value("textbox", "Ident_Number"), "0x1652")
+
     def test_keeps_several_files_for_one_instrument(self):  # C-045
         for name, tag in ("COLD", 2), ("HOT", 5):
             self.type_into("textbox", "File name", name)

@@ -115,10 +115,20 @@ function editingDocument({ store, ask, say }, { present, step, within }) {
         say(done);
     }
     return {
+        /** Drops what was of the other device: its table, and the numbers and name that stood instead of the profile's. */
+        setDevice(profile) {
+            const own = { table: 'the table of your own', ident: 'Ident_Number', model: 'Model_Name', max_tsdr: 'MaxTsdr' };
+            const dropped = Object.keys(own).filter((key) => present()[key] !== null);
+            const none = Object.fromEntries(Object.keys(own).map((key) => [key, null]));
+            step({ ...present(), ...none, profile }, { selectedList: 'in', selectedAt: -1, tab: null, treeTag: null });
+            say([`The mapping is for ${ask.profile(profile).device}.`, dropped.length === 0 ? ''
+                : `Dropped, because it is of the other device: ${dropped.map((key) => own[key]).join(', ')}. Undo brings it back.`]
+                .join(' ').trim());
+        },
         set(key, value) {
             const next = setField(present(), key, value);
             if (key === 'demand' && value && !within(next)) return store.change({});
-            step(next, key === 'profile' ? { selectedList: 'in', selectedAt: -1, tab: null, treeTag: null } : {}, kTyped.includes(key) ? key : '');
+            step(next, {}, kTyped.includes(key) ? key : '');
             if (key === 'demand') say(value ? 'Demand Data is used.' : 'Demand Data is not used.');
         },
         seal: () => store.change({ history: seal(store.state().history) }),

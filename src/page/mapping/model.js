@@ -98,7 +98,7 @@ export function clearDirection(document, direction) {
     return withList(document, document.list.filter((one) => one.direction !== direction));
 }
 
-/** Sets one of: name, profile, demand, ident, max_tsdr, description, model, table. */
+/** Sets one of: name, demand, ident, max_tsdr, description, model, table. */
 export function setField(document, key, value) {
     return document[key] === value ? document : { ...document, [key]: value };
 }

@@ -55,8 +55,7 @@ export function detailsView(app) {
     const used = h('p', { class: 'used', 'data-used': '' });
     const demand = checkbox('Use Demand Data', false, (checked) => edit.set('demand', checked));
     const device = field('Device', h('select', { on: { change: () => {
-        app.edit.set('profile', device.input.value);
-        app.say(`The mapping is for ${ask.profile(device.input.value).device}.`);
+        edit.setDevice(device.input.value);
     } } }, ask.profiles.map((one) => h('option', { value: one.name }, `${one.name}: ${one.device}`))));
     const fields = [
         boundField(app, 'name', 'File name', 'Without .GSD', { parse: (text) => text, maxLength: 120 }),
