@@ -169,6 +169,28 @@ class Start(screen.PageTest):
         self.click("button", "Undo")
         self.assertEqual(self.value("textbox", "Ident_Number"), "0x1652")
 
+    def test_a_dot_in_a_name_is_no_ending(self):
+        self.type_into("textbox", "Ident_Number", "0x1652")
+        self.click("button", "Save as")
+        self.dialog_name("PUMP 1.5")
+        self.assertEqual(self.saved(lambda: self.keys("Enter"))[0], "PUMP 1.5.GSD")
+        self.assertEqual(self.value("textbox", "File name"), "PUMP 1.5")
+        self.click("button", "Save as")
+        self.dialog_name("PUMP.gse")
+        self.assertEqual(self.saved(lambda: self.keys("Enter"))[0], "PUMP.gse")
+
+    def test_save_asks_where_after_the_name_has_changed(self):
+        self.type_into("textbox", "Ident_Number", "0x1652")
+        self.click("button", "Save as")
+        self.dialog_name("COLD1652")
+        self.assertEqual(self.saved(lambda: self.keys("Enter"))[0], "COLD1652.GSD")
+        self.wait_said("COLD1652.GSD")
+        self.type_into("textbox", "File name", "HOT_1652")
+        self.keys("Control+s")
+        self.assertTrue(self.shown("dialog"))
+        self.js("document.querySelector('dialog[open] input[type=text]').focus()")
+        self.assertEqual(self.saved(lambda: self.keys("Enter"))[0], "HOT_1652.GSD")
+
     def test_keeps_several_files_for_one_instrument(self):  # C-045
         for name, tag in ("COLD", 2), ("HOT", 5):
             self.type_into("textbox", "File name", name)

@@ -8,9 +8,9 @@ import { download, hasPicker, pickFile, writePicked } from '../files/disk.js';
 
 /** The kinds of file in which a mapping is saved. */
 export const kKinds = {
-    gsd: { ending: '.GSD', what: 'GSD file' },
-    mapping: { ending: '.toml', what: 'Mapping' },
-    station: { ending: '.toml', what: 'Block for dpslaved.toml' },
+    gsd: { ending: '.GSD', endings: /\.gs[a-z]$/i, what: 'GSD file' }, // .GSE, .GSG: the same in another language
+    mapping: { ending: '.toml', endings: /\.toml$/i, what: 'Mapping' },
+    station: { ending: '.toml', endings: /\.toml$/i, what: 'Block for dpslaved.toml' },
 };
 
 /** The octets of a kind of file, or null and a notice why there are none. */
@@ -31,7 +31,8 @@ export function saving(app) {
     const targets = new Map(); // by document: where it was saved last
     const present = () => store.state().history.present;
 
-    async function write(target, name, octets) {
+    /** `document` is what the octets are of: what is typed while the browser writes is not saved. */
+    async function write(document, target, name, octets) {
         try {
             if (target.handle) await writePicked(target.handle, octets);
             else download(name, octets);
@@ -39,8 +40,8 @@ export function saving(app) {
             return notify('error', `${name} was not saved.`, [error.message]);
         }
         if (target.kind !== 'station') {
-            targets.set(present().id, { ...target, name });
-            store.change({ saved: JSON.stringify(mappingOf(present())) });
+            targets.set(document.id, { ...target, name });
+            store.change({ saved: JSON.stringify(mappingOf(document)) });
         }
         return say(target.handle ? `${name} was saved.` : `${name} was given to the downloads of the browser.`);
     }
@@ -51,9 +52,10 @@ export function saving(app) {
         /** Saves under a name. The picker of the browser asks again where it has one. */
         async saveAs(kind, name, place = null) {
             store.change({ notice: null });
-            const { ending, what } = kKinds[kind];
-            const full = /\.[^.]+$/.test(name) ? name : name + ending;
-            const octets = octetsFor(app, present(), kind, { name: full, place });
+            const { ending, endings, what } = kKinds[kind];
+            const document = present();
+            const full = endings.test(name) ? name : name + ending;
+            const octets = octetsFor(app, document, kind, { name: full, place });
             if (!octets) return;
             let handle = null;
             if (hasPicker()) {
@@ -61,16 +63,17 @@ export function saving(app) {
                 if (!handle) return say('Nothing was saved.');
             }
             const final = handle?.name ?? full;
-            await write({ kind, handle }, final, octets);
-            if (kind !== 'station') edit.set('name', final.replace(/\.[^.]*$/, ''));
+            await write(document, { kind, handle }, final, octets);
+            if (kind !== 'station') edit.set('name', final.replace(endings, ''));
         },
-        /** Saves to where it was saved before. False: it was not saved yet. */
+        /** Saves to where it was saved before. False: it was not saved yet, or it has got another name. */
         async save() {
-            const target = targets.get(present().id);
-            if (!target) return false;
+            const document = present();
+            const target = targets.get(document.id);
+            if (!target || target.name.replace(kKinds[target.kind].endings, '') !== document.name) return false;
             store.change({ notice: null });
-            const octets = octetsFor(app, present(), target.kind, target);
-            if (octets) await write(target, target.name, octets);
+            const octets = octetsFor(app, document, target.kind, target);
+            if (octets) await write(document, target, target.name, octets);
             return true;
         },
         downloadText: (name, text) => download(name, new TextEncoder().encode(text)),
