@@ -2,6 +2,7 @@
 """Draft and library where the browser has no room for them, or lets the page keep nothing (C-045)."""
 
 import screen
+import setting
 
 FORBID = """const part = words[0];
     globalThis.setItem ??= Storage.prototype.setItem;
@@ -38,6 +39,26 @@ class Kept(screen.PageTest):
 
     def test_leaving_is_asked_about_while_something_would_be_lost(self):
         asked = "const event = new Event('beforeunload', { cancelable: true }); dispatchEvent(event); return event.defaultPrevented"
+    def test_a_draft_that_stops_the_page_is_set_aside(self):
+        if self.browser.name != "chromium":
+            self.skipTest("only Chromium runs a script before those of the page")
+        self.edit("the draft")
+        fault = self.browser.cdp("Page.addScriptToEvaluateOnNewDocument",
+                                 source="Object.defineProperty(document, 'title', { set() { throw new Error('made for the test'); } })")
+        self.browser.open(setting.page.as_uri())
+        self.browser.wait_for("return /made for the test.*set aside/s.test(document.body.innerText)", what="the sentence")
+        self.browser.cdp("Page.removeScriptToEvaluateOnNewDocument", identifier=fault["identifier"])
+        self.open()
+        self.assertEqual(self.value("textbox", "Description"), "")
+        self.assertIn("the draft", self.js("return localStorage.getItem('dpslaved.configurator.draft set aside')"))
+
+    def test_a_draft_with_more_entries_than_a_telegram_has_is_not_restored(self):
+        draft = {"form": "dpslaved configurator 1", "library": [], "draft": {
+            "name": "MANY", "mapping": {"profile": "605", "list": ["in:1"] * 501}, "table": None}}
+        self.js("localStorage.setItem('dpslaved.configurator.draft', JSON.stringify(words[0]))", draft)
+        self.open()
+        self.assertEqual(self.value("textbox", "File name"), "EURO2400")
+
         self.edit("kept")
         self.assertFalse(self.js(asked))
         self.js(FORBID, "draft")

@@ -45,6 +45,13 @@ export function forget(name) {
     }
 }
 
+/** Keeps a text under another name from now on. False: there is none, or no room for it. It is gone from its place in any case. */
+export function setAside(name, other) {
+    const text = keptText(name);
+    forget(name); // first: both may have no room beside each other
+    return text !== null && keep(other, text);
+}
+
 /**
  * Calls a function when another window of the page keeps a text under this name. The window also looks itself when it gets
  * the focus: WebKitGTK 2.50 tells nothing to a page that was loaded again.

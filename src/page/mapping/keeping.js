@@ -4,6 +4,7 @@
 import { documentOf, kDirections, mappingOf } from './model.js';
 
 const kForm = 'dpslaved configurator 1';
+const kMostEntries = 500; // no telegram has so many: 244 octets in each direction
 
 function packed(document) {
     return { name: document.name, mapping: mappingOf(document), table: document.table };
@@ -16,7 +17,7 @@ const isEntry = (value) => isText(value) && new RegExp(`^(${kDirections.join('|'
 function isMapping(mapping) {
     const optional = (key, test) => mapping[key] === undefined || test(mapping[key]);
     return mapping !== null && typeof mapping === 'object' && isText(mapping.profile) &&
-        Array.isArray(mapping.list) && mapping.list.length < 10000 && mapping.list.every(isEntry) &&
+        Array.isArray(mapping.list) && mapping.list.length <= kMostEntries && mapping.list.every(isEntry) &&
         optional('ident', isNumber) && optional('max_tsdr', isNumber) &&
         optional('description', isText) && optional('model', isText);
 }
