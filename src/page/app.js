@@ -22,7 +22,7 @@ import { listsView } from './view/lists.js';
 import { liveView } from './view/live.js';
 import { watchMenus } from './view/menu.js';
 import { print, watchPrint } from './view/paper.js';
-import { askPrint, askSave, chooseProfile } from './view/questions.js';
+import { askDelete, askPrint, askReplace, askSave, chooseProfile } from './view/questions.js';
 import { startView } from './view/start.js';
 import { treeView } from './view/tree.js';
 
@@ -135,7 +135,7 @@ export function startApp(call) {
     const app = { ask, store, say, notify };
     app.noteKept = keptNotes(app);
     app.edit = editing(app);
-    app.library = keeping(app);
+    app.library = keeping({ ...app, askReplace, askDelete });
     app.draft = drafting({ ...app, collect: app.library.add });
     app.save = saving(app);
     app.files = opening({ ...app, chooseProfile: (name, why, names) => chooseProfile(name, why, names, ask.profile) });

@@ -35,10 +35,10 @@ class Kept(screen.PageTest):
         self.js("Storage.prototype.setItem = globalThis.setItem")
         self.click("button", "Start")
         self.click("button", "Store the mapping in the library")
+        self.click("button", "Replace")
+        self.wait_said("was stored in the library")
         self.assertNotIn("does not keep", self.js("return document.querySelector('[data-file]').innerText"))
 
-    def test_leaving_is_asked_about_while_something_would_be_lost(self):
-        asked = "const event = new Event('beforeunload', { cancelable: true }); dispatchEvent(event); return event.defaultPrevented"
     def test_a_draft_that_stops_the_page_is_set_aside(self):
         if self.browser.name != "chromium":
             self.skipTest("only Chromium runs a script before those of the page")
@@ -59,6 +59,8 @@ class Kept(screen.PageTest):
         self.open()
         self.assertEqual(self.value("textbox", "File name"), "EURO2400")
 
+    def test_leaving_is_asked_about_while_something_would_be_lost(self):
+        asked = "const event = new Event('beforeunload', { cancelable: true }); dispatchEvent(event); return event.defaultPrevented"
         self.edit("kept")
         self.assertFalse(self.js(asked))
         self.js(FORBID, "draft")

@@ -191,6 +191,23 @@ class Start(screen.PageTest):
         self.js("document.querySelector('dialog[open] input[type=text]').focus()")
         self.assertEqual(self.saved(lambda: self.keys("Enter"))[0], "HOT_1652.GSD")
 
+    def test_the_library_asks_before_it_replaces_or_deletes(self):  # C-045
+        self.go("Start")
+        self.click("button", "Store the mapping in the library")
+        self.go("Mapping")
+        self.type_into("textbox", "Description", "other")
+        self.go("Start")
+        self.click("button", "Store the mapping in the library")
+        self.keys("Escape")
+        self.browser.wait_for("return !document.querySelector('dialog[open]')", what="the question to go")
+        self.click("button", "Store the mapping in the library")
+        self.click("button", "Keep both")
+        self.browser.wait_for("return document.querySelectorAll('[data-library] li').length === 2", what="both")
+        self.click("button", "Delete EURO2400 (2)")
+        self.assertTrue(self.shown("dialog"))
+        self.keys("Enter")
+        self.browser.wait_for("return document.querySelectorAll('[data-library] li').length === 1", what="one")
+
     def test_keeps_several_files_for_one_instrument(self):  # C-045
         for name, tag in ("COLD", 2), ("HOT", 5):
             self.type_into("textbox", "File name", name)

@@ -163,6 +163,8 @@ class Untold(screen.PageTest):
         self.store("MINE")
         self.other_window_keeps("library", "MINE", "UNTOLD")
         self.click("button", "Delete MINE", "Library")
+        self.keys("Enter")  # it asks
+        self.wait_said("MINE was deleted")
         self.assertTrue(self.shown("button", "UNTOLD", "Library"))
 
     def test_a_window_looks_when_it_gets_the_focus(self):

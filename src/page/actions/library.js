@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The library of several files for one instrument: kept by the browser, exported and imported as one file with the draft.
 import { documentOf, mappingOf } from '../mapping/model.js';
-import { isSame, merged, readKept, textOf, withDocument } from '../mapping/keeping.js';
+import { hasOther, isSame, merged, readKept, textOf, withDocument } from '../mapping/keeping.js';
 import { keep, keptText, onKeptElsewhere } from '../files/storage.js';
 
 /** The library as the browser keeps it for all windows of the page. */
@@ -41,7 +41,7 @@ function sharedLibrary({ store, noteKept, known }) {
 }
 
 /** The actions with the library. */
-export function keeping({ store, ask, say, notify, noteKept, edit }) {
+export function keeping({ store, ask, say, notify, noteKept, edit, askReplace, askDelete }) {
     const known = (document) => document !== null && ask.profile(document.profile) !== undefined;
     const copyOf = ({ name, table, ...rest }) => documentOf(name, mappingOf(rest), [], table);
     const shared = sharedLibrary({ store, noteKept, known });
@@ -52,16 +52,21 @@ export function keeping({ store, ask, say, notify, noteKept, edit }) {
         /** What the browser has kept. */
         restored: shared.restored,
         watch: shared.watch,
-        store() {
+        async store() {
             const document = store.state().history.present;
-            const isKept = shared.set(withDocument(shared.present(), document, stamp()));
-            say(isKept ? `${document.name} was stored in the library.` : `${document.name} is in the library until the page is closed.`,
+            const answer = hasOther(shared.present(), document) ? await askReplace(document.name) : 'replace';
+            if (answer === null) return say('Nothing was stored.');
+            const library = shared.present();
+            const isKept = shared.set(answer === 'both' ? merged(library, [{ document, stored: stamp() }])
+                : withDocument(library, document, stamp()));
+            return say(isKept ? `${document.name} was stored in the library.` : `${document.name} is in the library until the page is closed.`,
                 isKept ? '' : 'error');
         },
         /** Adds a document; one of the same name with other content stays. False: the browser cannot keep it. */
         add: (document) => shared.set(merged(shared.present(), [{ document, stored: stamp() }])),
         open: (entry) => edit.open(copyOf(entry.document), `${entry.document.name} was opened from the library.`),
-        remove(entry) {
+        async remove(entry) {
+            if (!await askDelete(entry.document.name)) return;
             shared.set(shared.present().filter((one) => !isSame(one, entry)));
             say(`${entry.document.name} was deleted from the library.`);
         },

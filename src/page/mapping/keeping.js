@@ -72,6 +72,12 @@ export function isSameDraft(one, other) {
     return one.name === other.name && contentOf(one) === contentOf(other);
 }
 
+/** Whether the library has another content under the document's name and device. */
+export function hasOther(library, document) {
+    const old = library.find((one) => isSame(one, { document }));
+    return old !== undefined && contentOf(old.document) !== contentOf(document);
+}
+
 /** The library with the entries of another one. One that has the name but not the content of an old one gets a further name. */
 export function merged(library, entries) {
     let all = library;

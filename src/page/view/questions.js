@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The dialogs of the page: which profile, save as, print.
+// The dialogs of the page: which profile, save as, replace and delete in the library, print.
 import { kKinds } from '../actions/saving.js';
 import { ask } from './dialog.js';
 import { checkbox, field, h } from './dom.js';
@@ -48,6 +48,17 @@ export function askSave(document, kind) {
         if (/[\\/:*?"<>|\u0000-\u001f]/.test(name.input.value)) return 'These characters cannot stand in a file name: \\ / : * ? " < > |';
         return kinds.input.value === 'station' ? station.valid() : '';
     });
+}
+
+/** The library has another mapping of this name: resolves with "replace", "both" or null. */
+export function askReplace(name) {
+    return ask(`The library has another mapping ${name}.`, [h('p', {}, 'Undo does not bring back what is replaced.')],
+        [{ text: 'Replace', value: () => 'replace' }, { text: 'Keep both', value: () => 'both' }]);
+}
+
+/** Resolves with true or null. */
+export function askDelete(name) {
+    return ask(`Delete ${name} from the library?`, [h('p', {}, 'Undo does not bring it back.')], [{ text: 'Delete', value: () => true }]);
 }
 
 /** What to print: resolves with the set of the chosen parts, or null. */
