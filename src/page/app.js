@@ -46,7 +46,7 @@ function firstState(ask) {
 
 /** The actions that lie over several modules. */
 function commands(app) {
-    const { store, say } = app;
+    const { store, say, notify } = app;
     const picker = h('input', { type: 'file', class: 'unseen', tabIndex: -1, 'aria-label': 'File to open', 'data-open': '', on: {
         change: () => { if (picker.files[0]) app.files.open(picker.files[0]); picker.value = ''; } } });
     return {
@@ -91,10 +91,13 @@ function commands(app) {
             app.focusList(direction);
         },
         async drop(files, side) {
-            if (store.state().screen !== 'check') return app.files.open(files[0]);
-            await app.sides.check(files[0], side ?? (files.length === 1 && store.state().sides[0] ? 1 : 0));
-            if (files.length > 1) await app.sides.check(files[1], 1);
-            return undefined;
+            const onCheck = store.state().screen === 'check';
+            if (!onCheck) await app.files.open(files[0]);
+            else if (files.length === 1) await app.sides.check(files[0], side ?? (store.state().sides[0] ? 1 : 0));
+            else for (const at of [0, 1]) await app.sides.check(files[at], at);
+            const left = files.slice(onCheck ? 2 : 1).map((one) => one.name);
+            if (left.length > 0)
+                notify('warning', `${onCheck ? 'Two files are' : 'One file is'} taken at a time.`, [`Not read: ${left.join(', ')}.`]);
         },
     };
 }

@@ -193,7 +193,7 @@ class PageTest(unittest.TestCase):
 
     def wait_said(self, part):
         self.browser.wait_for("return document.getElementById('said').textContent.includes(words[0])"
-                              " || document.querySelector('[role=alert]').textContent.includes(words[0])",
+                              " || [...document.querySelectorAll('[role=alert]')].some((one) => one.textContent.includes(words[0]))",
                               part, what=f"the sentence {part!r}")
 
     def saved(self, trigger):

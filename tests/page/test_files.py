@@ -44,6 +44,20 @@ class Check(screen.PageTest):
         self.browser.wait_for("return document.querySelector('[data-same]')?.dataset.same === 'true'", what="the comparison")
 
 
+    def test_two_files_on_the_second_place_are_the_first_and_the_second(self):
+        self.click("button", "Check and compare")
+        self.drop([("ONE.GSD", GSD.read_bytes()), ("TWO.GSD", GSD.read_bytes()), ("THREE.GSD", GSD.read_bytes())],
+                  "[data-drop-file='1']")
+        self.browser.wait_for("return document.querySelector('[data-same]')?.dataset.same === 'true'", what="the comparison")
+        self.wait_said("THREE.GSD")
+        names = self.js("return [...document.querySelectorAll('.result > h2')].map((one) => one.innerText)")
+        self.assertEqual(names, ["Comparison", "ONE.GSD", "TWO.GSD"])
+
+    def test_of_several_files_the_one_that_is_not_opened_is_named(self):
+        self.drop([("one.toml", b'profile = "605"\n'), ("two.toml", b'profile = "590"\n')])
+        self.wait_said("Not read: two.toml")
+
+
 class Hostile(screen.PageTest):
     def setUp(self):
         super().setUp()
