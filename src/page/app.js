@@ -21,6 +21,7 @@ import { watchFaults, watchInput } from './view/input.js';
 import { listsView } from './view/lists.js';
 import { liveView } from './view/live.js';
 import { watchMenus } from './view/menu.js';
+import { meterView } from './view/meter.js';
 import { print, watchPrint } from './view/paper.js';
 import { askDelete, askPrint, askReplace, askSave, chooseProfile } from './view/questions.js';
 import { startView } from './view/start.js';
@@ -103,11 +104,11 @@ function commands(app) {
 }
 
 function mappingScreen(app) {
-    const views = [treeView(app), listsView(app), detailsView(app), liveView(app)];
-    const [tree, lists, details, live] = views;
+    const views = [treeView(app), meterView(app), listsView(app), detailsView(app), liveView(app)];
+    const [tree, meter, lists, details, live] = views;
     app.focusList = lists.focusList;
     return {
-        element: h('div', { class: 'mapping' }, tree.element, h('div', { class: 'middle' }, lists.element, details.element), live.element),
+        element: h('div', { class: 'mapping' }, tree.element, h('div', { class: 'middle' }, meter.element, lists.element, details.element), live.element),
         update(state) { for (const view of views) view.update(state); },
     };
 }

@@ -1,30 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """axe-core without findings on every screen, and the names that assistive technology reads."""
-import unittest
-
-import screen
-import setting
-
-TAGS = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"]
+import access
 
 
-class Access(screen.PageTest):
-    def findings(self, where):
-        if not setting.axe:
-            raise unittest.SkipTest("without --axe there is no axe-core")
-        self.browser.run(setting.axe.read_text(encoding="utf-8") + "; globalThis.axe ??= axe; return 1")
-        found = self.js("""
-            const { violations } = await axe.run(document, { runOnly: words[0], resultTypes: ['violations'] });
-            return violations.map((one) => `${one.id}: ${one.help}: ${one.nodes.slice(0, 3).map((node) => node.html).join(' ')}`)""", TAGS)
-        self.assertEqual(found, [], where)
-
+class Access(access.AxeTest):
     def test_the_mapping_screen_has_no_findings(self):
-        self.findings("as it opens")
-        for tab in "Octets", "I/O map":
-            self.click("tab", tab)
-            self.findings(tab)
-        self.click("tab", "Status words")
-        self.findings("status words")
+        self.mapping_screen()
 
     def test_the_mapping_screen_of_a_technology_box_has_no_findings(self):
         self.click("button", "Start")
@@ -33,13 +14,7 @@ class Access(screen.PageTest):
         self.findings("605, empty lists")
 
     def test_start_and_check_have_no_findings(self):
-        for name in "Start", "Check and compare":
-            self.click("button", name)
-            self.findings(name)
-        file = setting.root / "gsd/605/605_1649.GSD"
-        self.drop([("A.GSD", file.read_bytes()), ("B.GSD", file.read_bytes() + b"; more\r\n")], ".slots")
-        self.browser.wait_for("return document.querySelector('[data-same]')", what="the comparison")
-        self.findings("two files")
+        self.start_and_check()
 
     def test_dialogs_menus_and_notices_have_no_findings(self):
         for key in "Control+p", "Control+Shift+s":

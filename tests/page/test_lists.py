@@ -250,6 +250,7 @@ class Lists(screen.PageTest):
         self.assertIn("117", self.said())
         self.search("274")
         self.press(self.row_place("Parameters", 274), times=2)
+        self.place("button", "Delete from outputs")  # scrolls the list into view
         self.drag(self.row_place("Parameters", 274), self.area_of("Outputs"))
         self.focus("listbox", "Parameters")
         self.keys("o")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What belongs to the mapping beside its lists: words used, Demand Data, texts and numbers of the file.
+// What belongs to the mapping beside its lists: Demand Data, texts and numbers of the file.
 import { hexWord } from '../files/octets.js';
 import { area, checkbox, field, h, setText } from './dom.js';
 
@@ -51,8 +51,6 @@ function boundField(app, key, label, note, { parse = (text) => text || null, sho
 /** The view of the details. */
 export function detailsView(app) {
     const { ask, edit } = app;
-    const meter = h('progress', { 'aria-label': 'Used of the limit' });
-    const used = h('p', { class: 'used', 'data-used': '' });
     const demand = checkbox('Use Demand Data', false, (checked) => edit.set('demand', checked));
     const device = field('Device', h('select', { on: { change: () => {
         edit.setDevice(device.input.value);
@@ -66,22 +64,13 @@ export function detailsView(app) {
     ];
     const element = area('File', 'Demand Data reads and writes any parameter when the master asks for it; it takes four words in ' +
         'each direction. The description is what the master shows in its device list.', { class: 'details' },
-    h('div', { class: 'limit' }, meter, used), demand.row, device.row, h('div', { class: 'fields' }, fields.map((one) => one.row)));
+    demand.row, device.row, h('div', { class: 'fields' }, fields.map((one) => one.row)));
 
     return {
         element,
         update(state) {
             const document = state.history.present;
             const profile = ask.profile(document.profile);
-            const preview = ask.preview(document);
-            const count = preview.used ?? null;
-            setText(used, count ? usedText(count) : '');
-            meter.hidden = !count;
-            if (count) {
-                const [most, now] = count.max_words === null ? [count.max_parameters, count.parameters] : [count.max_words, count.words];
-                meter.max = most;
-                meter.value = Math.min(most, now);
-            }
             device.input.value = document.profile;
             demand.input.checked = document.demand;
             demand.row.hidden = !profile.demand && !document.demand;
@@ -90,10 +79,4 @@ export function detailsView(app) {
             element.querySelector('[data-field=ident]').placeholder = profile.ident === null ? 'not known' : hexWord(profile.ident);
         },
     };
-}
-
-function usedText({ parameters, max_parameters: mostParameters, words, max_words: mostWords }) {
-    const full = parameters >= mostParameters || (mostWords !== null && words >= mostWords);
-    const ofWords = mostWords === null ? `${words} words used` : `${words} of ${mostWords} words used`;
-    return `${ofWords}, ${parameters} of ${mostParameters} parameters.${full ? ' The limit is reached: delete one before you add one.' : ''}`;
 }

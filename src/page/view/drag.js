@@ -4,7 +4,9 @@
 import { h } from './dom.js';
 
 const kThreshold = 5; // pixels before a press is a drag
-const kEdge = 32;     // pixels from the edge of a list within which it scrolls
+const kEdge = 32;     // pixels from the edge of a list or of the page within which it scrolls
+const kStep = 8;      // pixels for each picture
+const kWait_ms = 300; // so long the pointer is at the edge of the page before that scrolls: one that passes by moves nothing
 
 /** The place under the pointer: {list, row, behind}, or null. Lists have data-drop, rows the role option. */
 function targetAt(x, y) {
@@ -23,12 +25,31 @@ function clearMarks() {
         one.classList.remove('drop-over', 'drop-before', 'drop-behind');
 }
 
-function scrollEdges(target, y) {
-    const box = target.list.querySelector('[role=listbox]');
-    if (!box) return;
+/** Which way a box is to scroll: -1 up, 1 down, 0 not, because the pointer is not at an edge behind which there is more. */
+function wayOf(box, y) {
+    if (!box) return 0;
     const { top, bottom } = box.getBoundingClientRect();
-    if (y < top + kEdge) box.scrollTop -= 12;
-    if (y > bottom - kEdge) box.scrollTop += 12;
+    if (y < top + kEdge && box.scrollTop > 0) return -1;
+    return y > bottom - kEdge && box.scrollTop + box.clientHeight < box.scrollHeight - 1 ? 1 : 0;
+}
+
+/** Scrolls list or page as long as the pointer is at an edge, also while it rests there. place() gives {target, y}. */
+function newScrolling(place, scrolled) {
+    const page = document.querySelector('.scroll');
+    let since = null;
+    let next = 0;
+    function scroll(now) {
+        const { target, y } = place();
+        const list = target?.list.querySelector('[role=listbox]');
+        const [ofList, ofPage] = [wayOf(list, y), wayOf(page, y)];
+        since = ofPage === 0 ? null : since ?? now;
+        if (ofList !== 0) list.scrollTop += ofList * kStep;
+        else if (since !== null && now - since >= kWait_ms) page.scrollTop += ofPage * kStep;
+        if (ofList !== 0 || since !== null) scrolled();
+        next = requestAnimationFrame(scroll);
+    }
+    next = requestAnimationFrame(scroll);
+    return { end: () => cancelAnimationFrame(next) };
 }
 
 /** One drag from its first movement to its end. */
@@ -37,17 +58,22 @@ function newDrag(label, drop) {
     document.body.append(ghost);
     document.documentElement.classList.add('dragging');
     let target = null;
+    let at = { x: 0, y: 0 };
+    function aim() {
+        clearMarks();
+        target = targetAt(at.x, at.y);
+        target?.list.classList.add('drop-over');
+        target?.row?.classList.add(target.behind ? 'drop-behind' : 'drop-before');
+    }
+    const scrolling = newScrolling(() => ({ target, y: at.y }), aim);
     return {
         moveTo(x, y) {
+            at = { x, y };
             ghost.style.transform = `translate(${x + 12}px, ${y + 12}px)`;
-            clearMarks();
-            target = targetAt(x, y);
-            if (!target) return;
-            scrollEdges(target, y);
-            target.list.classList.add('drop-over');
-            target.row?.classList.add(target.behind ? 'drop-behind' : 'drop-before');
+            aim();
         },
         end(dropped) {
+            scrolling.end();
             ghost.remove();
             clearMarks();
             document.documentElement.classList.remove('dragging');
