@@ -3,6 +3,10 @@
 
 import screen
 
+# A table of one's own, as `dpctl survey` writes it, but with tags of no device.
+TABLE = ("tag,name,type,decimals,min,max,access,when,mnemonic,register,values,section,notes\r\n"
+         + "".join(f"{tag},OWN {tag},INT,1,0,100,rw,,,,,,\r\n" for tag in (*range(1, 41), 800))).encode()
+
 
 class Lists(screen.PageTest):
     def setUp(self):
@@ -94,11 +98,23 @@ class Lists(screen.PageTest):
         self.assertEqual(self.tags("Outputs"), [2])
         self.assertIn("outputs", self.said())
 
-    def test_a_drop_beside_the_lists_or_after_escape_adds_nothing(self):
+    def test_a_drop_beside_the_lists_adds_nothing(self):
         self.search("2")
         head = self.place("region", "Preview")
         self.drag(self.row_place("Parameters", 2), (head["x"], head["y"]))
         self.assertEqual(self.tags("Inputs") + self.tags("Outputs"), [])
+
+    def test_escape_ends_a_drag(self):
+        self.search("2")
+        start, (x, y) = self.row_place("Parameters", 2), self.area_of("Inputs")
+        self.act(self._to(start), {"type": "pointerDown", "button": 0}, {"type": "pointerMove", "x": x, "y": y, "duration": 20})
+        self.assertTrue(self.js("return document.querySelector('.ghost') !== null"))
+        self.keys("Escape")
+        self.assertFalse(self.js("return document.querySelector('.ghost, .drop-over, .dragging') !== null"))
+        self.act({"type": "pointerMove", "x": x, "y": y - 2, "duration": 0}, {"type": "pointerUp", "button": 0})
+        self.assertEqual(self.tags("Inputs"), [])
+        self.drag(start, (x, y))  # the next one is not hindered
+        self.assertEqual(self.tags("Inputs"), [2])
 
     def test_adds_by_double_click_to_the_selected_list(self):
         self.click("region", "Outputs")
@@ -254,4 +270,37 @@ class Lists(screen.PageTest):
         self.drag(self.row_place("Parameters", 274), self.area_of("Outputs"))
         self.focus("listbox", "Parameters")
         self.keys("o")
+        self.click("button", "Add to outputs")
+        self.click("checkbox", "Use Demand Data")
+        self.assertFalse(self.js("return find('checkbox', 'Use Demand Data').checked"))
         self.assertEqual((len(self.tags("Inputs")), self.tags("Outputs")), (117, []))
+
+    def test_adds_nothing_above_the_limit_of_drives_and_boxes(self):
+        for device, most in ("590", 12), ("605", 30):
+            with self.subTest(device):
+                self.click("button", "Start")
+                self.choose("Device", device)
+                self.click("button", "New file", "New file")
+                self.drop([("own.csv", TABLE)])
+                self.wait_said("was loaded")
+                self.fill(*range(1, most + 3))
+                self.assertEqual(self.tags("Inputs"), list(range(1, most + 1)))
+                self.assertIn(f"{most} of {most} parameters",
+                              self.js("return document.querySelector('[data-used]').innerText"))
+                self.search("800")
+                self.press(self.row_place("Parameters", 800), times=2)
+                self.click("button", "Add to outputs")
+                self.assertIn("Not added", self.said())
+                self.place("button", "Delete from outputs")  # scrolls the list into view
+                self.drag(self.row_place("Parameters", 800), self.area_of("Outputs"))
+                self.assertEqual((len(self.tags("Inputs")), self.tags("Outputs")), (most, []))
+
+    # ---- findings
+
+    def test_a_finding_shows_its_parameter(self):
+        self.fill(1, 2)
+        self.fill(6, 7, 6, to="Outputs")  # written twice
+        self.click("region", "Inputs")
+        self.click("button", "Show the parameter", "Preview")
+        self.assertEqual(self.js("return document.querySelector('.list [aria-selected=true]').dataset.at"), "4")
+        self.assertEqual(self.js("return document.activeElement.getAttribute('aria-label')"), "Outputs")
