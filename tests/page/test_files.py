@@ -57,6 +57,25 @@ class Check(screen.PageTest):
         self.drop([("one.toml", b'profile = "605"\n'), ("two.toml", b'profile = "590"\n')])
         self.wait_said("Not read: two.toml")
 
+    def test_the_mapping_that_is_edited_is_compared_and_a_file_opened_for_editing(self):
+        self.type_into("textbox", "Ident_Number", "0x1652")
+        self.type_into("textbox", "File name", "MINE")
+        self.click("button", "Check and compare")
+        self.click("button", "Take the mapping as First file")
+        self.assertIn("MINE.GSD", self.result())
+        self.drop([("605_1649.GSD", GSD.read_bytes())], "[data-drop-file='1']")
+        self.browser.wait_for("return document.querySelector('[data-same]')?.dataset.same === 'false'", what="the comparison")
+        lines = "return document.querySelectorAll('.lines tbody tr:not(.differs)').length"
+        self.assertEqual(self.js(lines), 0)
+        self.click("checkbox", "Only the lines that differ")
+        self.assertGreater(self.js(lines), 0)
+        self.click("button", "Open for editing Second file")
+        self.wait_said("605_1649.GSD was opened")
+        self.assertEqual((self.value("combobox", "Device"), self.value("textbox", "File name")), ("605", "605_1649"))
+        self.click("button", "Check and compare")
+        self.click("button", "Remove Second file")
+        self.assertFalse(self.js("return document.querySelector('[data-same]') !== null"))
+
 
 class Hostile(screen.PageTest):
     def setUp(self):

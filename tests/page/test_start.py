@@ -239,6 +239,16 @@ class Start(screen.PageTest):
         self.wait_said("in the library")
         self.go("Start")
         self.assertTrue(self.shown("button", "TRAVEL", "Library"))
+        self.browser.run("localStorage.clear()")
+        self.open()
+        self.go("Start")
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, name)
+            path.write_bytes(octets)
+            self.choose_file(lambda: self.click("button", "Import…"), path)
+            self.wait_said("in the library")
+        self.go("Start")
+        self.assertTrue(self.shown("button", "TRAVEL", "Library"))
 
     def test_restores_the_draft(self):  # C-045
         self.type_into("textbox", "File name", "DRAFT")
