@@ -105,7 +105,8 @@ class Start(screen.PageTest):
                          screen.dpctl("gsd", "make", "--profile", "2408f", "--ident", "0x1652"))
 
     def dialog_name(self, name):
-        self.js("const one = document.querySelector('dialog[open] input[type=text]'); one.value = words[0]; one.focus()", name)
+        self.js("const one = document.querySelector('dialog[open] input[type=text]'); one.focus(); one.select()")
+        self.keys("Delete", f"={name}")
 
     def test_saves_a_mapping_that_dpctl_takes(self):  # C-034
         self.type_into("textbox", "Ident_Number", "0x1652")
@@ -190,6 +191,14 @@ class Start(screen.PageTest):
         self.assertTrue(self.shown("dialog"))
         self.js("document.querySelector('dialog[open] input[type=text]').focus()")
         self.assertEqual(self.saved(lambda: self.keys("Enter"))[0], "HOT_1652.GSD")
+
+    def test_a_file_that_was_opened_is_saved_until_it_is_changed(self):
+        head = "return document.querySelector('[data-file]').innerText"
+        self.drop([("mine.toml", b'profile = "605"\nlist = ["in:1"]\n')])
+        self.wait_said("was opened")
+        self.assertNotIn("not saved", self.js(head))
+        self.type_into("textbox", "Description", "other")
+        self.assertIn("not saved", self.js(head))
 
     def test_the_library_asks_before_it_replaces_or_deletes(self):  # C-045
         self.go("Start")
