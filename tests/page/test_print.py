@@ -81,6 +81,16 @@ class Paper(screen.PageTest):
         self.focus("button", "Copy what is shown")
         self.assertEqual(self.copied(lambda: self.keys("Enter")), text)
 
+    def test_copies_where_the_browser_lets_no_page_write_the_clipboard(self):
+        self.js("""Object.defineProperty(navigator.clipboard, 'writeText', { configurable: true,
+                value: async () => { throw new DOMException('made for the test', 'NotAllowedError'); } });
+            globalThis.copy = '';
+            document.addEventListener('copy', (event) => { globalThis.copy = document.activeElement.value ?? ''; })""")
+        self.click("tab", "I/O map")
+        self.click("button", "Copy what is shown")
+        self.wait_said("was copied")
+        self.assertIn("Process variable", self.js("return globalThis.copy"))
+
     def test_follows_each_change_of_the_lists(self):
         self.click("tab", "I/O map")
         before = self.js("return document.querySelectorAll('.maps tbody tr').length")

@@ -92,6 +92,17 @@ class Drags(Emulated):
                  {"type": "pointerUp", "button": 0})
         self.assertEqual(self.scrolled(), before)
 
+    def test_a_finger_drags_by_the_handle(self):
+        self.js("find('button', 'Clear inputs').click()")
+        self.type_into("searchbox", "Search parameters", "2")
+        grip = self.js("return at(document.querySelector(`[role=listbox][aria-label='Parameters'] [data-tag='2'] .grip`))")
+        area = self.js("return at(document.querySelector(`section[aria-label='Inputs'] .list-rows`))")
+        self.browser.act({"type": "pointer", "id": "finger", "parameters": {"pointerType": "touch"}, "actions": [
+            self._to(grip), {"type": "pointerDown", "button": 0},
+            {"type": "pointerMove", "x": grip["x"] + 20, "y": grip["y"] + 10, "duration": 40},
+            {"type": "pointerMove", "x": area["x"], "y": area["y"], "duration": 60}, {"type": "pointerUp", "button": 0}]})
+        self.assertEqual(self.tags("Inputs"), [2])
+
 
 class Meter(Emulated):
     def test_what_is_used_stands_above_the_lists(self):
