@@ -53,6 +53,8 @@ class PageTest(unittest.TestCase):
     def setUp(self):
         self.browser = setting.browser
         self.browser.release_buttons()
+        if self.browser.name == "chromium":
+            self.browser.messages()  # those of the test before
         self.open()
         self.addCleanup(self.forget)
 
@@ -67,6 +69,8 @@ class PageTest(unittest.TestCase):
     def forget(self):
         failed = self.browser.run("localStorage.clear(); return globalThis.failed ?? null")
         self.assertIsNone(failed, "an error in the page")
+        if self.browser.name == "chromium":
+            self.assertEqual(self.browser.messages(), [], "what the page wrote to the console")
 
     # ---- what is there
 
