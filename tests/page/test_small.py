@@ -3,6 +3,7 @@
 import access
 
 SIZES = {"320 pixels wide": (320, 640, 1), "200 % zoom": (640, 450, 2)}
+PICTURES = (1200, 760, 1)  # the screen of the guide's pictures
 
 
 class Emulated(access.AxeTest):
@@ -20,7 +21,7 @@ class Emulated(access.AxeTest):
         self.assertTrue(self.js("return matchMedia(`(${words[0]}: ${words[1]})`).matches", name, value))
 
     def size(self, name):
-        width, height, scale = SIZES[name]
+        width, height, scale = SIZES.get(name, PICTURES)
         self.browser.cdp("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=scale, mobile=False)
         self.browser.wait_for("return innerWidth === words[0]", width, what="the size")
         self.open()
@@ -61,6 +62,11 @@ class Looks(Emulated):
                 with self.subTest(name, screen=button):
                     self.click("button", button)
                     self.assertEqual(self.js(wider), 0)
+
+    def test_the_table_of_the_octets_is_not_cut(self):
+        self.size("pictures")
+        self.click("tab", "Octets")
+        self.assertEqual(self.js("const one = document.querySelector('.live-panel'); return one.scrollWidth - one.clientWidth"), 0)
 
 
 class Drags(Emulated):
