@@ -35,12 +35,13 @@ class Third(screen.PageTest):
         self.choose_parameter(8)
         self.focus("listbox", "Parameters")
         self.keys("b")
-        self.choose_parameter(9)
-        self.press(self.row_place("Parameters", 9), button=2)
-        self.click("menuitem", "Add to read and write")
         self.choose_parameter(10)
         self.place("button", f"Delete from {THIRD.lower()}")  # scrolls the list into view
         self.drag(self.row_place("Parameters", 10), self.area_of(THIRD))
+        self.choose_parameter(9)
+        # Last: in WebKit the right button stays pressed.
+        self.press(self.row_place("Parameters", 9), button=2)
+        self.click("menuitem", "Add to read and write")
         self.assertEqual(sorted(self.tags(THIRD)), [7, 8, 9, 10])
         self.assertEqual(self.all_tags()[:2], [[], []])
 
