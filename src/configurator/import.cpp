@@ -11,6 +11,8 @@
 #include "dpslave/base/printable.hpp"
 
 #include <algorithm>
+#include <set>
+#include <sstream>
 
 namespace dpslave::configurator {
 namespace {
@@ -22,8 +24,26 @@ std::string joined(const std::vector<std::string>& names)
     return all;
 }
 
+std::set<std::string> words_of(const std::string& text)
+{
+    std::set<std::string> words;
+    std::istringstream all{text};
+    for (std::string word; all >> word; words.insert(word))
+        for (char& c : word) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    return words;
+}
+
+/// "EUROTHERM" and "EUROTHERM CONTROLS" may be one vendor: they share a word.
+bool may_be_same_vendor(const std::string& a, const std::string& b)
+{
+    const auto ours = words_of(b);
+    const auto theirs = words_of(a);
+    return std::any_of(theirs.begin(), theirs.end(),
+                       [&](const std::string& word) { return ours.contains(word); });
+}
+
 /// Which profiles a file may be of. 0x0533 is three profiles and several have no ident (C-033), so one is
-/// found only where ident and model fit together.
+/// found only where ident and model fit together. A profile without ident takes no file of another vendor.
 struct Candidates {
     std::vector<std::string> both, ident, model, open;
 
@@ -34,7 +54,9 @@ struct Candidates {
         if (same_ident && same_model) both.push_back(profile.name);
         if (same_ident) ident.push_back(profile.name);
         if (!profile.ident && same_model) model.push_back(profile.name);
-        if (!profile.ident) open.push_back(profile.name);
+        if (!profile.ident &&
+            may_be_same_vendor(document.text("Vendor_Name"), gsd::latin1(profile.gsd.vendor)))
+            open.push_back(profile.name);
     }
 
     const std::vector<std::string>& narrowest() const
@@ -54,11 +76,17 @@ std::string find_profile(const Files& files, const gsd::Document& document, Outc
     if (candidates.both.size() == 1) return candidates.both.front();
     const std::vector<std::string>& names = candidates.narrowest();
     outcome.exit = kNo;
+    const std::string ident = "Ident_Number " + hex_of(document.number("Ident_Number").value_or(0));
+    const std::string model = "Model_Name \"" + printable(document.text("Model_Name")) + '"';
+    if (names.empty()) {
+        outcome.refusals.push_back("the file is for another device: no profile has " + ident + ", " + model +
+                                   " or Vendor_Name \"" + printable(document.text("Vendor_Name")) +
+                                   "\". Choose the GSD file of a device that has a profile.");
+        return {};
+    }
     outcome.facts = text_of({{"candidates", names}});
-    outcome.refusals.push_back("the file does not say which device it is for: Ident_Number " +
-                               hex_of(document.number("Ident_Number").value_or(0)) + " and Model_Name \"" +
-                               printable(document.text("Model_Name")) +
-                               "\" do not belong to one profile alone. Name the profile, one of " +
+    outcome.refusals.push_back("the file does not say which device it is for: " + ident + " and " + model +
+                               " do not belong to one profile alone. Name the profile, one of " +
                                joined(names) + '.');
     return {};
 }
@@ -230,7 +258,11 @@ Outcome import_file(const Files& files, std::string_view file, const std::string
     const profile::Draft draft = profile::draft_of(*device, mapping.selection);
     Json facts{{"mapping", mapping_of(mapping)}};
     for (const profile::Note& note : draft.notes)
-        outcome.messages.push_back("warning: " + printable(note.text));
+        if (note.refuses)
+            outcome.refusals.push_back(printable(note.text));
+        else
+            outcome.messages.push_back("warning: " + printable(note.text));
+    if (!outcome.refusals.empty()) outcome.exit = kNo; // the mapping is there all the same, to be corrected
     add_lost(outcome, facts, document, draft);
     outcome.octets = mapping_file(mapping, device->tags);
     outcome.facts = text_of(facts);

@@ -90,12 +90,13 @@ Outcome show(const Files& files, std::string_view file, const std::string& profi
     Outcome outcome;
     const gsd::Document document = gsd::parse(file);
     const gsd::Findings findings = gsd::check(document, gsd::Reading::tolerant);
-    if (any_error(findings))
-        outcome.messages.push_back("warning: the file has " + summary(findings) + ": check it to read them.");
     if (!document.has_section) {
         outcome.exit = kNo;
+        outcome.refusals.emplace_back("this is no GSD file: it has no line #Profibus_DP.");
         return outcome;
     }
+    if (any_error(findings))
+        outcome.messages.push_back("warning: the file has " + summary(findings) + ": check it to read them.");
     gsd::MapHints hints;
     if (!profile.empty()) {
         const auto device = load(files, profile, outcome);

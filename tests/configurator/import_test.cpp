@@ -89,6 +89,43 @@ TEST(Import, RefusesAnotherDeviceWithTheReason)
     EXPECT_THAT(texts(unknown, "refusals"), HasSubstr("T630"));
 }
 
+TEST(Import, RefusesTheFileOfAnotherVendorWithTheReason)
+{
+    const std::string foreign = "#Profibus_DP\r\nGSD_Revision = 1\r\nVendor_Name = \"Siemens AG\"\r\n"
+                                "Model_Name = \"ET 200B\"\r\nIdent_Number = 0x8044\r\n";
+    const json refused = import_of(foreign);
+    EXPECT_EQ(refused["exit"], 1);
+    EXPECT_FALSE(refused.contains("candidates"));
+    EXPECT_THAT(
+        texts(refused, "refusals"),
+        HasSubstr(R"(no profile has Ident_Number 0x8044, Model_Name "ET 200B" or Vendor_Name "Siemens AG")"));
+
+    std::string older = foreign;
+    older.replace(older.find("Siemens AG"), 10, "Eurotherm ");
+    EXPECT_THAT(import_of(older)["candidates"], testing::Contains("2408f"))
+        << "a vendor of these devices, and several of them have no ident";
+}
+
+TEST(Import, OfAMappingThatCannotBeMadeAgainSaysSoAndGivesItToBeCorrected)
+{
+    std::string file = made_file({{"profile", "605"}, {"list", {"in:1"}}});
+    const std::size_t model = file.find('"', file.find("Model_Name"));
+    file.insert(model + 1, 40, 'x');
+    const json reply = import_of(file, "605");
+
+    EXPECT_EQ(reply["exit"], 1);
+    EXPECT_THAT(texts(reply, "refusals"), HasSubstr("model"));
+    EXPECT_EQ(reply["mapping"]["list"], json({"in:1"}));
+}
+
+TEST(Show, OfNoGsdFileIsRefusedInASentence)
+{
+    const json reply = ask({{"do", "show"}, {"file", to_base64("just a text\n")}});
+    EXPECT_EQ(reply["exit"], 1);
+    EXPECT_EQ(texts(reply, "refusals"), "this is no GSD file: it has no line #Profibus_DP.\n");
+    EXPECT_THAT(reply["messages"], IsEmpty());
+}
+
 TEST(Import, KeepsTheMaxTsdrOfTheMachine)
 {
     const json mapping{{"profile", "620"}, {"list", {"in:55"}}, {"demand", false}, {"max_tsdr", 120}};
