@@ -70,7 +70,8 @@ function commands(app) {
             if (!await app.save.save()) await app.doSaveAs();
         },
         async doSaveAs() {
-            const wanted = await askSave(store.state().history.present, app.save.target()?.kind ?? 'gsd');
+            const document = store.state().history.present;
+            const wanted = await askSave(document, app.ask.profile(document.profile), app.save.target()?.kind ?? 'gsd');
             if (wanted) await app.save.saveAs(wanted.kind, wanted.name, wanted.place);
         },
         async doPrint() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The dialogs of the page: which profile, save as, replace and delete in the library, print.
 import { kKinds } from '../actions/saving.js';
+import { whyNoStation } from '../mapping/station.js';
 import { ask } from './dialog.js';
 import { checkbox, field, h } from './dom.js';
 
@@ -11,30 +12,25 @@ export function chooseProfile(name, sentences, candidates, ofProfile) {
     return ask(`Which device is ${name} for?`, [sentences.map((one) => h('p', {}, one)), row], [{ text: 'Open', value: () => input.value }]);
 }
 
-function stationFields() {
+function stationFields(document, profile) {
     const name = field('Station name', h('input', { type: 'text', value: 'station-1' }));
-    const address = field('PROFIBUS address', h('input', { type: 'text', inputMode: 'numeric', class: 'short' }), '0 to 125');
+    const address = field('PROFIBUS address', h('input', { type: 'text', inputMode: 'numeric', class: 'short' }), `${profile.min_address} to ${profile.max_address}`);
     const line = field('Drive line', h('input', { type: 'text', value: 'p3' }), 'Its name in [[line]]');
     const unit = field('Unit on that line', h('input', { type: 'text', class: 'short' }), 'As the profile has it: 00 or 1');
     const parts = h('div', { class: 'fields' }, name.row, address.row, line.row, unit.row);
     return {
         parts,
-        value: () => ({ name: name.input.value, address: Number(address.input.value), line: line.input.value, unit: unit.input.value }),
-        valid() {
-            if (!name.input.value.trim()) return 'The station needs a name.';
-            if (!/^[0-9]{1,3}$/.test(address.input.value) || Number(address.input.value) > 125) return 'The PROFIBUS address has to be a number from 0 to 125.';
-            if (!line.input.value.trim()) return 'Name the drive line.';
-            return unit.input.value.trim() ? '' : 'Name the unit on the drive line.';
-        },
+        value: () => ({ name: name.input.value.trim(), address: address.input.value, line: line.input.value.trim(), unit: unit.input.value.trim() }),
+        valid() { return whyNoStation(document, profile, this.value()); },
     };
 }
 
-/** Save as: resolves with {kind, name, place}, or null. */
-export function askSave(document, kind) {
+/** Save as, for a mapping and its profile: resolves with {kind, name, place}, or null. */
+export function askSave(document, profile, kind) {
     const kinds = field('Kind of file', h('select', {}, Object.entries(kKinds).map(([value, { what, ending }]) =>
         h('option', { value, selected: value === kind }, `${what} (${ending})`))));
     const name = field('File name', h('input', { type: 'text', value: document.name, autocomplete: 'off', spellcheck: false }));
-    const station = stationFields();
+    const station = stationFields(document, profile);
     const show = () => {
         station.parts.hidden = kinds.input.value !== 'station';
         if (kinds.input.value === 'station' && name.input.value === document.name) name.input.value = 'station';
