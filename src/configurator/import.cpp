@@ -11,8 +11,6 @@
 #include "dpslave/base/printable.hpp"
 
 #include <algorithm>
-#include <set>
-#include <sstream>
 
 namespace dpslave::configurator {
 namespace {
@@ -24,22 +22,24 @@ std::string joined(const std::vector<std::string>& names)
     return all;
 }
 
-std::set<std::string> words_of(const std::string& text)
+/// Its words in capital letters.
+std::vector<std::string> words_of(const std::string& text)
 {
-    std::set<std::string> words;
-    std::istringstream all{text};
-    for (std::string word; all >> word; words.insert(word))
-        for (char& c : word) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    std::vector<std::string> words(1);
+    for (const char c : text)
+        if (c == ' ')
+            words.emplace_back();
+        else
+            words.back() += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    std::erase(words, "");
     return words;
 }
 
 /// "EUROTHERM" and "EUROTHERM CONTROLS" may be one vendor: they share a word.
 bool may_be_same_vendor(const std::string& a, const std::string& b)
 {
-    const auto ours = words_of(b);
-    const auto theirs = words_of(a);
-    return std::any_of(theirs.begin(), theirs.end(),
-                       [&](const std::string& word) { return ours.contains(word); });
+    const std::vector<std::string> ours = words_of(b), theirs = words_of(a);
+    return std::find_first_of(theirs.begin(), theirs.end(), ours.begin(), ours.end()) != theirs.end();
 }
 
 /// Which profiles a file may be of. 0x0533 is three profiles and several have no ident (C-033), so one is
