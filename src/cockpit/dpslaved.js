@@ -44,7 +44,12 @@ function follow(command) {
     let rest = "";
     const follower = cockpit.spawn(["dpctl", "--json", command, "--follow"], { err: "message" });
     follower.stream(text => {
+        if (!followers.includes(follower)) return; // closed meanwhile
         const parsed = parse_lines(rest + text);
+        if (parsed === null) {
+            ended("dpctl printed a line that is no document. The page asks it again.");
+            return;
+        }
         rest = parsed.rest;
         if (parsed.documents.length === 0) return;
         const before = picture;
@@ -104,16 +109,36 @@ async function poll() {
 
 // ---- the operator's commands
 
-/// Shows what the command prints as it prints it: a search takes up to a minute.
+/// Shows what the command prints as it prints it: a search takes up to a minute. The printed text if the command did it;
+/// null: it did not.
 function operate(words) {
     const place = id("answer");
     let printed = "";
     show_answer(place, "...");
-    cockpit.spawn(["dpctl", ...words], { err: "out" })
+    return cockpit.spawn(["dpctl", ...words], { err: "out" })
         .stream(text => show_answer(place, printed += text))
-        .then(() => show_answer(place, printed))
-        .catch(failure => show_answer(place, printed || failure_text(failure), failure.exit_status ?? -1))
+        .then(() => {
+            show_answer(place, printed);
+            return printed;
+        })
+        .catch(failure => {
+            show_answer(place, printed || failure_text(failure), failure.exit_status ?? -1);
+            return null;
+        })
         .finally(poll);
+}
+
+/// Asks before the machine may move. Escape and the button with the focus do nothing.
+function ask_first(sentence, details, verb, action) {
+    const question = id("question");
+    id("question-text").textContent = sentence;
+    id("question-details").textContent = details;
+    id("question-do").textContent = verb;
+    question.returnValue = "";
+    question.onclose = () => {
+        if (question.returnValue === "do") action();
+    };
+    question.showModal();
 }
 const of_station = () => (chosen === null ? [] : ["--station", chosen]);
 
@@ -129,20 +154,27 @@ id("station").addEventListener("change", event => {
     if (picture !== null) show_picture();
     poll();
 });
-id("read").addEventListener("click", () => {
-    if (id("access").reportValidity()) operate(["read", ...of_station(), id("tag").value]);
-});
 id("access").addEventListener("submit", event => {
     event.preventDefault();
-    operate(["write", ...of_station(), id("tag").value, id("value").value]);
+    operate(["read", ...of_station(), id("tag").value]);
+});
+id("write").addEventListener("click", () => {
+    if (!id("access").reportValidity()) return;
+    // What was asked is what is written, whatever is chosen or typed meanwhile.
+    const words = ["write", ...of_station(), id("tag").value, id("value").value];
+    ask_first(`Write ${id("value").value} to tag ${id("tag").value} of ${chosen ?? "the station"}? It goes to the drive at once.`, "",
+              "Write", () => operate(words));
 });
 id("tec").addEventListener("submit", event => {
     event.preventDefault();
     operate(["tec", "set", ...consent(), ...of_station(), id("tec-name").value, id("tec-value").value]);
 });
 id("probe").addEventListener("click", () => operate(["doctor", "--probe", ...consent(), ...(chosen === null ? [] : [chosen])]));
-id("dry-run").addEventListener("click", () => operate(["reload", "--dry-run"]));
-id("reload").addEventListener("click", () => operate(["reload"]));
+id("reload").addEventListener("click", async () => {
+    const would_do = await operate(["reload", "--dry-run"]);
+    if (would_do === null) return; // refused: the answer says why
+    ask_first("Reload the configuration? This is what it does:", would_do, "Reload", () => operate(["reload"]));
+});
 
 // ---- the configurator, where its package is installed
 

@@ -12,11 +12,15 @@ function rows(table, lines) {
     table.tBodies[0].replaceChildren(...lines);
 }
 
-/// The whole lines of a stream as documents, and the beginning of the next line.
+/// The whole lines of a stream as documents, and the beginning of the next line. null: a line is no document.
 export function parse_lines(text) {
     const lines = text.split("\n");
     const rest = lines.pop();
-    return { documents: lines.filter(Boolean).map(line => JSON.parse(line)), rest };
+    try {
+        return { documents: lines.filter(Boolean).map(line => JSON.parse(line)), rest };
+    } catch {
+        return null;
+    }
 }
 
 export function show_bus(place, bus, sentence) {

@@ -14,6 +14,7 @@ import unittest
 
 from selenium import webdriver
 from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select
 
 from world import OPERATORS, World, wait_for
@@ -74,10 +75,17 @@ class Session(unittest.TestCase):
         """A busy machine tears an answer of the simulated drive now and then: the same again."""
         def answered():
             self.press(name)
+            if name == "write":
+                self.agree("Write")
             wait_for(lambda: self.text("#answer") not in ("", "..."), "an answer")
             return word in self.text("#answer")
 
         wait_for(answered, word)
+
+    def agree(self, *words):
+        """The page asks with these words, and is told to go on."""
+        self.sees("#question", *words)
+        self.press("question-do")
 
     def choose(self, station):
         self.sees("#station", station)
@@ -150,6 +158,24 @@ class Restart(Session):
         self.sees("#stations", "Data_Exch")
 
 
+class TornLine(Session):
+    """A line that dpctl prints is no document."""
+
+    def test_it_is_said_and_the_page_asks_again(self):
+        torn = self.world.folder / "torn"
+        torn.write_text("")
+        self.world.dpctl_command(f"case \"$*\" in *--follow*) [ ! -s {torn} ] || echo '{{\"bus\": tor' ;; esac")
+        self.addCleanup(self.world.dpctl_command)
+        self.open()
+        self.sees("#stations", "Data_Exch")
+        torn.write_text("torn")
+        self.browser.refresh()
+        self.sees("#daemon", "no document")
+        torn.write_text("")
+        self.sees("#stations", "Data_Exch")
+        self.assertEqual(self.complaints(), [])
+
+
 class WithoutRights(Session):
     def test_an_input_of_the_tec_option_is_not_set(self):
         self.open()
@@ -162,6 +188,7 @@ class WithoutRights(Session):
         self.sees("#stations", "Data_Exch")
         self.enter("62", "7.7")
         self.press("write")
+        self.agree("Write 7.7 to tag 62 of unwinder?")
         self.sees("#answer", "dpctl: only root and members of the group")
         self.assertIn("trouble", self.browser.find_element(By.ID, "answer").get_attribute("class"))
         self.assertNotIn("tag 62 written 7.7", self.world.said("drive"))
@@ -184,6 +211,26 @@ class Operator(Session):
         self.enter("62", "9.5")
         self.press_until("write", "9.5")
         wait_for(lambda: "tag 62 written" in self.world.said("drive"), "the drive has it")
+
+    def test_a_write_that_is_not_agreed_to_is_not_done(self):
+        self.open()
+        self.sees("#stations", "Data_Exch")
+        self.enter("62", "8.25")
+        self.press("write")
+        self.sees("#question", "Write 8.25 to tag 62 of unwinder?")
+        self.browser.switch_to.active_element.send_keys(Keys.ENTER)  # the focus is on Cancel
+        wait_for(lambda: not self.browser.find_element(By.ID, "question").is_displayed(), "the question is gone")
+        self.press_until("read", "unwinder: tag 62")  # which comes after a write, had there been one
+        self.assertNotIn("tag 62 written 8.25", self.world.said("drive"))
+
+    def test_the_enter_key_in_the_fields_reads_and_does_not_write(self):
+        self.open()
+        self.sees("#stations", "Data_Exch")
+        self.enter("62", "8.75")
+        self.browser.find_element(By.ID, "value").send_keys(Keys.ENTER)
+        wait_for(lambda: self.text("#answer") not in ("", "..."), "an answer")
+        self.assertFalse(self.browser.find_element(By.ID, "question").is_displayed())
+        self.assertNotIn("tag 62 written 8.75", self.world.said("drive"))
 
     def test_an_input_of_the_tec_option_is_set(self):
         self.open()
@@ -216,14 +263,14 @@ class Operator(Session):
         self.sees("#stations", "Data_Exch")
         self.enter("55", "1")
         self.press("write")
+        self.agree("Write 1 to tag 55 of unwinder?")
         self.sees("#answer", "dpctl:")
 
     def test_the_configuration_is_read_again(self):
         self.open()
         self.sees("#stations", "Data_Exch")
-        self.press("dry-run")
-        self.sees("#answer", "no station leaves the bus")
         self.press("reload")
+        self.agree("Reload the configuration?", "no station leaves the bus")
         wait_for(lambda: self.text("#answer") not in ("", "..."), "an answer")
         self.assertEqual(self.browser.find_element(By.ID, "answer").get_attribute("class"), "")
 

@@ -39,12 +39,16 @@ class World:
         self.programs.mkdir()
         for name in ("dpslaved", "dpctl", "dpsim"):
             shutil.copy2(programs / name, self.programs / f"real-{name}")
-        self.command("dpctl", f'exec {self.programs}/real-dpctl --socket {self.folder}/control.sock "$@"')
+        self.dpctl_command()
 
     def command(self, name, line):
         path = self.programs / name
         path.write_text(f"#!/bin/sh\n{line}\n")
         path.chmod(0o755)
+
+    def dpctl_command(self, before=":"):
+        """The dpctl that Cockpit finds; `before`: a line of shell that it does first."""
+        self.command("dpctl", f'{before}\nexec {self.programs}/real-dpctl --socket {self.folder}/control.sock "$@"')
 
     def start(self, name, *words, environment=None):
         log = open(self.folder / f"{name}.log", "w", encoding="utf-8")
