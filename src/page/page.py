@@ -33,10 +33,11 @@ def digest(text: str) -> str:
 
 
 def bundle(script: pathlib.Path) -> str:
-    """The script and what it imports, in the language of the oldest browser."""
+    """The script and what it imports, in the language of the oldest browser. esbuild names each part in a comment, relative to the
+    folder that it runs in: in that of the script the names are the same wherever the project lies."""
     return subprocess.run(
-        ["esbuild", str(script), "--bundle", "--format=iife", f"--target={FLOOR}", "--charset=utf8", "--log-level=warning"],
-        check=True, stdout=subprocess.PIPE, text=True).stdout
+        ["esbuild", script.name, "--bundle", "--format=iife", f"--target={FLOOR}", "--charset=utf8", "--log-level=warning"],
+        check=True, stdout=subprocess.PIPE, text=True, cwd=script.parent).stdout
 
 
 def project_files(root: pathlib.Path) -> dict[str, str]:
