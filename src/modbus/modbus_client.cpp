@@ -83,11 +83,11 @@ ModbusClient::Reply ModbusClient::ask(std::uint8_t unit, Bytes request)
     const Exchange::End end = exchange_->ask(unit, request);
     trouble_ = exchange_->trouble();
     if (end == Exchange::End::not_asked)
-        return {.error = AccessError::deferred, .exception = 0, .answer = {}};
-    if (end != Exchange::End::answer) return {.error = AccessError::no_answer, .exception = 0, .answer = {}};
-    const std::uint8_t exception = exception_of(exchange_->answer());
-    if (exception == 0) return {.error = {}, .exception = 0, .answer = exchange_->answer()};
-    trouble_ = exception_text(exception);
+        return {.error = AccessError::deferred, .exception = {}, .answer = {}};
+    if (end != Exchange::End::answer) return {.error = AccessError::no_answer, .exception = {}, .answer = {}};
+    const auto exception = exception_of(exchange_->answer());
+    if (!exception) return {.error = {}, .exception = {}, .answer = exchange_->answer()};
+    trouble_ = exception_text(*exception);
     return {.error = {}, .exception = exception, .answer = {}};
 }
 
@@ -113,7 +113,7 @@ bool ModbusClient::has_address(std::uint8_t unit)
 
 ModbusClient::Reply ModbusClient::ask_for(const Block& block)
 {
-    if (!has_address(block.unit)) return {.error = AccessError::no_answer, .exception = 0, .answer = {}};
+    if (!has_address(block.unit)) return {.error = AccessError::no_answer, .exception = {}, .answer = {}};
     auto function = function_for(block);
     if (!function) {
         exchange_->listen(); // what is owed may have come
@@ -121,12 +121,12 @@ ModbusClient::Reply ModbusClient::ask_for(const Block& block)
     }
     if (!function) {
         const AccessError error = clear(block.unit);
-        if (error != AccessError::none) return {.error = error, .exception = 0, .answer = {}};
+        if (error != AccessError::none) return {.error = error, .exception = {}, .answer = {}};
         function = function_for(block);
     }
-    if (!function) return {.error = AccessError::deferred, .exception = 0, .answer = {}};
+    if (!function) return {.error = AccessError::deferred, .exception = {}, .answer = {}};
     const Reply reply = ask(block.unit, read_registers(block.first, block.count, *function));
-    if (reply.exception != 0) gave_data_.erase(block);
+    if (reply.exception) gave_data_.erase(block);
     if (!reply.answer.empty()) gave_data_.insert(block);
     return reply;
 }
@@ -140,7 +140,7 @@ AccessError ModbusClient::clear(std::uint8_t unit)
         const auto function = function_for(block);
         if (!function) continue;
         const Reply reply = ask(unit, read_registers(block.first, block.count, *function));
-        if (reply.exception == 0) return reply.error;
+        if (!reply.exception) return reply.error;
         gave_data_.erase(block);
         return AccessError::none;
     }
@@ -171,7 +171,7 @@ AccessError ModbusClient::read(UnitAddress unit, const Tag& tag, std::span<std::
     const std::uint16_t first = is_block ? tag.number : register_of(tag);
     const Reply reply = ask_for({unit.unit, first, static_cast<std::uint16_t>(words.size())});
     if (reply.error != AccessError::none) return reply.error;
-    if (reply.exception != 0) return error_of_exception(reply.exception, false, is_block ? nullptr : &tag);
+    if (reply.exception) return error_of_exception(*reply.exception, false, is_block ? nullptr : &tag);
     for (std::size_t i = 0; i < words.size(); ++i) words[i] = word_read(reply.answer, i);
     return AccessError::none;
 }
@@ -180,7 +180,7 @@ AccessError ModbusClient::read_ieee(std::uint8_t unit, const Tag& tag, std::uint
 {
     const Reply reply = ask_for({unit, register_of(tag), 2});
     if (reply.error != AccessError::none) return reply.error;
-    if (reply.exception != 0) return error_of_exception(reply.exception, false, &tag);
+    if (reply.exception) return error_of_exception(*reply.exception, false, &tag);
     const IeeePair pair{word_read(reply.answer, 0), word_read(reply.answer, 1)};
     const auto value = word_of(tag, pair);
     if (!value) {
@@ -194,13 +194,13 @@ AccessError ModbusClient::read_ieee(std::uint8_t unit, const Tag& tag, std::uint
 
 ModbusClient::Reply ModbusClient::ask_to_write(std::uint8_t unit, Bytes request)
 {
-    if (!has_address(unit)) return {.error = AccessError::no_answer, .exception = 0, .answer = {}};
+    if (!has_address(unit)) return {.error = AccessError::no_answer, .exception = {}, .answer = {}};
     if (!exchange_->may_ask(unit, request, false)) exchange_->listen();
     if (!exchange_->may_ask(unit, request, false)) {
         const AccessError error = clear(unit);
-        if (error != AccessError::none) return {.error = error, .exception = 0, .answer = {}};
+        if (error != AccessError::none) return {.error = error, .exception = {}, .answer = {}};
         if (!exchange_->may_ask(unit, request, false))
-            return {.error = AccessError::deferred, .exception = 0, .answer = {}};
+            return {.error = AccessError::deferred, .exception = {}, .answer = {}};
     }
     return ask(unit, request);
 }
@@ -219,7 +219,7 @@ AccessError ModbusClient::write(UnitAddress unit, const Tag& tag, std::span<cons
     const Reply reply = ask_to_write(unit.unit, is_block ? write_registers(tag.number, words)
                                                          : write_registers(register_of(tag), pair));
     if (reply.error != AccessError::none) return reply.error;
-    if (reply.exception != 0) return error_of_exception(reply.exception, true, is_block ? nullptr : &tag);
+    if (reply.exception) return error_of_exception(*reply.exception, true, is_block ? nullptr : &tag);
     return AccessError::none;
 }
 
@@ -228,7 +228,7 @@ AccessError ModbusClient::write_single(std::uint8_t unit, const Tag& tag, std::u
 {
     const Reply reply = ask_to_write(unit, write_register(register_of(tag), word));
     if (reply.error != AccessError::none) return reply.error;
-    if (reply.exception != 0) return error_of_exception(reply.exception, true, &tag);
+    if (reply.exception) return error_of_exception(*reply.exception, true, &tag);
     if (echoed_word(reply.answer) == word) return AccessError::none;
     trouble_ = "the drive took " + drive::displayed(tag, echoed_word(reply.answer)) + " instead of " +
                drive::displayed(tag, word);

@@ -78,9 +78,10 @@ bool answers(Bytes request, Bytes answer)
     }
 }
 
-std::uint8_t exception_of(Bytes answer)
+std::optional<std::uint8_t> exception_of(Bytes answer)
 {
-    return (answer[0] & kIsException) != 0 ? answer[1] : std::uint8_t{0};
+    if ((answer[0] & kIsException) == 0) return std::nullopt;
+    return answer[1];
 }
 
 bool is_of_gateway(std::uint8_t code)

@@ -8,6 +8,7 @@
 #include "dpslave/drive/tag.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -43,8 +44,9 @@ std::size_t longest_answer(Bytes request);
 /// the value is echoed_word()'s business.
 bool answers(Bytes request, Bytes answer);
 
-/// Of an answer that fits: its exception code; 0 = it is none.
-std::uint8_t exception_of(Bytes answer);
+/// Of an answer that fits: its exception code. nullopt: it is no exception. Code 0, which the protocol does
+/// not know, is an exception too: the function code says so (MODBUS Application Protocol V1.1b3, ch. 7).
+std::optional<std::uint8_t> exception_of(Bytes answer);
 
 /// Exceptions 10 and 11: it is the gateway that speaks, not the unit.
 bool is_of_gateway(std::uint8_t code);

@@ -86,6 +86,8 @@ TEST_P(ModbusException, ToAProbeIsAnAnswerUnlessAGatewaySpeaks)
 INSTANTIATE_TEST_SUITE_P(
     Codes, ModbusException,
     testing::Values(
+        Exception{"00", kNotUnderstood, kNotUnderstood, kNotUnderstood,
+                  "exception 0 (unknown to the protocol)"},
         Exception{"01", kNotUnderstood, kNotUnderstood, kNotUnderstood, "exception 1 (illegal function)"},
         Exception{"02", AccessError::invalid_tag, AccessError::invalid_tag, AccessError::read_only,
                   "exception 2 (illegal data address)"},

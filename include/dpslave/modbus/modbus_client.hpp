@@ -82,7 +82,7 @@ private:
     /// What became of a question; `answer` is empty unless there is one without exception.
     struct Reply {
         AccessError error = AccessError::none; ///< no_answer, deferred; none: there is an answer
-        std::uint8_t exception = 0;
+        std::optional<std::uint8_t> exception;
         Bytes answer;
     };
 
