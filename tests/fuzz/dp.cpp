@@ -153,14 +153,18 @@ private:
             after.state == State::data_exch;
         const bool controlled =
             what == Did::control && sa == before_.master && before_.state == State::data_exch;
+        // Row P11: a Set_Prm of the owner without Sync_Req ends Sync, and what was received goes out.
+        const bool released = what == Did::set_prm && sa == before_.master &&
+                              before_.state == State::data_exch && before_.sync && !after.sync &&
+                              (data[0] & 0x20) == 0;
         const bool same =
             after.outputs == before_.outputs && after.layout.generation == before_.layout.generation;
         const bool zero = std::ranges::all_of(after.outputs, [](std::uint16_t word) { return word == 0; });
-        demand(same || exchanged || controlled || (zero && after.state != before_.state) ||
+        demand(same || exchanged || controlled || released || (zero && after.state != before_.state) ||
                    (zero && after.layout.generation != before_.layout.generation),
                "outputs change by Data_Exchange or Global_Control of the owner alone");
         if (after.may_write && !before_.may_write)
-            demand(exchanged || controlled, "writing begins with the owner's exchange");
+            demand(exchanged || controlled || released, "writing begins with the owner's exchange");
         if (after.may_write) demand(after.state == State::data_exch, "only in Data_Exch is written");
         if (!exchanged || after.sync || after.clear || data.size() != outputs_expected()) return;
         std::size_t at = after.demand_data ? 8 : 0;

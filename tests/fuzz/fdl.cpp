@@ -300,9 +300,11 @@ bool is_clean(const Line& line)
 }
 
 /// What is read in several pieces at one moment is one read, but the pause before it is measured to the first
-/// piece. So the replies are the same where not even that pause ends a telegram that has begun.
+/// piece. So the replies are the same where not even that pause ends a telegram that has begun. While the
+/// rate is searched it depends on the reads what rate is tried next.
 bool has_plain_pauses(const Line& line)
 {
+    if (line.searched) return false;
     const auto patience = std::chrono::milliseconds{line.baud < Baud::k93_75 ? 20 : 5};
     for (const Step& step : line.steps)
         if (step.pause + bits(11 * step.octets.size(), line.baud) > patience) return false;
