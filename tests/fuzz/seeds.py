@@ -40,6 +40,30 @@ def dp():
         yield start + b"\x06\x04" + counted(bytes(range(10))) + bytes([5, 0x20, 1, 5, 8, 1, 5, 2, 1, 10, 200])
 
 
+def ei_ascii():
+    """Texts, frames, and calls: reads, writes, a refusal with its EE, a late answer."""
+    for text in (b"1.5", b">1B0B", b"-32768.", b"  30.", b"65535", b".05"):
+        letters = bytes(b"0123456789.->+ ABCDEFabcdefz~".index(c) for c in text)
+        for kind in (0, 1, 2, 3, 0x80):
+            yield bytes([0, kind] + [2] * (kind % 4 == 0) + [0x12, 0x34]) + counted(letters)
+        yield bytes([1, 0, 0]) + b"aa" + text
+        read = bytes([0, 1, 0, 0, 11]) + counted(letters)
+        for mode in range(3):
+            yield bytes([2, mode]) + read + bytes([2, 1, 0, 5, 1]) + read + bytes([2, 1, 0, 6, 2, 4, 4])
+            yield bytes([2, mode, 0, 1, 0, 0, 0xBB]) + counted(letters) + read + bytes([2, 1, 0, 6, 0x51]) + read
+
+
+def modbus():
+    for octets in ("01 03 02 00 B7", "01 83 02", "01 06 00 07 00 05", "01 10 00 01 00 02"):
+        frame = bytes.fromhex(octets)
+        yield b"\x00" + bytes([10 + len(frame) % 2]) + frame
+    for echo in range(3):
+        calls = bytes([0, 3, 0, 0, 0, 0, 10, 0, 7, 2, 3, 0, 5, 0, 0, 10, 0x40, 3, 0, 0, 0, 0, 10]) + bytes(6)
+        yield bytes([1, echo]) + calls + bytes([0x10, 0x4B, 0, 0, 0, 0, 10]) + bytes.fromhex("3F C0 00 00")
+        yield bytes([1, echo]) + calls + bytes([2, 3, 0, 5, 0, 0, 1, 3]) + bytes([0, 3, 0, 0, 0, 0, 0x71, 2]) + calls
+    yield bytes.fromhex("5b 88 3f 13")
+
+
 def files(*patterns):
     for pattern in patterns:
         for path in sorted(root.glob(pattern)):

@@ -107,8 +107,8 @@ std::string_view text(ValueFlaw flaw) noexcept;
 /// hexadecimal after '>'.
 Result<std::string, ValueFlaw> encode_value(const Tag& tag, std::uint16_t word, EnumForm enums);
 
-/// The 16 bits of an answer: with or without point, leading spaces (fixed width), digits above 9 in either
-/// case.
+/// The 16 bits of an answer: with or without point, spaces around it (the fixed width has them in front),
+/// digits above 9 in either case.
 Result<std::uint16_t, ValueFlaw> decode_value(const Tag& tag, std::string_view text);
 
 /// A word in the form of EE, II and every WORD: '>' and one to four hexadecimal digits.
