@@ -214,7 +214,9 @@ private:
         while (const auto order = slave_->take_demand_order()) {
             if (order->kind == DemandOrder::Kind::cancel) continue;
             last_order_ = order->number;
-            demand(what == Did::data || what == Did::control, "a Demand Data order comes of an exchange");
+            const bool released = what == Did::set_prm && before_.sync && !after.sync; // row P11
+            demand(what == Did::data || what == Did::control || released,
+                   "a Demand Data order comes of an exchange");
             demand(after.state == State::data_exch && after.demand_data,
                    "an order stands in Data_Exch alone");
             demand(order->generation == after.layout.generation, "an order is of the present layout");

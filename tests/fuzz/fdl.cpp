@@ -181,15 +181,15 @@ private:
         const Baud baud = layer2_->baud();
         demand(layer2_->baud_state() != fdl::BaudState::baud_search,
                "the station is silent while it searches");
-        const auto asked = request();
-        demand(asked.has_value(), "a reply answers what was heard last");
         const auto telegram = test::heard(reply.octets);
         demand(telegram.has_value(), "a reply is a valid telegram");
-        if (telegram->has_fc()) {
-            demand(!telegram->is_request(), "a reply is no request");
-            demand(telegram->sa == asked->da, "a reply is of the address that was asked");
-            demand(telegram->da == asked->sa, "a reply goes to the master that asked");
-        }
+        demand(!telegram->has_fc() || !telegram->is_request(), "a reply is no request");
+        const auto requests = heard_requests();
+        demand(!requests.empty(), "a reply answers what was heard last");
+        const auto asked = std::ranges::find_if(requests, [&telegram](const test::Heard& one) {
+            return !telegram->has_fc() || (telegram->sa == one.da && telegram->da == one.sa);
+        });
+        demand(asked != requests.end(), "a reply is of the address that was asked, to the master that asked");
         const User& user = users_[asked->da == kUs ? 0 : 1];
         const nanoseconds after = reply.at - read_at_;
         const std::uint32_t least = std::min(user.min, user.min_before);
@@ -199,9 +199,12 @@ private:
         demand(after <= bits(most, baud) + nanoseconds{1}, "no reply behind its window");
     }
 
-    /// The request to one of our addresses that heard_ ends with, if it has to be answered.
-    std::optional<test::Heard> request() const
+    /// The requests to one of our addresses that heard_ ends with and that have to be answered. There is more
+    /// than one where the data of a request end like another one, whose check sum and end are the same
+    /// octets.
+    std::vector<test::Heard> heard_requests() const
     {
+        std::vector<test::Heard> found;
         constexpr std::string_view answered{"\x03\x05\x07\x09\x0C\x0D\x0E\x0F"};
         for (std::size_t length = 6; length <= std::min<std::size_t>(heard_.size(), 255); ++length) {
             const auto begin = heard_.end() - static_cast<std::ptrdiff_t>(length);
@@ -209,9 +212,9 @@ private:
             auto one = test::heard({begin, heard_.end()});
             if (one && one->is_request() && (one->fc & 0x80) == 0 && (one->da == kUs || one->da == kAlsoUs) &&
                 answered.find(static_cast<char>(one->fc & 0x0F)) != std::string_view::npos)
-                return one;
+                found.push_back(*one);
         }
-        return std::nullopt;
+        return found;
     }
 
     const Line& line_;
