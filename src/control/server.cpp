@@ -209,10 +209,10 @@ void Server::on_ready()
     const int n = ::epoll_wait(impl_->epoll.get(), events.data(), static_cast<int>(events.size()), 0);
     for (int i = 0; i < n; ++i) {
         const epoll_event& event = events[static_cast<std::size_t>(i)];
-        if (event.data.u64 == kListener) {
+        const std::uint64_t who = event.data.u64; // a copy: the structure is packed
+        if (who == kListener) {
             impl_->accept_callers();
-        } else if (const auto found = impl_->connections.find(event.data.u64);
-                   found != impl_->connections.end()) {
+        } else if (const auto found = impl_->connections.find(who); found != impl_->connections.end()) {
             impl_->serve(*found->second, event.events);
             impl_->settle(*found->second);
         }

@@ -21,6 +21,8 @@ public:
                 skip_comment();
             else if ((c == '"' || c == '\'') && may_begin_text())
                 skip_text();
+            else if (c == '[' && begins_line_ && depth_ == 0 && !is_header())
+                found_ = Unparsed{at_, Why::no_name};
             else if (is_too_deep(c))
                 found_ = Unparsed{at_, Why::nesting};
             else if (!is_ascii(c))
@@ -34,12 +36,34 @@ public:
 private:
     static constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
+    /// TOML has none of them, not even in comments and texts.
+    static bool is_control(char c)
+    {
+        return (static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == '\x7F';
+    }
+
     static bool is_ascii(char c) { return static_cast<unsigned char>(c) < 0x80; }
 
     /// A quote within a word is a part of it: toml++ goes on through the word.
     bool may_begin_text() const
     {
         return std::string_view{" \t\r\n=,.[{\0", 10}.find(before_) != std::string_view::npos;
+    }
+
+    /// What the parser takes for the head of a table: a key behind "[" or "[[", or what it refuses itself. It
+    /// takes for granted that a key is there.
+    bool is_header() const
+    {
+        constexpr std::string_view kBlanks = " \t";
+        std::size_t next = rest_.find_first_not_of(kBlanks, 1);
+        if (next < rest_.size() && rest_[next] == '[') {
+            if (next > 1) return true; // "[ [", which is refused
+            next = rest_.find_first_not_of(kBlanks, 2);
+        }
+        if (next == std::string_view::npos) return true; // the end, which is refused
+        const char c = rest_[next];
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+               std::string_view{"_-\"']"}.find(c) != std::string_view::npos;
     }
 
     bool is_too_deep(char c)
@@ -94,14 +118,17 @@ private:
     {
         before_ = rest_[count - 1];
         for (const char c : rest_.substr(0, count)) {
+            if (is_control(c) && !found_) found_ = Unparsed{at_, Why::control};
             ++at_.column;
+            begins_line_ = c == '\n' || (begins_line_ && (c == ' ' || c == '\t' || c == '\r'));
             if (c == '\n') at_ = {at_.line + 1, 1};
         }
         rest_.remove_prefix(count);
     }
 
     std::string_view rest_;
-    char before_ = '\0'; ///< the last octet that was taken
+    char before_ = '\0';      ///< the last octet that was taken
+    bool begins_line_ = true; ///< since the begin of the line there are only blanks
     Place at_{1, 1};
     std::optional<Unparsed> found_;
     unsigned depth_ = 0;
@@ -121,9 +148,11 @@ std::string text(Unparsed::Why why)
         case Unparsed::Why::nesting:
             return "tables, lists or dotted keys are nested deeper than " + std::to_string(kMaxNesting) +
                    " levels.";
+        case Unparsed::Why::control: return "this is a control character, which no text may have: remove it.";
         case Unparsed::Why::not_ascii:
             return "only texts in quotes and comments may have this character: write it in quotes, or remove "
                    "it.";
+        case Unparsed::Why::no_name: return "the name of a table has to follow this bracket.";
         case Unparsed::Why::not_ascii_after_backslash:
             return "after this backslash only an ASCII character may follow: put the text on one line.";
     }

@@ -75,5 +75,32 @@ def gsd():
     yield bytes([0, 4, 1, 2, 3, 4, 4, 5, 6, 7, 8, 5, 0x33, 3, 9, 9, 9, 2, 1, 1, 0x50, 1, 2, 0x60])
 
 
+def varlink():
+    methods = 17
+    for head in (0, 1):
+        for method in range(methods):
+            yield bytes([head, 3 + 4 * 2]) + b"ab" + bytes([method, 3 + 4 * 3]) + b"abc" + bytes([method])
+            yield bytes([head, 2, method, 1 + 4 * 40]) + b'{"method":"org.varlink.service.GetInfo"}' + b"\0"
+    yield b"\x01" + bytes([4 * 20]) + b'{"method":"org.dpsla' + b"\0" + bytes([1 + 4 * 19]) + b'ved.Control.Watch"}' + b"\0"
+    yield b"\x00" + bytes([2 + 4 * 20]) + b'"station":"a","tag":' + b"\x0a" + bytes([2 + 4 * 9]) + b'"yes":nul' + b"\x0e"
+
+
+def toml():
+    yield b'text = "a"\ninteger = 0x10\nreal = 1.5\nboolean = true\ntexts = ["a", "b"]\nintegers = [1, 2]\n'
+    yield b'choice = "b"\n[table]\ntext = "x"\n[[tables]]\nreal = 1e0\n[[tables.tables]]\ntext = """a\nb"""\n'
+    # As they are without their comments, so that they are short.
+    for octets in files("config/profiles/*.toml", "config/dpslaved.toml"):
+        lines = [line.split(b" #")[0].rstrip() for line in octets.splitlines() if not line.startswith(b"#")]
+        yield b"\n".join(line for line in lines if line) + b"\n"
+
+
+def tag_table():
+    yield b"tag,name,type,decimals,min,max\n7,SPEED,INT,2,-100.00,100.00\n9,MODE,ENUM,,,\n"
+    for octets in files("config/tags/*.csv"):
+        lines = octets.splitlines()
+        for first in range(1, min(len(lines), 80), 8):
+            yield b"\n".join(lines[:1] + lines[first : first + 8]) + b"\n"
+
+
 for number, octets in enumerate(globals()[target]()):
     (folder / f"seed-{number:03}").write_bytes(octets)

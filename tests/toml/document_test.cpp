@@ -70,6 +70,36 @@ TEST_F(TomlDocument, that_is_nested_deeper_than_any_of_ours_is_a_fault_and_is_no
     }
 }
 
+TEST_F(TomlDocument, with_a_bracket_that_no_name_follows_is_a_fault)
+{
+    for (const char* content : {"[ =1]\n", "a = 1\n[\t.x]\n", "[[ [a]]\n", "[ \n", "  [#a]\n", "[+a]\n"}) {
+        Document& document = read(content);
+        EXPECT_FALSE(document.readable());
+        EXPECT_THAT(short_forms(document.faults()),
+                    ElementsAre(HasSubstr("the name of a table has to follow this bracket")))
+            << content;
+    }
+}
+
+TEST_F(TomlDocument, with_a_control_character_is_a_fault_at_its_place)
+{
+    using namespace std::string_view_literals;
+    for (const auto content : {"a = 1\n# \0\n"sv, "a = 1\nb\x01 = 2\n"sv, "a = 1\n\"\x7F\" = 2\n"sv}) {
+        Document& document = read(content);
+        EXPECT_FALSE(document.readable());
+        EXPECT_THAT(short_forms(document.faults()),
+                    ElementsAre(AllOf(StartsWith("2:"), HasSubstr("control character"))));
+    }
+}
+
+TEST_F(TomlDocument, takes_blanks_around_the_name_of_a_table)
+{
+    Document& document = read("[ a ]\n[\t\"b c\" . d]\n[[ e ]]\nf = [\n  [ +1, -1 ],\n]\n");
+
+    EXPECT_TRUE(document.readable());
+    EXPECT_THAT(document.root().keys(), testing::UnorderedElementsAre("a", "b c", "e"));
+}
+
 TEST_F(TomlDocument, with_dots_and_brackets_in_texts_and_comments_is_not_nested)
 {
     const std::string dots = repeated("a.[{", 100);
