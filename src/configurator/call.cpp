@@ -16,8 +16,8 @@ Outcome wrong(std::string sentence)
     return {.exit = kUsage, .refusals = {std::move(sentence)}};
 }
 
-constexpr std::size_t kMostBase64 = (1024U * 1024U + 2U) / 3U * 4U; ///< of 1 MiB, as dpctl reads at most
-constexpr const char* kOwnTable = "own table";
+constexpr std::size_t kMostBase64 = (kMostOctets + 2) / 3 * 4;
+constexpr std::string_view kOwnTable = "own table/"; ///< the folder of the table that the request brings
 
 class Request {
 public:
@@ -25,7 +25,7 @@ public:
         : request_(request),
           source_(source),
           with_table_([this](const std::string& name) -> Result<std::string, Unreadable> {
-              return name == kOwnTable ? text("table") : source_(name);
+              return name.starts_with(kOwnTable) ? text("table") : source_(name);
           })
     {}
     Request(const Request&) = delete;
@@ -101,17 +101,23 @@ private:
     /// The files of the page, and the user's own table under a name of its own.
     Files files() const { return {with_table_, "profiles", names_in("profiles/", ".toml")}; }
 
-    std::string table() const { return text("table").empty() ? "" : kOwnTable; }
+    std::string table_name() const
+    {
+        std::string name = text("table_name");
+        name.erase(0, name.rfind('/') + 1);
+        return name.empty() ? "table.csv" : name;
+    }
+
+    std::string table() const
+    {
+        return text("table").empty() ? std::string{} : std::string{kOwnTable} + table_name();
+    }
 
     Outcome tags()
     {
         Outcome outcome;
-        auto profile = load(files(), text("profile"), outcome);
-        if (profile && !table().empty()) {
-            auto own = own_table(files(), table(), outcome);
-            if (own) profile->tags = *std::move(own);
-        }
-        if (outcome.exit != kFine) return outcome;
+        const auto profile = load(files(), text("profile"), table(), outcome);
+        if (!profile) return outcome;
         Json all = Json::array();
         for (const drive::Tag* tag : profile->tags.in_table_order()) all.push_back(tag_of(*profile, *tag));
         outcome.facts = text_of({{"tags", all}});
@@ -142,7 +148,7 @@ private:
     Outcome import_of_file()
     {
         const auto file = octets("file");
-        return file ? import_file(files(), *file, text("profile")) : no_file("file");
+        return file ? import_file(files(), *file, text("profile"), table()) : no_file("file");
     }
 
     Outcome diff_files()
@@ -150,16 +156,18 @@ private:
         const auto left = octets("file"), right = octets("other");
         if (!left) return no_file("file");
         if (!right) return no_file("other");
-        return diff(files(), *left, *right, text("profile"));
+        return diff(files(), *left, *right, text("profile"), table());
     }
 
     Outcome write_mapping()
     {
         const auto mapping = read_mapping(request_);
         if (!mapping) return wrong(mapping.error());
+        profile::Mapping whole = *mapping;
+        if (!table().empty()) whole.table = profile::OwnTable{table_name(), text("table")};
         Outcome outcome;
-        const auto profile = load(files(), mapping->profile, outcome);
-        if (profile) outcome.octets = mapping_file(*mapping, profile->tags);
+        const auto profile = load(files(), whole, "", outcome);
+        if (profile) put_mapping_file(outcome, whole, profile->tags);
         return outcome;
     }
 
@@ -171,10 +179,13 @@ private:
         const auto mapping = profile::load_mapping(
             [&](const std::string&) -> Result<std::string, Unreadable> { return *file; }, name);
         Outcome outcome;
-        if (mapping)
-            outcome.facts = text_of({{"mapping", mapping_of(*mapping)}});
-        else
+        if (!mapping) {
             refuse(outcome, mapping.error());
+            return outcome;
+        }
+        Json facts;
+        add_mapping(facts, *mapping);
+        outcome.facts = text_of(facts);
         return outcome;
     }
 
@@ -199,10 +210,12 @@ private:
         Json all = Json::array();
         for (const std::string& name : names_in("mappings/", ".toml")) {
             const auto mapping = profile::load_mapping(source_, "mappings/" + name + ".toml");
+            Json sample{{"name", name}};
             if (mapping)
-                all.push_back({{"name", name}, {"mapping", mapping_of(*mapping)}});
+                add_mapping(sample, *mapping);
             else
                 refuse(outcome, mapping.error());
+            if (mapping) all.push_back(sample);
         }
         outcome.facts = text_of({{"samples", all}});
         return outcome;

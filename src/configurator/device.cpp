@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "device.hpp"
 
+#include "facts.hpp"
+
 #include <algorithm>
 
 namespace dpslave::configurator {
+namespace {
 
 std::optional<profile::Profile> load(const Files& files, const std::string& name, Outcome& outcome)
 {
@@ -27,13 +30,50 @@ std::optional<profile::Profile> load(const Files& files, const std::string& name
     return std::nullopt;
 }
 
-std::optional<drive::TagTable> own_table(const Files& files, const std::string& table, Outcome& outcome)
+std::optional<drive::TagTable> taken(Result<drive::TagTable, toml::Faults> tags, Outcome& outcome)
 {
-    auto tags = profile::load_tags(files.source, table);
     if (tags) return *std::move(tags);
     outcome.exit = kNo;
     for (const toml::Fault& fault : tags.error()) outcome.refusals.push_back(to_string(fault));
     return std::nullopt;
+}
+
+} // namespace
+
+std::optional<profile::Profile> load(const Files& files, const std::string& name, const std::string& table,
+                                     Outcome& outcome)
+{
+    auto profile = load(files, name, outcome);
+    if (!profile || table.empty()) return profile;
+    auto own = taken(profile::load_tags(files.source, table), outcome);
+    if (!own) return std::nullopt;
+    profile->tags = *std::move(own);
+    return profile;
+}
+
+std::optional<profile::Profile> load(const Files& files, const profile::Mapping& mapping,
+                                     const std::string& table, Outcome& outcome)
+{
+    auto profile = load(files, mapping.profile, table, outcome);
+    if (!profile || !table.empty() || !mapping.table) return profile;
+    auto own = taken(profile::read_tags(mapping.table->text, mapping.table->name), outcome);
+    if (!own) return std::nullopt;
+    profile->tags = *std::move(own);
+    return profile;
+}
+
+gsd::MapHints hints_of(const Files& files, const std::string& profile, const std::string& table,
+                       Outcome& outcome)
+{
+    if (!profile.empty()) {
+        const auto device = load(files, profile, table, outcome);
+        return device ? hints_of(*device) : gsd::MapHints{};
+    }
+    gsd::MapHints hints;
+    if (table.empty()) return hints;
+    if (const auto own = taken(profile::load_tags(files.source, table), outcome))
+        for (const drive::Tag& tag : own->all()) hints.names.emplace(tag.number, tag.name);
+    return hints;
 }
 
 } // namespace dpslave::configurator

@@ -21,16 +21,16 @@ Json optional(const std::optional<std::string>& value)
 
 } // namespace
 
-Outcome diff(const Files& files, std::string_view left, std::string_view right, const std::string& profile)
+Outcome diff(const Files& files, std::string_view left, std::string_view right, const std::string& profile,
+             const std::string& table)
 {
     Outcome outcome;
     const gsd::Document of_left = gsd::parse(left), of_right = gsd::parse(right);
     if (!of_left.has_section) outcome.refusals.emplace_back("the first file is no GSD file.");
     if (!of_right.has_section) outcome.refusals.emplace_back("the second file is no GSD file.");
     outcome.exit = outcome.refusals.empty() ? kFine : kNo;
-    gsd::MapHints hints;
-    if (outcome.exit == kFine && !profile.empty())
-        if (const auto device = load(files, profile, outcome)) hints = hints_of(*device);
+    if (outcome.exit != kFine) return outcome;
+    const gsd::MapHints hints = hints_of(files, profile, table, outcome);
     if (outcome.exit != kFine) return outcome;
 
     std::vector<Difference> all = differences(of_left, of_right);

@@ -63,7 +63,7 @@ Json findings_of(const gsd::Findings& findings)
     return all;
 }
 
-Json mapping_of(const profile::Mapping& mapping)
+void add_mapping(Json& facts, const profile::Mapping& mapping)
 {
     const profile::Selection& selection = mapping.selection;
     Json all{{"profile", mapping.profile}, {"demand", selection.demand}};
@@ -72,7 +72,10 @@ Json mapping_of(const profile::Mapping& mapping)
     if (selection.max_tsdr) all["max_tsdr"] = *selection.max_tsdr;
     if (selection.description) all["description"] = *selection.description;
     if (selection.model) all["model"] = *selection.model;
-    return all;
+    facts["mapping"] = all;
+    if (!mapping.table) return;
+    facts["table"] = mapping.table->text;
+    facts["table_name"] = mapping.table->name;
 }
 
 Json profile_of(const profile::Profile& profile)

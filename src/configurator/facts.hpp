@@ -17,6 +17,8 @@ namespace dpslave::configurator {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::size_t kMostOctets = std::size_t{1024} * 1024; ///< of a file, as dpctl reads at most
+
 /// The text of `value`; octets that are no UTF-8 are replaced.
 std::string text_of(const Json& value);
 
@@ -28,7 +30,8 @@ std::string summary(const gsd::Findings& findings);
 bool any_error(const gsd::Findings& findings);
 
 Json findings_of(const gsd::Findings& findings);
-Json mapping_of(const profile::Mapping& mapping);
+/// `mapping`, and `table` with `table_name` where it has one.
+void add_mapping(Json& facts, const profile::Mapping& mapping);
 Json profile_of(const profile::Profile& profile);
 
 Json tag_of(const profile::Profile& profile, const drive::Tag& tag);

@@ -202,26 +202,53 @@ private:
 };
 
 /// What the mapping does not make again.
-void add_lost(Outcome& outcome, Json& facts, const gsd::Document& document, const profile::Draft& draft)
-{
-    Json lost = Json::array();
-    for (const Difference& one : differences(document, gsd::parse(gsd::write(draft.device)))) {
-        const std::string what = printable(one.what);
-        const std::string place = one.line > 0 ? "line " + std::to_string(one.line) + ": " : "";
-        std::string sentence = place + what;
-        if (!one.right)
-            sentence += " = " + printable(*one.left) + " gets lost: a mapping cannot hold it.";
-        else if (!one.left)
-            sentence += " = " + printable(*one.right) + " is added by the profile.";
-        else
-            sentence += " = " + printable(*one.left) + " becomes " + printable(*one.right) + '.';
-        outcome.messages.push_back("warning: " + sentence);
-        lost.push_back({{"line", one.line},
-                        {"keyword", what},
-                        {"left", one.left ? Json(printable(*one.left)) : Json()},
-                        {"right", one.right ? Json(printable(*one.right)) : Json()}});
+class Lost {
+public:
+    explicit Lost(Outcome& outcome) : outcome_(outcome) {}
+
+    /// `why`: what gets lost cannot be held.
+    void add(const std::vector<Difference>& differences, std::string_view why)
+    {
+        for (const Difference& one : differences) {
+            const std::string what = printable(one.what);
+            std::string sentence = one.line > 0 ? "line " + std::to_string(one.line) + ": " : "";
+            if (!one.right)
+                sentence += what + " = " + printable(*one.left) + " gets lost: " + std::string{why};
+            else if (!one.left)
+                sentence += what + " = " + printable(*one.right) + " is added by the profile.";
+            else
+                sentence += what + " = " + printable(*one.left) + " becomes " + printable(*one.right) + '.';
+            outcome_.messages.push_back("warning: " + sentence);
+            facts.push_back({{"line", one.line},
+                             {"keyword", what},
+                             {"left", one.left ? Json(printable(*one.left)) : Json()},
+                             {"right", one.right ? Json(printable(*one.right)) : Json()},
+                             {"text", sentence}});
+        }
     }
-    facts["lost"] = lost;
+
+    Json facts = Json::array();
+
+private:
+    Outcome& outcome_;
+};
+
+Json lost_of(Outcome& outcome, std::string_view file, const profile::Draft& draft)
+{
+    const std::string made = gsd::write(draft.device);
+    Lost lost{outcome};
+    lost.add(differences(gsd::parse(file), gsd::parse(made)), "a mapping cannot hold it.");
+    lost.add(name_differences(file, made), "the tag table has no name for it. Take the table that has it.");
+    return lost.facts;
+}
+
+/// Nothing: no table was given. One that cannot be read was refused before.
+std::optional<profile::OwnTable> table_of(const Files& files, const std::string& table)
+{
+    if (table.empty()) return std::nullopt;
+    const auto text = toml::read_text(files.source, table);
+    if (!text) return std::nullopt;
+    return profile::OwnTable{table.substr(table.rfind('/') + 1), utf8(*text)};
 }
 
 Outcome refused(std::string sentence)
@@ -237,7 +264,8 @@ Result<profile::Mapping, std::vector<std::string>> mapping_of_file(const gsd::Do
     return Importer{document, profile}.read();
 }
 
-Outcome import_file(const Files& files, std::string_view file, const std::string& profile)
+Outcome import_file(const Files& files, std::string_view file, const std::string& profile,
+                    const std::string& table)
 {
     const gsd::Document document = gsd::parse(file);
     if (!document.has_section) return refused("this is no GSD file: it has no line #Profibus_DP.");
@@ -246,7 +274,7 @@ Outcome import_file(const Files& files, std::string_view file, const std::string
     Outcome outcome;
     const std::string name = profile.empty() ? find_profile(files, document, outcome) : profile;
     if (outcome.exit != kFine) return outcome;
-    const auto device = load(files, name, outcome);
+    const auto device = load(files, name, table, outcome);
     if (!device) return outcome;
     const auto read = mapping_of_file(document, *device);
     if (!read) {
@@ -254,17 +282,19 @@ Outcome import_file(const Files& files, std::string_view file, const std::string
         outcome.refusals = read.error();
         return outcome;
     }
-    const profile::Mapping& mapping = *read;
+    profile::Mapping mapping = *read;
+    mapping.table = table_of(files, table);
     const profile::Draft draft = profile::draft_of(*device, mapping.selection);
-    Json facts{{"mapping", mapping_of(mapping)}};
+    Json facts;
+    add_mapping(facts, mapping);
     for (const profile::Note& note : draft.notes)
         if (note.refuses)
             outcome.refusals.push_back(printable(note.text));
         else
             outcome.messages.push_back("warning: " + printable(note.text));
     if (!outcome.refusals.empty()) outcome.exit = kNo; // the mapping is there all the same, to be corrected
-    add_lost(outcome, facts, document, draft);
-    outcome.octets = mapping_file(mapping, device->tags);
+    facts["lost"] = lost_of(outcome, file, draft);
+    put_mapping_file(outcome, mapping, device->tags);
     outcome.facts = text_of(facts);
     return outcome;
 }

@@ -30,13 +30,8 @@ Outcome make(const Files& files, const profile::Mapping& mapping, const std::str
              const std::string& path)
 {
     Outcome outcome;
-    auto profile = load(files, mapping.profile, outcome);
+    const auto profile = load(files, mapping, table, outcome);
     if (!profile) return outcome;
-    if (!table.empty()) {
-        auto own = own_table(files, table, outcome);
-        if (!own) return outcome;
-        profile->tags = *std::move(own);
-    }
     const profile::Draft draft = profile::draft_of(*profile, mapping.selection);
     outcome.facts = text_of(preview_of(*profile, draft, mapping.selection.demand));
     for (const profile::Note& note : draft.notes)

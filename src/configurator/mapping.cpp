@@ -97,6 +97,21 @@ private:
     std::string sentence_;
 };
 
+/// A basic string of TOML with several lines. Ends of lines become those of Unix.
+std::string toml_lines(std::string_view text)
+{
+    std::string out = "\"\"\"\n";
+    std::size_t quotes = 0; // the third one in a row would end the string
+    for (const char c : text) {
+        if (c == '\r') continue; // part of the end of a line: a table has no other
+        quotes = c == '"' ? quotes + 1 : 0;
+        if (c == '\\' || quotes == 3) out += '\\';
+        if (quotes == 3) quotes = 0;
+        out += c;
+    }
+    return out + (out.ends_with('\n') ? "" : "\n") + "\"\"\"\n";
+}
+
 /// A basic string of TOML.
 std::string toml_text(std::string_view text)
 {
@@ -106,6 +121,19 @@ std::string toml_text(std::string_view text)
         out += c;
     }
     return out + '"';
+}
+
+std::string parameters_of(const std::vector<profile::Parameter>& parameters, const drive::TagTable& tags)
+{
+    if (parameters.empty()) return "list = []\n";
+    std::string out = "list = [\n";
+    for (const profile::Parameter& parameter : parameters) {
+        const drive::Tag* tag = tags.find(parameter.tag);
+        out += "  \"" + to_string(parameter) + "\",";
+        if (tag != nullptr && !tag->name.empty()) out += " # " + printable(tag->name);
+        out += '\n';
+    }
+    return out + "]\n";
 }
 
 } // namespace
@@ -118,7 +146,7 @@ Result<profile::Mapping, std::string> read_mapping(const Json& request)
     return MappingReader{*found}.read();
 }
 
-std::string mapping_file(const profile::Mapping& mapping, const drive::TagTable& tags)
+void put_mapping_file(Outcome& outcome, const profile::Mapping& mapping, const drive::TagTable& tags)
 {
     const profile::Selection& selection = mapping.selection;
     std::string out = "profile = " + toml_text(mapping.profile) + '\n';
@@ -127,17 +155,17 @@ std::string mapping_file(const profile::Mapping& mapping, const drive::TagTable&
     if (selection.model) out += "model = " + toml_text(*selection.model) + '\n';
     if (selection.description) out += "description = " + toml_text(*selection.description) + '\n';
     if (selection.demand) out += "demand = true\n";
-    if (!selection.says_parameters()) return out;
-    const auto parameters = selection.parameters();
-    if (parameters.empty()) return out + "list = []\n";
-    out += "list = [\n";
-    for (const profile::Parameter& parameter : parameters) {
-        const drive::Tag* tag = tags.find(parameter.tag);
-        out += "  \"" + to_string(parameter) + "\",";
-        if (tag != nullptr && !tag->name.empty()) out += " # " + printable(tag->name);
-        out += '\n';
+    if (selection.says_parameters()) out += parameters_of(selection.parameters(), tags);
+    if (mapping.table)
+        out += "\n[table]\nfile = " + toml_text(printable(mapping.table->name)) +
+               "\nrows = " + toml_lines(mapping.table->text);
+    if (out.size() <= kMostOctets) {
+        outcome.octets = std::move(out);
+        return;
     }
-    return out + "]\n";
+    outcome.exit = kNo;
+    outcome.refusals.emplace_back("the mapping with its tag table is larger than 1 MiB and could not be "
+                                  "read again: remove rows or columns of the table.");
 }
 
 } // namespace dpslave::configurator

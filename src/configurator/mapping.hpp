@@ -5,6 +5,7 @@
 #include "facts.hpp"
 
 #include "dpslave/base/result.hpp"
+#include "dpslave/configurator/configurator.hpp"
 
 #include <string>
 
@@ -13,7 +14,8 @@ namespace dpslave::configurator {
 /// The key `mapping` of a request. The failure is a sentence.
 Result<profile::Mapping, std::string> read_mapping(const Json& request);
 
-/// The mapping as a TOML file that load_mapping() reads. Each parameter has the name of its tag beside it.
-std::string mapping_file(const profile::Mapping& mapping, const drive::TagTable& tags);
+/// Puts the mapping into `outcome` as a TOML file that load_mapping() reads, or says why there is none. Each
+/// parameter has the name of its tag beside it.
+void put_mapping_file(Outcome& outcome, const profile::Mapping& mapping, const drive::TagTable& tags);
 
 } // namespace dpslave::configurator

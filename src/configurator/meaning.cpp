@@ -158,7 +158,7 @@ void compare(std::vector<Difference>& all, const std::string& direction,
         if (a != nullptr && b != nullptr && a->octet == b->octet && a->octets == b->octets &&
             value_of(*a) == value_of(*b))
             continue;
-        const gsd::IoValue& one = a != nullptr ? *a : *b;
+        const gsd::IoValue& one = i < left.size() ? left[i] : right[i];
         Difference difference{direction + " octets " + std::to_string(one.octet) + '-' +
                                   std::to_string(one.octet + one.octets - 1),
                               {},
@@ -168,6 +168,41 @@ void compare(std::vector<Difference>& all, const std::string& direction,
         if (b != nullptr) difference.right = value_of(*b);
         all.push_back(std::move(difference));
     }
+}
+
+struct Name {
+    unsigned line = 0;
+    std::string name; ///< UTF-8
+};
+
+/// "; 3 out tag 6 Ramp rate": the tag and its name. Nothing: the line is no such comment.
+std::optional<std::pair<std::uint32_t, std::string>> name_in(std::string_view line)
+{
+    constexpr std::string_view kTag = " tag ";
+    const auto tag = line.find(kTag, 2);
+    if (!line.starts_with("; ") || tag == std::string_view::npos) return std::nullopt;
+    std::uint32_t place = 0, number = 0;
+    const auto [behind, no_place] = std::from_chars(line.data() + 2, line.data() + tag, place);
+    const std::string_view direction{behind, static_cast<std::size_t>(line.data() + tag - behind)};
+    if (no_place != std::errc{} || (direction != " in" && direction != " out" && direction != " in/out"))
+        return std::nullopt;
+    const char* const end = line.data() + line.size();
+    const auto [name, no_tag] = std::from_chars(line.data() + tag + kTag.size(), end, number);
+    if (no_tag != std::errc{} || end - name < 2 || *name != ' ') return std::nullopt;
+    return std::pair{number, utf8_of_latin1({name + 1, static_cast<std::size_t>(end - name) - 1})};
+}
+
+/// By tag.
+std::map<std::uint32_t, Name> names_in(std::string_view file)
+{
+    std::map<std::uint32_t, Name> names;
+    for (unsigned line = 1; !file.empty(); ++line) {
+        std::string_view text = file.substr(0, file.find('\n'));
+        file.remove_prefix(std::min(file.size(), text.size() + 1));
+        if (text.ends_with('\r')) text.remove_suffix(1);
+        if (auto found = name_in(text)) names.try_emplace(found->first, Name{line, std::move(found->second)});
+    }
+    return names;
 }
 
 } // namespace
@@ -185,6 +220,20 @@ std::vector<Difference> differences(const gsd::Document& left, const gsd::Docume
     for (const Said& said : of_right.all())
         if (of_left.find(said.what) == nullptr)
             all.push_back({utf8_of_latin1(said.what), std::nullopt, said.written, 0});
+    return all;
+}
+
+std::vector<Difference> name_differences(std::string_view left, std::string_view right)
+{
+    const auto of_left = names_in(left), of_right = names_in(right);
+    std::vector<Difference> all;
+    for (const auto& [tag, here] : of_left) {
+        const auto there = of_right.find(tag);
+        if (there != of_right.end() && there->second.name == here.name) continue;
+        all.push_back({"name of tag " + std::to_string(tag), here.name,
+                       there != of_right.end() ? std::optional{there->second.name} : std::nullopt,
+                       here.line});
+    }
     return all;
 }
 

@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dpslave::configurator {
@@ -18,6 +19,9 @@ struct Difference {
 
 /// Keywords, blocks, modules, Set_Prm, Chk_Cfg.
 std::vector<Difference> differences(const gsd::Document& left, const gsd::Document& right);
+/// What the tags are called in the comments of files that were made here, "; 3 out tag 6 Ramp rate": those of
+/// the left file for which the right one has no name or another.
+std::vector<Difference> name_differences(std::string_view left, std::string_view right);
 /// Values of the telegrams. None where a file leaves the map to the master's tool.
 std::vector<Difference> map_differences(const gsd::IoMap& left, const gsd::IoMap& right);
 

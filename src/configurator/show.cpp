@@ -97,17 +97,8 @@ Outcome show(const Files& files, std::string_view file, const std::string& profi
     }
     if (any_error(findings))
         outcome.messages.push_back("warning: the file has " + summary(findings) + ": check it to read them.");
-    gsd::MapHints hints;
-    if (!profile.empty()) {
-        const auto device = load(files, profile, outcome);
-        if (!device) return outcome;
-        hints = hints_of(*device);
-    }
-    if (!table.empty()) {
-        const auto own = own_table(files, table, outcome);
-        if (!own) return outcome;
-        for (const drive::Tag& tag : own->all()) hints.names[tag.number] = tag.name;
-    }
+    const gsd::MapHints hints = hints_of(files, profile, table, outcome);
+    if (outcome.exit != kFine) return outcome;
     const gsd::IoMap map = gsd::io_map(document, hints);
     add_map(outcome.lines, document, map);
     outcome.facts = text_of({{"device",

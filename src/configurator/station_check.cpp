@@ -205,10 +205,8 @@ Outcome check_with_station(const Files& files, std::string_view file, const std:
     Outcome outcome = check(file, path, strict);
     const gsd::Document document = gsd::parse(file);
     if (!document.has_section) return outcome;
-    auto profile = load(files, station.profile, outcome);
-    if (profile && !table.empty())
-        if (auto own = own_table(files, table, outcome)) profile->tags = *std::move(own);
-    if (!profile || !outcome.refusals.empty()) return outcome;
+    const auto profile = load(files, station.profile, table, outcome);
+    if (!profile) return outcome;
 
     Json findings = Json::parse(outcome.facts, nullptr, false)["findings"];
     std::size_t errors = 0;

@@ -10,7 +10,7 @@ import { checking } from './actions/sides.js';
 import { copyText } from './files/clipboard.js';
 import { keep, keptText } from './files/storage.js';
 import { newHistory } from './mapping/history.js';
-import { mappingOf } from './mapping/model.js';
+import { contentOf } from './mapping/keeping.js';
 import { questions } from './questions.js';
 import { newStore } from './store.js';
 import { footView, headView, noticeView, otherDraftView } from './view/bars.js';
@@ -39,7 +39,7 @@ function firstState(ask) {
         library: [], restored: false,
         kept: { draft: true, library: true }, // whether the browser has kept the newest one
         sides: [null, null], // the files that are checked
-        saved: '', // the mapping that was saved last
+        saved: '', // the content of the mapping that was saved last
         otherDraft: null, // the draft of another window, as long as it is not decided which one stays
         notice: null, said: { text: '', severity: '' },
     };
@@ -62,7 +62,7 @@ function commands(app) {
             store.change({ hints });
             say(`Hints are ${hints ? 'on' : 'off'}.`);
         },
-        isSaved: (state) => state.saved === JSON.stringify(mappingOf(state.history.present)),
+        isSaved: (state) => state.saved === contentOf(state.history.present),
         async copy(text, what) {
             say(await copyText(text) ? `${what} was copied.` : 'The browser does not let the page copy.', '');
         },

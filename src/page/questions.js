@@ -24,7 +24,8 @@ export function sentencesOf(reply) {
 /** All questions of the page. */
 export function questions(call) {
     const { profiles } = call({ do: 'profiles' });
-    const withTable = (request, document) => (document.table ? { ...request, table: document.table.text } : request);
+    const withTable = (request, document) => (document.table
+        ? { ...request, table: document.table.text, table_name: document.table.name } : request);
     const ask = (what, document, more = {}) => call(withTable({ do: what, mapping: mappingOf(document), ...more }, document));
     const tableOf = (document) => `${document.profile}\n${document.table ? document.table.text : ''}`;
     return {

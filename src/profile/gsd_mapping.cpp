@@ -36,6 +36,20 @@ std::optional<std::vector<Parameter>> list_of(toml::Table& table)
     return list;
 }
 
+/// [table]: what is wrong within its rows is named with their own lines.
+std::optional<OwnTable> table_of(toml::Table table, const std::string& file, toml::Faults& faults)
+{
+    if (!table.exists()) return std::nullopt;
+    table.require("file", R"(file = "mine.csv")");
+    table.require("rows", R"(rows = """ and the lines of the table)");
+    const auto name = table.text("file");
+    const auto rows = table.lines("rows");
+    if (!name || !rows) return std::nullopt;
+    if (const auto tags = read_tags(*rows, file + " [table]"); !tags)
+        faults.insert(faults.end(), tags.error().begin(), tags.error().end());
+    return OwnTable{*name, *rows};
+}
+
 } // namespace
 
 std::string_view text(Direction direction) noexcept
@@ -84,6 +98,7 @@ bool Selection::says_parameters() const
 Result<Mapping, toml::Faults> load_mapping(const toml::TextSource& source, const std::string& file)
 {
     toml::Document document{source, file};
+    toml::Faults of_rows;
     Mapping mapping;
     if (document.readable()) {
         toml::Table root = document.root();
@@ -101,8 +116,11 @@ Result<Mapping, toml::Faults> load_mapping(const toml::TextSource& source, const
             selection.max_tsdr = static_cast<std::uint32_t>(*bits);
         selection.description = root.text("description");
         selection.model = root.text("model");
+        mapping.table = table_of(root.table("table"), file, of_rows);
     }
     toml::Faults faults = document.faults();
+    faults.insert(faults.end(), of_rows.begin(), of_rows.end());
+    cap(faults);
     if (!faults.empty()) return Failure{std::move(faults)};
     return mapping;
 }

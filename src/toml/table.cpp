@@ -80,6 +80,16 @@ std::optional<std::string> Table::text(std::string_view key)
     return std::nullopt;
 }
 
+std::optional<std::string> Table::lines(std::string_view key)
+{
+    if (!has(key)) return std::nullopt;
+    const Value& value = node_->find(key)->value;
+    const auto* held = std::get_if<std::string>(&value.held);
+    if (held != nullptr && !held->empty()) return *held;
+    refuse(key, wrong(key, "a text of lines between three quotes", value));
+    return std::nullopt;
+}
+
 std::optional<std::int64_t> Table::integer(std::string_view key, std::int64_t min, std::int64_t max)
 {
     if (!has(key)) return std::nullopt;

@@ -33,7 +33,8 @@ inline std::vector<json> hostile_requests()
                               json::object(), json::array({json::array({json::array()})})})
         for (const char* wanted :
              {"tags", "preview", "make", "check", "show", "import", "mapping", "read_mapping", "diff"})
-            for (const char* key : {"mapping", "table", "file", "other", "name", "profile", "strict"}) {
+            for (const char* key :
+                 {"mapping", "table", "table_name", "file", "other", "name", "profile", "strict"}) {
                 all.push_back({{"do", wanted},
                                {"file", file},
                                {"other", file},

@@ -114,9 +114,10 @@ TEST(Words, NameNoOptionWhereTheProfileOrTheTableIsWrong)
                              {"other", file},
                              {"profile", profile},
                              {"mapping", {{"profile", profile}}}}));
-    for (const char* wanted : {"tags", "make", "show"})
+    for (const char* wanted : {"tags", "make", "show", "import", "diff", "mapping"})
         answers.add(ask({{"do", wanted},
                          {"file", file},
+                         {"other", file},
                          {"profile", "590"},
                          {"mapping", {{"profile", "590"}}},
                          {"table", "rubbish"}}));

@@ -22,7 +22,8 @@ TEST(MappingFile, SaysAllThatTheCommandLineCan)
         load_mapping(io::read_regular_file,
                      folder.write("m.toml", "profile = \"605\"\nin = [1, 2]\nout = [3]\nin_out = [4]\n"
                                             "demand = true\nident = 0x1234\nmax_tsdr = 400\n"
-                                            "description = \"d\"\nmodel = \"m\"\n"));
+                                            "description = \"d\"\nmodel = \"m\"\n"
+                                            "[table]\nfile = \"mine.csv\"\nrows = \"tag\\n7\"\n"));
     ASSERT_TRUE(mapping);
     EXPECT_EQ(mapping->profile, "605");
     EXPECT_THAT(mapping->selection.in, ElementsAre(1, 2));
@@ -33,6 +34,7 @@ TEST(MappingFile, SaysAllThatTheCommandLineCan)
     EXPECT_EQ(mapping->selection.max_tsdr, 400U);
     EXPECT_EQ(mapping->selection.description, "d");
     EXPECT_EQ(mapping->selection.model, "m");
+    EXPECT_EQ(mapping->table, (profile::OwnTable{"mine.csv", "tag\n7"}));
 }
 
 TEST(MappingFile, NeedsNothingButTheProfile)

@@ -6,6 +6,7 @@ DIRECTIONS = ["in", "out", "in-out"]
 LETTERS = ["a", "Z", "7", " ", "\"", ";", "\\", "ü", "Ã", "=", "#", "'", "Ω", "¼", "<b>"]
 WRONG_LINES = ["list = 7", "in = [0]", "out = [65536]", "ident = \"x\"", "demand = 1", "max_tsdr = -1", "profile = ", "unknown = 1",
                "in = [1, 1]", "list = [\"on:1\"]", "model = \"\\u0001\"", "[table]", "description = 'a", "description = \"a\\tb\"", "ident = 0", "in = 1.5"]
+WRONG_ROWS = ["", "7", "x,y,z,", "7,a,b,c,d", "\"7", "tag,name,type,access", "65536,a,INT,", "1,a\tb,INT,"]
 
 
 def text(random, longest):
@@ -39,6 +40,18 @@ def parameters(random, profile, rows):
     return chosen
 
 
+def own_table(random, chosen):
+    """The lines of a tag table of the user's own with the chosen tags, in the form of a mapping file."""
+    cells = [(str(row), text(random, 30), random.choice(["INT", "WORD", "BOOL", "STRING"]), random.choice(["", "ro", "rw", "wo"]))
+             for row in sorted({row for _, row in chosen})]
+    lines = ["tag,name,type,access"]
+    lines += [",".join(['"' + cell.replace('"', '""') + '"' for cell in one]) for one in cells]
+    if random.randrange(10) == 0:
+        lines.insert(random.randrange(len(lines) + 1), random.choice(WRONG_ROWS))
+    rows = "\n".join(lines).replace("\\", "\\\\").replace('"""', '""\\"')
+    return ["[table]", f'file = {json.dumps(text(random, 8) + ".csv", ensure_ascii=False)}', f'rows = """\n{rows}\n"""']
+
+
 def mapping_file(random, profile, rows):
     """The text of a mapping file for `profile` (as the call "profiles" has it), with its tags `rows`."""
     lines = [f"profile = {json.dumps(profile['name'])}"]
@@ -60,6 +73,8 @@ def mapping_file(random, profile, rows):
         lines.append(f"description = {json.dumps(text(random, 40), ensure_ascii=False)}")
     if random.randrange(3) == 0:
         lines.append(f"model = {json.dumps(text(random, 24), ensure_ascii=False)}")
+    if random.randrange(4) == 0:
+        lines += own_table(random, chosen)
     if random.randrange(25) == 0:
         lines.insert(random.randrange(len(lines) + 1), random.choice(WRONG_LINES))
     return "\n".join(lines) + "\n"

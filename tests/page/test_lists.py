@@ -188,6 +188,18 @@ class Lists(screen.PageTest):
         self.click("button", "Redo")
         self.assertEqual(self.tags("Inputs"), [1, 2, 5])
 
+    def test_undoes_and_redoes_without_end(self):
+        self.search("2")
+        self.press(self.row_place("Parameters", 2))
+        turn = "for (let at = 0; at < 400; ++at) find('button', words[at % (words.length - 1)]).click(); return words.at(-1)"
+        before = self.tags("Inputs")
+        self.js(turn, "Add to inputs", "Clear inputs", "done")
+        self.js(turn, "Undo", "done")
+        self.assertEqual(self.tags("Inputs"), before)
+        self.js(turn, "Redo", "done")
+        self.click("button", "Undo")
+        self.assertEqual(self.tags("Inputs"), [2])
+
     # ---- C-039
 
     def test_deletes_one_and_clears_a_list(self):

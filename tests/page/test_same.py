@@ -44,9 +44,11 @@ class Page(unittest.TestCase):
         identical = 0
         for at in range(0, MAPPINGS, BATCH):
             some = cases[at:at + BATCH]
+            tables = tables_of(browser, some)
             made = [(case, reply) for case, reply in zip(some, of_page(browser, some)) if reply["exit"] == 0]
-            imported = browser.call([{"do": "import", "file": reply["octets"], "profile": profile_of(case[1])} for case, reply in made])
-            again = browser.call([{"do": "make", "mapping": reply.get("mapping")} for reply in imported])
+            imported = browser.call([{"do": "import", "file": reply["octets"], "profile": profile_of(case[1]), **tables[case[0]]}
+                                     for case, reply in made])
+            again = browser.call([{"do": "make", **mapping_of(reply)} for reply in imported])
             for (case, first), between, second in zip(made, imported, again):
                 said = f"seed {setting.seed}, mapping {case[0]}:\n{case[1]}\n{between}"
                 self.assertEqual(between["lost"], [], said)
@@ -71,11 +73,26 @@ def profile_of(text):
     return re.search(r'^profile = "(.*)"$', text, re.MULTILINE)[1]
 
 
+def mapping_of(reply):
+    """The mapping that a reply has, with its table."""
+    return {key: reply[key] for key in ("mapping", "table", "table_name") if key in reply}
+
+
+def read_by_page(browser, cases):
+    return browser.call([{"do": "read_mapping", "file": base64.b64encode(text.encode()).decode(), "name": name}
+                         for name, text, _ in cases])
+
+
+def tables_of(browser, cases):
+    """By the name of the mapping file: the keys of its table."""
+    return {case[0]: {key: one for key, one in mapping_of(reply).items() if key != "mapping"}
+            for case, reply in zip(cases, read_by_page(browser, cases))}
+
+
 def of_page(browser, cases):
     """As the page does when it opens a mapping file and saves the GSD file."""
-    read = browser.call([{"do": "read_mapping", "file": base64.b64encode(text.encode()).decode(), "name": name}
-                         for name, text, _ in cases])
-    wanted = [(at, {"do": "make", "mapping": reply["mapping"], "name": case[2]})
+    read = read_by_page(browser, cases)
+    wanted = [(at, {"do": "make", **mapping_of(reply), "name": case[2]})
               for at, (case, reply) in enumerate(zip(cases, read)) if reply["exit"] == 0]
     for (at, _), reply in zip(wanted, browser.call([request for _, request in wanted])):
         read[at] = reply

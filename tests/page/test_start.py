@@ -118,6 +118,46 @@ class Start(screen.PageTest):
         self.assertEqual(screen.dpctl("gsd", "make", "--mapping", "FILE", text=octets),
                          screen.dpctl("gsd", "make", "--profile", "2408f", "--ident", "0x1652"))
 
+    def test_a_mapping_keeps_the_table_of_ones_own(self):  # C-045
+        table = b'tag,name,type\r\n7,"Dancer ""position""",INT\r\n'
+        self.go("Start")
+        self.new_file("605")
+        self.drop([("mine.csv", table)])
+        self.wait_said("was loaded")
+        self.type_into("textbox", "Add tag by number", "7")
+        self.keys("Enter")
+        text = "return find('region', 'Text of the GSD file').innerText"
+        made = self.js(text)
+        self.assertIn("tag 7 Dancer 'position'", made)  # a GSD has no quotes in its texts
+        self.keys("Control+Shift+s")
+        self.choose("Kind of file", "mapping")
+        self.dialog_name("mine")
+        name, octets = self.saved(lambda: self.keys("Enter"))
+        self.assertNotIn("not saved", self.js("return document.querySelector('[data-file]').innerText"))
+        self.assertEqual(screen.dpctl("gsd", "make", "--mapping", "FILE", text=octets).decode("latin-1").split(), made.split())
+        self.browser.run("localStorage.clear()")  # as on another PC
+        self.open()
+        self.drop([(name, octets)])
+        self.wait_said("was opened")
+        self.assertEqual(self.js(text), made)
+        self.assertIn("mine.csv", self.text("region", "Device parameters"))
+        self.click("button", "Use the shipped table")
+        self.assertIn("not saved", self.js("return document.querySelector('[data-file]').innerText"))
+
+    def test_a_file_that_was_made_with_a_table_of_ones_own_has_its_lost_names_named(self):  # C-045
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "mine.csv")
+            path.write_bytes(b"tag,name,type\n7,Dancer position,INT\n")
+            file = screen.dpctl("gsd", "make", "--profile", "605", "--table", str(path), "--in", "7")
+            self.drop([("MINE1649.GSD", file)])
+            self.wait_said("was opened")
+            self.assertIn("Dancer position", self.notice())
+            self.drop([("mine.csv", path.read_bytes())])
+        self.wait_said("was loaded")
+        self.keys("Control+Shift+s")
+        self.dialog_name("MINE1649")
+        self.assertEqual(self.saved(lambda: self.keys("Enter")), ("MINE1649.GSD", file))
+
     def test_a_new_file_of_a_controller_has_no_parameter_and_no_octets(self):
         self.click("button", "Clear inputs")
         self.click("button", "Clear outputs")

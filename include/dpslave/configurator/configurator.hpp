@@ -34,8 +34,8 @@ struct Files {
     std::vector<std::string> names; ///< of all profiles, for the sentence about a wrong one
 };
 
-/// The GSD of `mapping`. `table`: a tag table of the user's own; `path`: where the file goes. Either may be
-/// empty.
+/// The GSD of `mapping`. `table`: a tag table of the user's own, which stands for that of the mapping;
+/// `path`: where the file goes. Either may be empty.
 Outcome make(const Files& files, const profile::Mapping& mapping, const std::string& table,
              const std::string& path);
 
@@ -47,11 +47,14 @@ Outcome check(std::string_view file, std::string_view path, bool strict);
 
 /// The mapping that makes this GSD file; its octets are a mapping file (TOML). `profile`: empty =
 /// Ident_Number and Model_Name together say which; refused where they do not. What gets lost is named.
-Outcome import_file(const Files& files, std::string_view file, const std::string& profile);
+/// `table`: a tag table of the user's own, which goes into the mapping; may be empty.
+Outcome import_file(const Files& files, std::string_view file, const std::string& profile,
+                    const std::string& table);
 
 /// What differs between two GSD files, by meaning and by line. Exit kNo: they do not mean the same.
-/// `profile`: the tags have its names; may be empty.
-Outcome diff(const Files& files, std::string_view left, std::string_view right, const std::string& profile);
+/// The tags have the names of `profile` and `table`; either may be empty.
+Outcome diff(const Files& files, std::string_view left, std::string_view right, const std::string& profile,
+             const std::string& table);
 
 /// The outcome as one JSON object: what call() replies, and what dpctl prints with --json.
 std::string reply_of(const Outcome& outcome);

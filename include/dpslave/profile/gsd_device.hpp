@@ -73,11 +73,19 @@ Draft draft_of(const Profile& profile, const Selection& selection);
 /// change.
 Result<GsdDevice, std::vector<std::string>> device_of(const Profile& profile, const Selection& selection);
 
+/// A tag table of the user's own, as it was loaded.
+struct OwnTable {
+    std::string name; ///< of its file, without a folder
+    std::string text; ///< CSV
+    friend bool operator==(const OwnTable&, const OwnTable&) = default;
+};
+
 /// A selection that is kept as a file (C-045, C-046), TOML: profile, list or in, out and in_out, demand,
-/// ident, max_tsdr, description, model; only `profile` is required.
+/// ident, max_tsdr, description, model, [table]; only `profile` is required.
 struct Mapping {
     std::string profile;
-    Selection selection;
+    Selection selection = {};
+    std::optional<OwnTable> table = {}; ///< one that read_tags() reads, in place of the profile's
     friend bool operator==(const Mapping&, const Mapping&) = default;
 };
 Result<Mapping, toml::Faults> load_mapping(const toml::TextSource& source, const std::string& file);

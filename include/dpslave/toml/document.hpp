@@ -44,7 +44,8 @@ public:
     /// A fault if the key is missing; `example` is the line to add.
     void require(std::string_view key, std::string_view example);
 
-    std::optional<std::string> text(std::string_view key); ///< not empty, no control characters
+    std::optional<std::string> text(std::string_view key);  ///< not empty, no control characters
+    std::optional<std::string> lines(std::string_view key); ///< a text with ends of lines; not empty
     std::optional<std::int64_t> integer(std::string_view key, std::int64_t min, std::int64_t max);
     std::optional<double> real(std::string_view key, double min, double max);
     std::optional<bool> boolean(std::string_view key);

@@ -83,8 +83,8 @@ void add_make(CLI::App& app, GsdOptions& options)
     add_table(app, options);
     app.add_option(
            "--mapping", options.mapping,
-           "A TOML file with profile, list, in, out, in_out, demand, ident, max_tsdr, description, model; "
-           "the command line overrides it")
+           "A TOML file with profile, list, in, out, in_out, demand, ident, max_tsdr, description, model, "
+           "[table]; the command line overrides it")
         ->type_name("FILE");
     add_tags(app, "--in", options.in, "Inputs: tags that the master reads, in the order of the telegram");
     add_tags(app, "--out", options.out, "Outputs: tags that the master writes");
@@ -118,6 +118,9 @@ void add_import(CLI::App& app, GsdOptions& options)
                    "Profile of the device; default: found by Ident_Number and Model_Name together")
         ->type_name("NAME");
     add_profiles(app, options);
+    app.add_option("--table", options.table,
+                   "Your own tag table (CSV) with which the GSD file was made; the mapping keeps it")
+        ->type_name("FILE");
     app.add_option("--output", options.output, "Mapping file to write; default: standard output")
         ->type_name("FILE");
     app.add_flag("--force", options.force, "Replace an existing file");
@@ -130,6 +133,7 @@ void add_diff(CLI::App& app, GsdOptions& options)
     app.add_option("--profile", options.profile, "Show the tags with the names of this profile's tag table")
         ->type_name("NAME");
     add_profiles(app, options);
+    add_table(app, options);
 }
 
 void add_configure(CLI::App& app, GsdOptions& options)

@@ -253,7 +253,7 @@ int gsd_show(const GsdOptions& options, Terminal& terminal)
 int gsd_import(const GsdOptions& options, Terminal& terminal)
 {
     const auto import = [&](const std::string& content) {
-        return configurator::import_file(files_of(options), content, options.profile);
+        return configurator::import_file(files_of(options), content, options.profile, options.table);
     };
     return write_and_print(with_file(options.file, import), options, terminal);
 }
@@ -262,7 +262,7 @@ int gsd_diff(const GsdOptions& options, Terminal& terminal)
 {
     const auto compare = [&](const std::string& left) {
         return with_file(options.other, [&](const std::string& right) {
-            return configurator::diff(files_of(options), left, right, options.profile);
+            return configurator::diff(files_of(options), left, right, options.profile, options.table);
         });
     };
     return print(with_file(options.file, compare), options, terminal);

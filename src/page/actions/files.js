@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files that the user opens: each is read as what it is, or refused with a sentence.
-import { documentOf, mappingOf } from '../mapping/model.js';
-import { readKept } from '../mapping/keeping.js';
+import { documentOf } from '../mapping/model.js';
+import { contentOf, readKept } from '../mapping/keeping.js';
 import { sentencesOf } from '../questions.js';
 import { readFile, readLibrary, readTable } from '../files/disk.js';
 
@@ -23,10 +23,11 @@ function openingMappings({ store, ask, say, notify, edit, chooseProfile }) {
     function openMapping(name, reply, lost = []) {
         const profile = ask.profile(reply.mapping.profile);
         if (!profile) return notify('error', `${name} was not opened.`, [`There is no profile "${reply.mapping.profile}" in this page.`]);
-        edit.open(documentOf(stem(name), reply.mapping, profile.default_list), `${name} was opened.`);
-        if (lost.length === 0) return store.change({ saved: JSON.stringify(mappingOf(store.state().history.present)) });
+        const table = reply.table ? { name: reply.table_name, text: reply.table } : null;
+        edit.open(documentOf(stem(name), reply.mapping, profile.default_list, table), `${name} was opened.`);
+        if (lost.length === 0) return store.change({ saved: contentOf(store.state().history.present) });
         return notify('warning', `${name} was opened. The file that is made of it differs from it:`,
-            lost.map((one) => `${one.line > 0 ? `Line ${one.line}: ` : ''}${one.keyword}: ${one.left || 'nothing'} becomes ${one.right || 'nothing'}`));
+            lost.map((one) => one.text));
     }
 
     async function openGsd(file, profile) {

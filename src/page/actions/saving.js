@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Saving the mapping: as a GSD file, as a mapping file, as the station's block of dpslaved.toml.
-import { mappingOf } from '../mapping/model.js';
+import { contentOf } from '../mapping/keeping.js';
 import { stationBlock } from '../mapping/station.js';
 import { sentencesOf } from '../questions.js';
 import { octetsOf } from '../files/octets.js';
@@ -41,7 +41,7 @@ export function saving(app) {
         }
         if (target.kind !== 'station') {
             targets.set(document.id, { ...target, name });
-            store.change({ saved: JSON.stringify(mappingOf(document)) });
+            store.change({ saved: contentOf(document) });
         }
         return say(target.handle ? `${name} was saved.` : `${name} was given to the downloads of the browser.`);
     }

@@ -65,7 +65,10 @@ export function isSame(one, other) {
     return one.document.name === other.document.name && one.document.profile === other.document.profile;
 }
 
-const contentOf = (document) => JSON.stringify([mappingOf(document), document.table]);
+/** All that a document makes, whatever it is called. */
+export function contentOf(document) {
+    return JSON.stringify([mappingOf(document), document.table]);
+}
 
 /** Whether two documents are the same draft. */
 export function isSameDraft(one, other) {

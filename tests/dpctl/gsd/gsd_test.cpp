@@ -401,6 +401,29 @@ TEST(GsdImportCommand, WritesTheMappingThatMakesTheFileAgain)
     EXPECT_THAT(gsd_command({"import", file, "--profiles", profiles}).out, StartsWith("profile = \"605\"\n"));
 }
 
+TEST(GsdImportCommand, KeepsTheTableOfTheUserInTheMappingWhichMakesTheFileAgain)
+{
+    const test::Folder folder;
+    const std::string profiles = kSource / "config/profiles";
+    const auto table = folder.write("mine.csv", "tag,name,type\n55,Z\xFCge,INT\n"); // in ISO 8859-1
+    const std::string first = make({"--profile", "590", "--table", table, "--in", "55"}).out;
+    ASSERT_THAT(first, HasSubstr("; 1 in tag 55 Z\xFCge\r\n"));
+    const auto file = folder.write("UNWI0533.GSD", first);
+    const auto mapping = folder.path() / "unwinder.toml";
+    const Ran ran = gsd_command(
+        {"import", file, "--profile", "590", "--profiles", profiles, "--table", table, "--output", mapping});
+    EXPECT_EQ(ran.exit, dpctl::kFine) << ran.err;
+    EXPECT_EQ(ran.err, "");
+    std::filesystem::remove(table);
+    EXPECT_EQ(make({"--mapping", mapping}).out, first);
+
+    const auto other = folder.write("other.csv", "tag,name\n55,Speed\n");
+    EXPECT_THAT(make({"--mapping", mapping, "--table", other}).out, HasSubstr("; 1 in tag 55 Speed\r\n"))
+        << "the table of the command line goes before that of the mapping";
+    EXPECT_THAT(gsd_command({"import", file, "--profile", "590", "--profiles", profiles}).err,
+                HasSubstr("name of tag 55 = Z\xC3\xBCge gets lost"));
+}
+
 TEST(GsdImportCommand, AsksForTheProfileWhereTheFileDoesNotSayIt)
 {
     const Ran ran =
