@@ -2,7 +2,6 @@
 // A master that knows nothing but the GSD that `dpctl gsd make` wrote: the gateway takes exactly this.
 #include "system/gateway.hpp"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 namespace dpslave::test {
@@ -42,55 +41,123 @@ Gsd parsed(const std::string& text)
     return gsd;
 }
 
+/// An order, and what shows that it was carried out.
+struct Step {
+    const char* order;
+    const char* proof;
+};
+
+/// What devices of a kind have in common. Scaled integers: tag 56 has two decimals, tag 62 one.
+struct Family {
+    const char* name;
+    const char* list;          ///< parameters in the order of the telegram, whose directions alternate
+    std::vector<Step> outputs; ///< order to the master, proof of the drive
+    std::vector<Step> inputs;  ///< order to the drive, or none; proof of the master
+};
+
+const Family kOptionBoard{"option-board",
+                          "out:56,in:55,out:62,in:61",
+                          {{"out 1 = 300", "tag 56 written 3.00"}, {"out 2 = 400", "tag 62 written 40.0"}},
+                          {{"set 55 12.50", "in 1 = 1250"}, {"set 61 33.3", "in 2 = 333"}}};
+const Family kTechnologyBox{"technology-box",
+                            "out:56,in-out:62,in:55",
+                            {{"out 1 = 300", "tag 56 written 3.00"}, {"out 2 = 400", "tag 62 written 40.0"}},
+                            {{"", "in 1 = 400"}, {"set 55 12.50", "in 2 = 1250"}}};
+const Family kController{"controller",
+                         "out:24,in:1,out:25,in:24",
+                         {{"out 1 = 300", "tag 24 written 30.0"}, {"out 2 = 400", "tag 25 written 40.0"}},
+                         {{"set 1 12.5", "in 1 = 125"}, {"", "in 2 = 300"}}};
+
 struct Device {
     const char* profile;
+    const Family& family;
     bool is_open; ///< its ident is in no source: any number stands for that of the site
 };
 
-class MadeGsd : public ::testing::TestWithParam<Device> {};
-
-TEST_P(MadeGsd, IsAcceptedByTheGatewayAsItStands)
+bool is_controller(const Device& device)
 {
-    const Device device = GetParam();
-    const bool is_controller = std::string{device.profile}.starts_with("24");
+    return &device.family == &kController;
+}
+
+Wiring wired(const Device& device)
+{
     Wiring wiring;
     wiring.profile = device.profile;
-    if (is_controller) {
+    if (is_controller(device)) {
         wiring.protocol = "modbus-rtu";
         wiring.units = {"1"};
     } else {
         wiring.table = content(std::filesystem::path{DPSLAVE_SOURCE_DIR} / "config/tags/example.csv") + '\n';
     }
     if (device.is_open) wiring.keys = "ident = 0x0B0B\n";
-    Gateway gateway{wiring};
-    Arguments make{"gsd",          "make",       "--profile",
-                   device.profile, "--profiles", std::string{DPSLAVE_SOURCE_DIR} + "/config/profiles",
-                   "--demand"};
-    if (device.is_open) make.insert(make.end(), {"--ident", "0x0B0B"});
-    if (!is_controller) make.insert(make.end(), {"--in", "55,61", "--out", "56"});
-    const Outcome made = gateway.dpctl(make);
-    ASSERT_EQ(made.status, 0) << made.err;
+    return wiring;
+}
 
-    const Gsd gsd = parsed(made.out);
-    ASSERT_NE(gsd.prm, "") << made.out;
-    ASSERT_NE(gsd.cfg, "") << made.out;
-    Master master{gateway,
-                  {"--family", is_controller ? "controller" : "option-board", "--ident", gsd.ident, "--prm",
-                   gsd.prm, "--cfg", gsd.cfg, "--no-sync-freeze"}};
+Gsd made(const Gateway& gateway, const Device& device, const Arguments& more)
+{
+    Arguments make{"gsd",          "make",       "--profile",
+                   device.profile, "--profiles", std::string{DPSLAVE_SOURCE_DIR} + "/config/profiles"};
+    if (device.is_open) make.insert(make.end(), {"--ident", "0x0B0B"});
+    make.insert(make.end(), more.begin(), more.end());
+    const Outcome outcome = gateway.dpctl(make);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    Gsd gsd = parsed(outcome.out);
+    EXPECT_NE(gsd.prm, "") << outcome.out;
+    EXPECT_NE(gsd.cfg, "") << outcome.out;
+    return gsd;
+}
+
+Arguments settings(const Device& device, const Gsd& gsd)
+{
+    return {"--family", device.family.name, "--ident", gsd.ident, "--prm", gsd.prm, "--cfg",
+            gsd.cfg,    "--no-sync-freeze"};
+}
+
+class MadeGsd : public ::testing::TestWithParam<Device> {};
+
+TEST_P(MadeGsd, IsAcceptedByTheGatewayAsItStands)
+{
+    const Device device = GetParam();
+    Gateway gateway{wired(device)};
+    const Gsd gsd = made(gateway, device,
+                         is_controller(device) ? Arguments{"--demand"}
+                                               : Arguments{"--demand", "--in", "55,61", "--out", "56"});
+    Master master{gateway, settings(device, gsd)};
     ASSERT_TRUE(master.does("start 30s")) << gsd.ident << ' ' << gsd.prm << ' ' << gsd.cfg;
-    gateway.drive().send_line(is_controller ? "set 1 12.5" : "set 55 12.50");
-    EXPECT_TRUE(master.does(is_controller ? "wait 30s for in 1 = 125" : "wait 30s for in 1 = 1250"));
+    gateway.drive().send_line(is_controller(device) ? "set 1 12.5" : "set 55 12.50");
+    EXPECT_TRUE(master.does(is_controller(device) ? "wait 30s for in 1 = 125" : "wait 30s for in 1 = 1250"));
     EXPECT_TRUE(master.does("out 1 = 300"));
-    EXPECT_TRUE(gateway.drive().says(is_controller ? "tag 24 written 30.0" : "tag 56 written 3.00"));
+    EXPECT_TRUE(gateway.drive().says(is_controller(device) ? "tag 24 written 30.0" : "tag 56 written 3.00"));
     EXPECT_TRUE(master.does("demand none"));
     EXPECT_TRUE(master.leaves());
 }
-INSTANTIATE_TEST_SUITE_P(OfEachProfile, MadeGsd,
-                         ::testing::Values(Device{"584s", false}, Device{"590", false}, Device{"620", false},
-                                           Device{"605", false}, Device{"584sv", true},
-                                           Device{"590plus", true}, Device{"690plus", true},
-                                           Device{"2408f", true}, Device{"2404f", true}),
-                         [](const auto& one) { return "Profile" + std::string{one.param.profile}; });
+
+TEST_P(MadeGsd, WhoseInputsAndOutputsAlternateHasEachValueInItsPlace)
+{
+    const Device device = GetParam();
+    Gateway gateway{wired(device)};
+    const Gsd gsd = made(gateway, device, {"--list", device.family.list});
+    Master master{gateway, settings(device, gsd)};
+    ASSERT_TRUE(master.does("start 30s")) << gsd.ident << ' ' << gsd.prm << ' ' << gsd.cfg;
+    for (const Step& output : device.family.outputs) {
+        EXPECT_TRUE(master.does(output.order));
+        EXPECT_TRUE(gateway.drive().says(output.proof));
+    }
+    for (const Step& input : device.family.inputs) {
+        if (*input.order != '\0') gateway.drive().send_line(input.order);
+        EXPECT_TRUE(master.does(std::string{"wait 30s for "} + input.proof));
+    }
+    EXPECT_TRUE(master.leaves());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    OfEachProfile, MadeGsd,
+    ::testing::Values(Device{"584s", kOptionBoard, false}, Device{"590", kOptionBoard, false},
+                      Device{"620", kOptionBoard, false}, Device{"605", kTechnologyBox, false},
+                      Device{"584sv", kTechnologyBox, true}, Device{"590plus", kTechnologyBox, true},
+                      Device{"690plus", kTechnologyBox, true}, Device{"2408f", kController, true},
+                      Device{"2404f", kController, true}),
+    [](const auto& one) { return "Profile" + std::string{one.param.profile}; });
 
 } // namespace
 } // namespace dpslave::test
