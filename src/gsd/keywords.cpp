@@ -205,9 +205,7 @@ std::string_view nearest_keyword(std::string_view name)
     std::string_view nearest;
     std::size_t best = kApart + 1;
     for (const Keyword& keyword : kKeywords) {
-        const std::size_t longer = std::max(wanted.size(), keyword.name.size());
-        if (longer - std::min(wanted.size(), keyword.name.size()) > kApart) continue;
-        const std::size_t apart = edit_distance(wanted, lower(keyword.name));
+        const std::size_t apart = edit_distance(wanted, lower(keyword.name), kApart);
         if (apart < best) {
             best = apart;
             nearest = keyword.name;

@@ -36,7 +36,7 @@ std::string_view nearest(std::string_view wrong, std::span<const std::string> le
     std::string_view best;
     std::size_t best_distance = most + 1;
     for (const std::string& candidate : legal) {
-        const std::size_t distance = edit_distance(wrong, candidate);
+        const std::size_t distance = edit_distance(wrong, candidate, most);
         // Something of the word must be kept, or "ab" would be near to every key of two letters.
         if (distance < best_distance && distance < std::max(wrong.size(), candidate.size())) {
             best = candidate;
