@@ -7,7 +7,6 @@
 #include "dpslave/dp/slave.hpp"
 
 #include <array>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -86,10 +85,7 @@ enum class Did { other, set_prm, chk_cfg, data, control };
 
 class Run {
 public:
-    explicit Run(const Personality& device) : device_(device), slave_(std::make_unique<dp::Slave>(device, 5))
-    {
-        slave_->start(now_);
-    }
+    explicit Run(const Personality& device) : device_(device), slave_(device, 5) { slave_.start(now_); }
 
     void step(fuzz::Input& input);
 
@@ -105,11 +101,11 @@ private:
     void ask(Did what, std::uint8_t sa, std::optional<std::uint8_t> dsap, std::optional<std::uint8_t> ssap,
              const Octets& data)
     {
-        slave_->on_time(now_);
-        before_ = slave_->snapshot();
+        slave_.on_time(now_);
+        before_ = slave_.snapshot();
         fdl::ReplyData reply;
-        const auto answer = slave_->srd({sa, dsap, ssap, data, now_}, reply);
-        const Snapshot after = slave_->snapshot();
+        const auto answer = slave_.srd({sa, dsap, ssap, data, now_}, reply);
+        const Snapshot after = slave_.snapshot();
         judge_states(what, sa, data, answer, after);
         judge_outputs(what, sa, data, answer, after);
         if (ssap == 62 || !dsap) judge_reply(dsap, answer, reply.bytes(), after);
@@ -118,10 +114,10 @@ private:
 
     void tell(std::uint8_t sa, const Octets& data)
     {
-        slave_->on_time(now_);
-        before_ = slave_->snapshot();
-        slave_->sdn({sa, 58, 62, data, now_});
-        const Snapshot after = slave_->snapshot();
+        slave_.on_time(now_);
+        before_ = slave_.snapshot();
+        slave_.sdn({sa, 58, 62, data, now_});
+        const Snapshot after = slave_.snapshot();
         judge_states(Did::control, sa, data, fdl::Answer::sc, after);
         judge_outputs(Did::control, sa, data, fdl::Answer::sc, after);
         judge_orders(Did::control, after);
@@ -157,11 +153,12 @@ private:
         const bool released = what == Did::set_prm && sa == before_.master &&
                               before_.state == State::data_exch && before_.sync && !after.sync &&
                               (data[0] & 0x20) == 0;
-        const bool same =
-            after.outputs == before_.outputs && after.layout.generation == before_.layout.generation;
-        const bool zero = std::ranges::all_of(after.outputs, [](std::uint16_t word) { return word == 0; });
-        demand(same || exchanged || controlled || released || (zero && after.state != before_.state) ||
-                   (zero && after.layout.generation != before_.layout.generation),
+        const bool other_layout = after.layout.generation != before_.layout.generation;
+        const auto are_zero = [&after] {
+            return std::ranges::all_of(after.outputs, [](std::uint16_t word) { return word == 0; });
+        };
+        demand(exchanged || controlled || released || (!other_layout && after.outputs == before_.outputs) ||
+                   ((other_layout || after.state != before_.state) && are_zero()),
                "outputs change by Data_Exchange or Global_Control of the owner alone");
         if (after.may_write && !before_.may_write)
             demand(exchanged || controlled || released, "writing begins with the owner's exchange");
@@ -211,7 +208,7 @@ private:
 
     void judge_orders(Did what, const Snapshot& after)
     {
-        while (const auto order = slave_->take_demand_order()) {
+        while (const auto order = slave_.take_demand_order()) {
             if (order->kind == DemandOrder::Kind::cancel) continue;
             last_order_ = order->number;
             const bool released = what == Did::set_prm && before_.sync && !after.sync; // row P11
@@ -229,27 +226,27 @@ private:
             if (order->kind == DemandOrder::Kind::write)
                 demand(order->value == asked[3], "an order writes the value of the registers");
         }
-        if (const auto image = slave_->take_outputs()) {
+        if (const auto image = slave_.take_outputs()) {
             demand(!image->may_write || after.state == State::data_exch,
                    "what is to be written is exchanged");
             demand(!image->may_write || image->words == after.outputs, "what is to be written is in force");
         }
-        while (slave_->take_left()) {
+        while (slave_.take_left()) {
         }
-        while (slave_->take_event()) {
+        while (slave_.take_event()) {
         }
     }
 
     void give_inputs(fuzz::Input& input)
     {
-        const Snapshot seen = slave_->snapshot();
+        const Snapshot seen = slave_.snapshot();
         const bool present = input.octet() % 4 != 0;
         InputImage image;
         image.generation = present ? seen.layout.generation : seen.layout.generation + 1;
         image.every_input_tried = input.octet() % 4 != 0;
         image.words.fill(input.word());
         for (std::size_t i = 0; i < 8; ++i) image.words[i] = input.octet();
-        slave_->set_inputs(image);
+        slave_.set_inputs(image);
         if (present && image.generation != 0) given_ = image;
     }
 
@@ -257,15 +254,15 @@ private:
     {
         now_ += std::chrono::milliseconds{input.octet() * 10};
         Instant last{};
-        while (slave_->next_deadline() <= now_) {
-            demand(slave_->next_deadline() > last, "a deadline moves on");
-            last = slave_->next_deadline();
-            slave_->on_time(last);
+        while (slave_.next_deadline() <= now_) {
+            demand(slave_.next_deadline() > last, "a deadline moves on");
+            last = slave_.next_deadline();
+            slave_.on_time(last);
         }
     }
 
     const Personality& device_;
-    std::unique_ptr<dp::Slave> slave_;
+    dp::Slave slave_;
     Instant now_{std::chrono::seconds{100}};
     Snapshot before_;
     InputImage given_;
@@ -302,7 +299,7 @@ void Run::step(fuzz::Input& input)
         case 2: return ask(Did::chk_cfg, sa, 62, 62, rest_of(input));
         case 3: return ask(Did::data, sa, std::nullopt, std::nullopt, rest_of(input));
         case 4: {
-            before_ = slave_->snapshot();
+            before_ = slave_.snapshot();
             Octets data = rest_of(input);
             data.resize(outputs_expected());
             return ask(Did::data, sa, std::nullopt, std::nullopt, data);
@@ -315,15 +312,15 @@ void Run::step(fuzz::Input& input)
         case 10: return pass_time(input);
         case 11: return give_inputs(input);
         case 12:
-            slave_->set_demand_answer({last_order_ + (input.octet() % 4 == 0 ? 1u : 0u),
-                                       static_cast<AccessError>(input.octet() % 14), input.word()});
+            slave_.set_demand_answer({last_order_ + (input.octet() % 4 == 0 ? 1u : 0u),
+                                      static_cast<AccessError>(input.octet() % 14), input.word()});
             return;
         case 13: {
             const Octets blocks = rest_of(input);
-            slave_->set_ext_diag(blocks, input.octet() % 2 != 0);
+            slave_.set_ext_diag(blocks, input.octet() % 2 != 0);
             return;
         }
-        case 14: return slave_->heard(sa, now_);
+        case 14: return slave_.heard(sa, now_);
         default: return ask(Did::other, sa, input.octet() & 63, input.octet() & 63, rest_of(input));
     }
 }

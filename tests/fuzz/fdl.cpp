@@ -8,7 +8,6 @@
 #include "dpslave/fdl/layer2.hpp"
 
 #include <array>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -88,13 +87,14 @@ public:
     Run(const Line& line, Reads reads)
         : line_(line),
           reads_(reads),
-          layer2_(std::make_unique<fdl::Layer2>(fdl::Layer2Settings{
-              .baud = line.baud,
-              .search = line.searched ? std::optional{fdl::BaudSearchSettings{}} : std::nullopt,
-              .start_up_latency = {}}))
+          layer2_({.baud = line.baud,
+                   .search = line.searched ? std::optional{fdl::BaudSearchSettings{}} : std::nullopt,
+                   .start_up_latency = {}})
     {
-        layer2_->attach(kUs, users_[0], kMaxTsdr);
-        layer2_->attach(kAlsoUs, users_[1], kMaxTsdr);
+        heard_.reserve(1024);
+        replies_.reserve(64);
+        layer2_.attach(kUs, users_[0], kMaxTsdr);
+        layer2_.attach(kAlsoUs, users_[1], kMaxTsdr);
         wake();
         for (const Step& step : line.steps) take(step);
     }
@@ -113,7 +113,7 @@ public:
     }
 
 private:
-    nanoseconds on_wire(std::size_t octets) const { return bits(11 * octets, layer2_->baud()); }
+    nanoseconds on_wire(std::size_t octets) const { return bits(11 * octets, layer2_.baud()); }
 
     void take(const Step& step)
     {
@@ -139,25 +139,25 @@ private:
         if (octets.empty()) return;
         heard_.insert(heard_.end(), octets.begin(), octets.end());
         read_at_ = now_;
-        layer2_->on_bytes(octets, now_, more_follows);
+        layer2_.on_bytes(octets, now_, more_follows);
     }
 
     void read_bad()
     {
         heard_.clear();
         read_at_ = now_;
-        layer2_->on_character_error(now_);
+        layer2_.on_character_error(now_);
     }
 
     /// Serves each deadline before `until`, with the lateness of the edge.
     void advance(Instant until)
     {
         std::optional<Instant> last;
-        while (layer2_->next_deadline() < until) {
-            const Instant due = std::max(layer2_->next_deadline(), now_) + line_.lateness;
+        while (layer2_.next_deadline() < until) {
+            const Instant due = std::max(layer2_.next_deadline(), now_) + line_.lateness;
             if (due >= until) break;
-            demand(!last || layer2_->next_deadline() > *last || line_.searched, "a deadline moves on");
-            last = layer2_->next_deadline();
+            demand(!last || layer2_.next_deadline() > *last || line_.searched, "a deadline moves on");
+            last = layer2_.next_deadline();
             now_ = due;
             wake();
         }
@@ -166,20 +166,20 @@ private:
 
     void wake()
     {
-        layer2_->on_time(now_);
-        layer2_->take_baud_change();
-        const auto octets = layer2_->take_transmit();
+        layer2_.on_time(now_);
+        layer2_.take_baud_change();
+        const auto octets = layer2_.take_transmit();
         if (!octets) return;
         replies_.push_back({{octets->begin(), octets->end()}, now_});
         judge(replies_.back());
         heard_.clear();
-        demand(!layer2_->take_transmit(), "a request has one reply");
+        demand(!layer2_.take_transmit(), "a request has one reply");
     }
 
     void judge(const Reply& reply) const
     {
-        const Baud baud = layer2_->baud();
-        demand(layer2_->baud_state() != fdl::BaudState::baud_search,
+        const Baud baud = layer2_.baud();
+        demand(layer2_.baud_state() != fdl::BaudState::baud_search,
                "the station is silent while it searches");
         const auto telegram = test::heard(reply.octets);
         demand(telegram.has_value(), "a reply is a valid telegram");
@@ -220,7 +220,7 @@ private:
     const Line& line_;
     Reads reads_;
     std::array<User, 2> users_;
-    std::unique_ptr<fdl::Layer2> layer2_;
+    fdl::Layer2 layer2_;
     Instant now_{std::chrono::seconds{1000}};
     Instant read_at_ = now_;
     Octets heard_; ///< since the last reply or bad character
@@ -336,11 +336,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::Input input{data, size};
     const Line line = line_of(input);
     Run whole{line, Reads::whole};
-    if (is_clean(line))
-        demand_same(whole, Run{line, Reads::as_they_come}, "reads in pieces are answered alike");
+    Run as_they_come{line, Reads::as_they_come};
+    if (is_clean(line)) demand_same(whole, as_they_come, "reads in pieces are answered alike");
     if (has_plain_pauses(line))
         demand_same(whole, Run{line, Reads::pieces_at_once}, "one read in pieces is answered alike");
-    Run as_they_come{line, Reads::as_they_come};
     if (line.searched || line.lateness > bits(30, line.baud)) return 0;
     whole.demand_service();
     as_they_come.demand_service();
