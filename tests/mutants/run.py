@@ -65,8 +65,9 @@ def write_if_new(path, text):
 # --- finding -----------------------------------------------------------------------------------------------------
 
 def found_in(path):
-    """(source, mutants) of one file; remembered for as long as no header changes."""
-    headers = sorted(f"{folder}/{name}" for top in ("include", "src") for folder, _, names in os.walk(top)
+    """(source, mutants) of one file; remembered for as long as no header that it can include changes."""
+    # A header of another library lies in include/.
+    headers = sorted(f"{folder}/{name}" for top in ("include", os.path.dirname(path)) for folder, _, names in os.walk(top)
                      for name in names if name.endswith(".hpp"))
     wanted = digest(read(path), read(f"{PROJECT}/tests/mutants/places.py"), *map(read, headers))
     cache = f"{WORK}/places/{path.replace('/', '_')}.pickle"
