@@ -9,11 +9,6 @@
 namespace dpslave::drive {
 namespace {
 
-/// Active Demand Data may lengthen a round by 16 ms on the 590 and by 30 ms on the 584S, where a parameter
-/// takes 8 and 15 ms (HA389815 ch. 8): that is two transactions. One repeats the standing order, one is for a
-/// new order.
-constexpr int kOrdersPerRound = 2;
-
 /// So many transactions in a row that could not be asked, and the drive rests: what is owed to it needs time.
 constexpr int kDeferredAtOnce = 4;
 constexpr std::chrono::milliseconds kDeferredRest{5};
@@ -55,7 +50,7 @@ void Poller::Unit::new_layout(const OutputImage& image)
     left_data_exchange(image_.layout.generation);
     phase_ = Phase::before_data_exchange;
     cyclic_.reset(tags_.parameters(image.layout), link_.is_lost());
-    orders_in_round_ = 0;
+    turn_.round_begins();
     snapshot_.cycle = {};
     snapshot_.words = {};
     snapshot_.updated_at = {};
@@ -137,7 +132,8 @@ void Poller::Unit::port_changed()
     if (phase_ == Phase::safe && !has_ended(image_.layout.generation)) phase_ = Phase::waits;
     link_.port_changed();
     cyclic_.port_changed();
-    order_was_last_ = zero_waits_ = false;
+    zero_waits_ = false;
+    turn_.nothing_cyclic();
     if (cyclic_.outputs().writes_now()) begin_writing();
     show();
 }
@@ -178,14 +174,15 @@ std::optional<Transaction> Poller::Unit::next(Instant now)
         transaction = asked(now);
     }
     if (!transaction) {
-        order_was_last_ = zero_waits_ = false; // nothing cyclic is there to go first
+        zero_waits_ = false; // nothing cyclic is there to go first
+        turn_.nothing_cyclic();
         transaction = asked(now);
     }
     // Nothing has been asked for a while; or a silence may be the first of a loss.
     if (!transaction && (!link_.is_certain() || now >= probe_due())) transaction = probe();
     owes_round_ = owes_round_ && transaction;
     if (!transaction) return std::nullopt;
-    wrote_last_ = is_write(*transaction);
+    wrote_last_ = wrote_last_ || is_write(*transaction);
     transaction->unit = index_;
     return transaction;
 }
@@ -197,34 +194,31 @@ std::optional<Transaction> Poller::Unit::asked(Instant now)
         if (const Tag* row = safe_state_.next(now)) return write(Purpose::safe_state, row, 0);
         if (const Tag* row = safe_state_.next_proof(now)) return read_of(Purpose::safe_state, row);
     }
+    if (auto order = ordered()) return order;
     std::optional<Transaction> transaction;
     if (wrote_last_) transaction = cyclic_.next_read(now); // fast outputs do not starve inputs
-    if (!transaction)
-        if (auto order = ordered()) return order;
     if (!transaction) transaction = cyclic_.next(now);
-    if (transaction) order_was_last_ = zero_waits_ = false;
+    if (!transaction) return std::nullopt;
+    wrote_last_ = zero_waits_ = false;
+    turn_.cyclic_goes();
     return transaction;
 }
 
-/// Demand Data first, then dpctl; but after each of them one cyclic transaction, and what is asked again once
-/// a round.
+/// Demand Data first, then dpctl.
 std::optional<Transaction> Poller::Unit::ordered()
 {
-    if (order_was_last_) return std::nullopt;
     const DemandQueue::Entry* demand = demand_.front();
-    if (demand != nullptr && orders_in_round_ < (demand->is_again() ? 1 : kOrdersPerRound)) {
-        order_was_last_ = true;
-        ++orders_in_round_;
+    if (demand != nullptr && turn_.may_go(*demand)) {
+        turn_.goes(*demand);
         order_ = demand->order.number;
         return demand->writes_next() ? write(Purpose::demand, demand->row, demand->order.value)
                                      : read_of(Purpose::demand, demand->row);
     }
-    if (const OperateQueue::Entry* operate = operates_.front()) {
-        order_was_last_ = true;
-        return operate->writes_next() ? write(Purpose::operate, operate->row, operate->order.word)
-                                      : read_of(Purpose::operate, operate->row);
-    }
-    return std::nullopt;
+    const OperateQueue::Entry* operate = operates_.front();
+    if (operate == nullptr || !turn_.may_operate()) return std::nullopt;
+    turn_.operates();
+    return operate->writes_next() ? write(Purpose::operate, operate->row, operate->order.word)
+                                  : read_of(Purpose::operate, operate->row);
 }
 
 std::optional<Transaction> Poller::Unit::next_survey(Instant now) const
@@ -252,7 +246,7 @@ void Poller::Unit::begin_round(Instant now)
 {
     if (const auto took = cyclic_.begin_round(now)) snapshot_.cycle = *took;
     owes_round_ = false;
-    orders_in_round_ = 0;
+    turn_.round_begins();
 }
 
 /// Of a lost drive only what is not asked of it: its probe is the line's business.
@@ -346,7 +340,8 @@ void Poller::Unit::note_answer(Instant now)
     if (link_.answered()) {
         cyclic_.drive_returned(now);
         safe_state_.drive_returned();
-        order_was_last_ = zero_waits_ = wrote_last_ = false;
+        zero_waits_ = wrote_last_ = false;
+        turn_.nothing_cyclic();
     }
     if (!snapshot_.answers) inputs_changed_ = true;
     snapshot_.known = true;

@@ -6,6 +6,7 @@
 #include "demand_queue.hpp"
 #include "drive_link.hpp"
 #include "operate_queue.hpp"
+#include "order_turn.hpp"
 #include "safe_state.hpp"
 #include "survey_slot.hpp"
 #include "unit_tags.hpp"
@@ -98,10 +99,9 @@ private:
     std::uint32_t order_ = 0;             ///< of Demand Data, under way
     std::array<std::uint16_t, 1> word_{}; ///< of a single write under way
 
-    int orders_in_round_ = 0;     ///< transactions of Demand Data in this round
-    bool order_was_last_ = false; ///< of Demand Data or dpctl: now a cyclic one first
-    bool zero_waits_ = false;     ///< the last zero was not answered or not held: something else first
-    bool wrote_last_ = false;     ///< the last transaction was a write: now a read first
+    OrderTurn turn_;
+    bool zero_waits_ = false; ///< the last zero was not answered or not held: something else first
+    bool wrote_last_ = false; ///< since the last cyclic read: now a cyclic read first
     bool owes_round_ = false;
 
     DriveLink link_;

@@ -69,6 +69,37 @@ TEST_F(PollerOrders, ANewOrderGoesBeforeEverythingElseOfItsDrive)
     ASSERT_FALSE(answers().empty());
 }
 
+TEST_F(PollerOrders, ANewOrderGoesRightBehindTheRepetitionOfTheOneBefore)
+{
+    order(Kind::read, 50);
+    bench.run(500ms);
+    bench.meanwhile = [this](const Transaction& t) {
+        if (t.purpose == Purpose::demand && t.tag->number == 50) order(Kind::read, 51);
+    };
+    bench.log.clear();
+    bench.run(400ms);
+    EXPECT_NE(purposes().find("dd"), std::string::npos);
+    EXPECT_EQ(answers().back().value, 1051);
+}
+
+TEST_F(PollerOrders, ANewOrderGoesRightBehindAWriteOfTheCycle)
+{
+    bench.layout(0, 2, {1}, {2});
+    bench.master_writes(0, 2, 7);
+    bench.run(500ms);
+    bench.log.clear();
+    bool ordered = false;
+    bench.meanwhile = [&](const Transaction& t) {
+        if (t.purpose != Purpose::output || std::exchange(ordered, true)) return;
+        bench.poller.set_demand(0, {Kind::read, 50, 0, 1, 2});
+    };
+    bench.master_writes(0, 2, 8);
+    bench.run(100ms);
+    ASSERT_TRUE(ordered);
+    const std::string all = purposes();
+    EXPECT_EQ(all.at(all.find('o') + 1), 'd') << all;
+}
+
 TEST_F(PollerOrders, AStandingReadIsRefreshedOnceARound)
 {
     order(Kind::read, 50);
