@@ -115,7 +115,7 @@ struct BusSnapshot {
     std::uint64_t driver_guarded = 0; ///< times that only the guard made the driver enable inactive
     std::uint64_t echo_broken = 0;    ///< echoes that were not what was sent
     std::uint64_t echo_missing = 0;   ///< echoes that were due and did not come
-    std::uint64_t page_faults = 0;    ///< of the bus thread since its loop began
+    std::uint64_t page_faults = 0;    ///< of the bus thread since it serves with locked memory
     bool valid = false;               ///< false: nothing was published yet
 };
 struct BusLink {
@@ -131,6 +131,8 @@ struct BusLink {
     Handover<PortMessage> port_messages;
     std::atomic<Baud> baud{Baud::k9_6}; ///< the rate of replies, bus -> guard of the driver enable
     std::atomic<bool> ended{false};     ///< the bus thread has ended
+    /// Main -> bus: the memory is locked, if it is to be. The bus is served before.
+    std::atomic<bool> memory_is_ready{true};
 };
 
 /// What a drive refused, in words; the newest few of a line.

@@ -25,7 +25,7 @@ RealtimeConfig read_realtime(Table table)
     return config;
 }
 
-ControlConfig read_control(Document& document, Table table, Faults& warnings)
+ControlConfig read_control(Table table)
 {
     ControlConfig config;
     if (auto socket = table.text("socket")) {
@@ -37,13 +37,6 @@ ControlConfig read_control(Document& document, Table table, Faults& warnings)
     }
     if (auto group = table.text("operator_group")) config.operator_group = *std::move(group);
     config.read_only = table.boolean("read_only").value_or(config.read_only);
-    if (!operator_group_of(config)) {
-        const toml::Place at = table.place_of("operator_group");
-        warnings.push_back(
-            {document.name(), at.line, at.column,
-             "the system has no group \"" + config.operator_group +
-                 "\": only root may operate. Create the group, or name another one in 'operator_group'."});
-    }
     return config;
 }
 
@@ -120,6 +113,13 @@ std::optional<gid_t> operator_group_of(const ControlConfig& control)
     return found != nullptr ? std::optional{found->gr_gid} : std::nullopt;
 }
 
+toml::Fault without_operator_group(const Config& config)
+{
+    return {config.file.string(), config.operator_group_place.line, config.operator_group_place.column,
+            "the system has no group \"" + config.control.operator_group +
+                "\": only root may operate. Create the group, or name another one in 'operator_group'."};
+}
+
 Result<Config, Faults> load_config(const std::filesystem::path& file, const std::filesystem::path& profiles)
 {
     Document document{io::read_regular_file, file.string()};
@@ -132,7 +132,8 @@ Result<Config, Faults> load_config(const std::filesystem::path& file, const std:
     config.bus = read_bus(document, config.warnings);
     config.realtime = read_realtime(root.table("realtime"));
     if (const auto sysfs = root.table("leds").text("sysfs")) config.sysfs = *sysfs;
-    config.control = read_control(document, root.table("control"), config.warnings);
+    config.control = read_control(root.table("control"));
+    config.operator_group_place = root.table("control").place_of("operator_group");
     const std::vector<ReadLine> lines = read_lines(document, config.bus);
     config.stations = read_stations(document, config.bus, config.sysfs, lines, shelf, config.warnings);
     for (const ReadLine& read : lines) config.lines.push_back(read.line);

@@ -154,6 +154,8 @@ int main(int argc, char** argv)
     if (check) {
         for (const dpslave::toml::Fault& warning : config->warnings)
             std::fprintf(stderr, "%s (warning)\n", to_string(warning).c_str());
+        if (!dpslave::config::operator_group_of(config->control))
+            std::fprintf(stderr, "%s (warning)\n", to_string(without_operator_group(*config)).c_str());
         return 0;
     }
     set_up_log();

@@ -66,6 +66,7 @@ TEST_F(BusThread, MeetsNoPageFaultWhileItServesWithLockedMemory)
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     GTEST_SKIP() << "the sanitizer's own memory is met page by page";
 #endif
+    io::keep_memory();
     if (const auto refused = io::lock_memory(); !refused.empty()) GTEST_SKIP() << refused.front();
     start({}, {station(kStation)});
     start_up(kStation);

@@ -635,8 +635,9 @@ TEST_F(ConfigWarning, an_operator_group_that_the_system_has_not_leaves_root_alon
 {
     const Config config = good(with(kGood, "\"root\"", "\"no-such-group-here\""));
 
+    EXPECT_EQ(config::operator_group_of(config.control), std::nullopt);
     EXPECT_THAT(
-        short_forms(config.warnings),
+        short_forms({config::without_operator_group(config)}),
         ElementsAre(AllOf(StartsWith("7:18: "), HasSubstr("\"no-such-group-here\": only root may operate"))));
 }
 

@@ -11,6 +11,7 @@
 #include "dpslave/io/driver_enable.hpp"
 #include "dpslave/profile/profile.hpp"
 #include "dpslave/tec/option_block.hpp"
+#include "dpslave/toml/document.hpp"
 #include "dpslave/toml/fault.hpp"
 
 #include <sys/types.h>
@@ -131,14 +132,18 @@ struct Config {
     RealtimeConfig realtime;
     std::filesystem::path sysfs = "/sys";
     ControlConfig control;
+    toml::Place operator_group_place; ///< of the key
     std::vector<LineConfig> lines;
     std::vector<StationConfig> stations;
-    std::vector<toml::Fault> warnings; ///< said in the log at start: address 0..2, RIDE THROUGH, unknown
-                                       ///< operator group, tags without mnemonic
+    std::vector<toml::Fault> warnings; ///< said in the log at start: address 0..2, RIDE THROUGH, tags without
+                                       ///< mnemonic
 };
 
-/// Nothing: the system has no such group.
+/// Nothing: the system has no such group. Asks it, which takes long where a directory in the network has the
+/// groups: load_config() does not, and the bus does not wait for it.
 std::optional<gid_t> operator_group_of(const ControlConfig& control);
+/// What to say where operator_group_of() is nothing.
+toml::Fault without_operator_group(const Config& config);
 
 /// The file behind a path, links followed, so that two names of one tty are the same.
 std::string canonical(const std::string& path);

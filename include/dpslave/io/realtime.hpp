@@ -27,10 +27,18 @@ inline constexpr std::size_t kThreadStack = 128 * 1024;
 /// locked. Where the system refuses it they have the usual one of 8 MiB.
 void make_stacks_small();
 
-/// Locks all memory of the process, present and future, and keeps what is freed. Call it before the threads
-/// start: their stacks are then there as a whole. Where only part would be granted it is not done at all,
-/// because a thread could fail to start later.
+/// What is freed stays with the process, and all threads share it. Call it before the first thread starts,
+/// where the memory is to be locked.
+void keep_memory();
+
+/// Locks all memory of the process, present and future: the stacks of all threads are then there as a whole.
+/// That takes milliseconds. Where only part would be granted it is not done at all, because a thread could
+/// fail to start later.
 std::vector<std::string> lock_memory();
+
+/// Of the calling thread: gives back the part of its stack that no thread was seen to need, 16 KiB below this
+/// call, and locks it no more. For a thread that may wait for a page of memory.
+void unlock_deep_stack();
 
 /// For the calling thread: timer slack 1 ns, pinned to processor `cpu` (-1 = not), and
 /// SCHED_FIFO with `priority` 1..99 (0 = ordinary scheduling).

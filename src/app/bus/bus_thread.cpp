@@ -29,7 +29,7 @@ void BusThread::run(const std::stop_token& stop, io::EventFd& wake)
     epoll_.add(ticker_.fd(), EPOLLIN, kTickKey);
     port_.watch();
     follow_rate(); // a search says where it begins
-    faults_at_start_ = io::page_faults_of_thread();
+    follow_memory();
 
     while (!stop.stop_requested()) {
         if (update_due_ && !port_.is_sending() && !layer2_.reply_waits()) {
@@ -151,8 +151,17 @@ void BusThread::publish(Instant now)
     stations_.publish(now);
 }
 
+/// Page faults are to be seen from the moment on at which none should be left.
+void BusThread::follow_memory()
+{
+    if (memory_is_ready_) return;
+    memory_is_ready_ = link_.memory_is_ready.load(std::memory_order_relaxed);
+    faults_at_start_ = io::page_faults_of_thread();
+}
+
 void BusThread::publish_bus(Instant now)
 {
+    follow_memory();
     next_bus_snapshot_ = now + SnapshotTurns::kInterval;
     BusSnapshot snapshot{.baud = layer2_.baud(),
                          .baud_state = layer2_.baud_state(),

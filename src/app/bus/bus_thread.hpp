@@ -48,6 +48,7 @@ private:
     void follow_rate();
     bool may_publish(Instant now) const;
     void publish(Instant now);
+    void follow_memory();
     void publish_bus(Instant now);
     void leave_bus();
 
@@ -62,6 +63,7 @@ private:
     Histogram turnaround_tbit_;
     std::uint64_t too_late_ = 0;
     Instant next_bus_snapshot_{};
+    bool memory_is_ready_ = false;
     std::uint64_t faults_at_start_ = 0;
 };
 

@@ -9,12 +9,22 @@ constexpr std::chrono::seconds kLookInterval{1};
 
 } // namespace
 
+ConfigFile::ConfigFile(const config::Config& present, std::filesystem::path profiles, Instant now)
+    : file_(present.file), profiles_(std::move(profiles)), next_look_(now + kLookInterval)
+{
+    note(present);
+}
+
+void ConfigFile::note(const config::Config& read)
+{
+    for (const config::StationConfig& one : read.stations) addresses_[one.name] = one.address;
+}
+
 Result<config::Config, toml::Faults> ConfigFile::load()
 {
     auto config = config::load_config(file_, profiles_);
     addresses_.clear();
-    if (config)
-        for (const config::StationConfig& one : config->stations) addresses_[one.name] = one.address;
+    if (config) note(*config);
     return config;
 }
 

@@ -16,9 +16,8 @@ namespace dpslave::app {
 
 class ConfigFile {
 public:
-    ConfigFile(std::filesystem::path file, std::filesystem::path profiles)
-        : file_(std::move(file)), profiles_(std::move(profiles))
-    {}
+    /// `present`: what was read from it at the start, before `now`.
+    ConfigFile(const config::Config& present, std::filesystem::path profiles, Instant now);
 
     const std::filesystem::path& path() const { return file_; }
     /// Reads and judges the whole of it.
@@ -30,9 +29,11 @@ public:
     std::optional<std::uint8_t> address_of(const std::string& station) const;
 
 private:
+    void note(const config::Config& read);
+
     std::filesystem::path file_, profiles_;
-    Instant next_look_{};
-    std::filesystem::file_time_type written_{}; ///< when on_time() read it
+    Instant next_look_;
+    std::filesystem::file_time_type written_{}; ///< when on_time() read it; the first look reads it
     std::map<std::string, std::uint8_t, std::less<>> addresses_;
 };
 

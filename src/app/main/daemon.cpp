@@ -132,11 +132,8 @@ ExitStatus run_daemon(const config::Config& config, const std::filesystem::path&
 
     BusThread bus(config.bus, std::move(*port), *driver, runtime.bus_stations(), link);
     io::make_stacks_small();
-    if (config.realtime.lock_memory) say_warnings(io::lock_memory());
-    spdlog::info("dpslaved {}: {} station(s) on {} at {}", kVersion, config.stations.size(), config.bus.port,
-                 rate_in_words(config.bus));
-
-    runtime.start();
+    if (config.realtime.lock_memory) io::keep_memory();
+    link.memory_is_ready.store(false, std::memory_order_relaxed);
     guard.start(config.realtime.priority);
     io::EventFd bus_wake;
     std::jthread bus_thread([&](const std::stop_token& stop) {
@@ -147,6 +144,12 @@ ExitStatus run_daemon(const config::Config& config, const std::filesystem::path&
         link.ended.store(true, std::memory_order_release);
     });
 
+    // The bus is served: what takes milliseconds comes now.
+    if (config.realtime.lock_memory) say_warnings(io::lock_memory());
+    link.memory_is_ready.store(true, std::memory_order_relaxed);
+    runtime.start();
+    spdlog::info("dpslaved {}: {} station(s) on {} at {}", kVersion, config.stations.size(), config.bus.port,
+                 rate_in_words(config.bus));
     const bool by_signal = main_thread.run();
 
     // The bus first: the end that it publishes makes the drive lines write the safe state.

@@ -33,7 +33,7 @@ MainThread::MainThread(config::Config config, const std::filesystem::path& profi
       guard_(guard),
       signals_(signals),
       monitor_(std::move(config), runtime, bus),
-      file_(monitor_.config().file, profiles),
+      file_(monitor_.config(), profiles, io::monotonic_now()),
       methods_({monitor_, lamps_, file_, accesses_, probes_, watchers_, reload_}, io::monotonic_now())
 {
     for (const std::string& warning : lamps_.exchange(monitor_.config())) spdlog::warn("{}", warning);
@@ -55,8 +55,6 @@ std::optional<std::string> MainThread::open_socket()
     if (refused) return fmt::format("{}: the folder cannot be made: {}", folder.string(), refused.message());
     control::ServerSettings settings;
     settings.socket = config.control.socket;
-    settings.operator_group = config::operator_group_of(config.control);
-    settings.operator_group_name = config.control.operator_group;
     settings.version = kVersion;
     settings.url = kUrl;
     auto server = control::Server::open(std::move(settings), methods_.handlers());
@@ -65,8 +63,18 @@ std::optional<std::string> MainThread::open_socket()
     return std::nullopt;
 }
 
+/// Not before the bus is served: a directory in the network may be asked for the group.
+void MainThread::admit_operators()
+{
+    const config::Config& config = monitor_.config();
+    const auto group = config::operator_group_of(config.control);
+    if (!group) spdlog::warn("{}", to_string(config::without_operator_group(config)));
+    replies_.server->set_operators(group, config.control.operator_group);
+}
+
 bool MainThread::run()
 {
+    admit_operators();
     control::Server& server = *replies_.server;
     epoll_.add(server.fd(), EPOLLIN, kServerKey);
     epoll_.add(signals_.fd(), EPOLLIN, kSignalKey);

@@ -29,6 +29,7 @@ public:
     bool run();
 
 private:
+    void admit_operators();
     std::chrono::milliseconds tick_length() const;
     void tick(Instant now);
     void log_news();

@@ -114,6 +114,8 @@ Reload::Judged Reload::judge()
         outcome.faults = sentences(wanted.error());
         return judged;
     }
+    if (!config::operator_group_of(wanted->control))
+        wanted->warnings.push_back(config::without_operator_group(*wanted));
     outcome.warnings = sentences(wanted->warnings);
     parts_.monitor.refresh();
     Plan plan = plan_reload(parts_.monitor.config(), in_force(), std::move(*wanted));

@@ -118,7 +118,10 @@ void Runtime::start()
 void Runtime::start(DriveLine& line)
 {
     line.thread = std::jthread([this, &line](const std::stop_token& stop) {
-        guarded(failed_, "drive", [&] { line.work->run(stop, line.wake); });
+        guarded(failed_, "drive", [&] {
+            io::unlock_deep_stack(); // it waits for drives anyway, and there may be many lines
+            line.work->run(stop, line.wake);
+        });
     });
 }
 

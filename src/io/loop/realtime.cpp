@@ -56,7 +56,7 @@ void make_stacks_small()
     ::pthread_attr_destroy(&attributes);
 }
 
-std::vector<std::string> lock_memory()
+void keep_memory()
 {
     // What was locked once stays: nothing goes back to the system at free() to be faulted in again by the
     // next malloc(), and no block gets a mapping of its own that goes with it.
@@ -64,10 +64,32 @@ std::vector<std::string> lock_memory()
     ::mallopt(M_MMAP_MAX, 0);
     // An arena of its own for each thread would reserve 64 MiB, which counts as locked although it is empty.
     ::mallopt(M_ARENA_MAX, 1);
+}
+
+std::vector<std::string> lock_memory()
+{
     if (::mlockall(MCL_CURRENT | MCL_FUTURE) < 0) return {not_locked(text(errno))};
     if (has_memory_for_threads()) return {};
     ::munlockall();
     return {not_locked("not enough for the threads")};
+}
+
+void unlock_deep_stack()
+{
+    constexpr std::uintptr_t kKept = 16 * 1024;
+    pthread_attr_t attributes;
+    if (::pthread_getattr_np(::pthread_self(), &attributes) != 0) return;
+    void* lowest = nullptr;
+    std::size_t size = 0;
+    const bool known = ::pthread_attr_getstack(&attributes, &lowest, &size) == 0;
+    ::pthread_attr_destroy(&attributes);
+    if (!known) return;
+    const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
+    const auto begin = reinterpret_cast<std::uintptr_t>(lowest);
+    const auto end = (reinterpret_cast<std::uintptr_t>(&attributes) - kKept) / page * page;
+    if (end <= begin) return;
+    ::munlock(lowest, end - begin);
+    ::madvise(lowest, end - begin, MADV_DONTNEED);
 }
 
 std::vector<std::string> enter_realtime(int priority, int cpu)
