@@ -156,5 +156,25 @@ TEST(CountersReport, HasWhatWasCountedWithinTheLastMinuteAndSinceWhen)
     EXPECT_TRUE(late(start + seconds{75}).at("since_age_ms").is_null());
 }
 
+TEST(CountersReport, IsExactWhereANumberOf32BitsOrADoubleIsFull)
+{
+    using std::chrono::seconds;
+    for (const unsigned bits : {32U, 53U}) {
+        View view;
+        const Instant start{std::chrono::days{60}};
+        view.bus.counters.octets = (std::uint64_t{1} << bits) - 1;
+        view.history.sample(view, start);
+        view.bus.counters.octets += 2;
+        view.history.sample(view, start + seconds{100});
+
+        const json reply = json_of(counters_report(view, start + seconds{100}));
+        const json& octets = reply.at("groups").at(0).at("counters").at(0);
+        EXPECT_EQ(control::reply_mismatch("GetCounters", reply), std::nullopt);
+        EXPECT_EQ(octets.at("name"), "octets");
+        EXPECT_EQ(octets.at("value").dump(), bits == 32 ? "4294967297" : "9007199254740993");
+        EXPECT_EQ(octets.at("minute"), 2);
+    }
+}
+
 } // namespace
 } // namespace dpslave::app

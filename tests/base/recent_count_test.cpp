@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpslave/base/recent_count.hpp"
 
+#include "support/long_times.hpp"
+
 #include <gtest/gtest.h>
 
 namespace dpslave {
@@ -54,6 +56,21 @@ TEST(RecentCount, TakesASmallerTotalForACounterThatBeganAnew)
     count.sample(3, kStart + seconds{100});
 
     EXPECT_EQ(count.in_span(), 3U);
+}
+
+TEST(RecentCount, IsTheSameWhenTheClockHasRunForWeeks)
+{
+    for (const test::LongTime& time : test::kLongTimes) {
+        RecentCount count;
+        count.sample(5, time.instant() - seconds{100});
+        count.sample(7, time.instant() - seconds{1});
+        count.sample(10, time.instant() + seconds{1});
+
+        EXPECT_EQ(count.in_span(), 5U) << time;
+        EXPECT_EQ(count.last(), time.instant() + seconds{1}) << time;
+        count.sample(10, time.instant() + seconds{62});
+        EXPECT_EQ(count.in_span(), 0U) << time;
+    }
 }
 
 } // namespace

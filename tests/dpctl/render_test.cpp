@@ -453,6 +453,15 @@ TEST(DpctlCounters, ShowARareClassAsMoreThanNothing)
     EXPECT_NE(render_counters(reply, false).find("64 to 79        1  < 0.1 %  #\n"), std::string::npos);
 }
 
+TEST(DpctlCounters, AreExactWhereADoubleIsFull)
+{
+    Json reply = fixture("GetCounters");
+    reply["groups"][0]["counters"][0]["value"] = std::uint64_t{9'007'199'254'740'993}; // 2^53 + 1
+
+    const Json received = Json::parse(reply.dump());
+    EXPECT_NE(render_counters(received, false).find("9007199254740993"), std::string::npos);
+}
+
 TEST(DpctlTag, IsOneLine)
 {
     Json reply = fixture("ReadTag");

@@ -42,6 +42,7 @@ RunResult run(std::uint64_t seed, const Make& make, bool is_modbus, RunOptions o
     if (options.late) conditions.make_late();
     Line line{conditions.line, chance};
     line.faults = conditions.faults;
+    line.time = options.begins;
     std::deque<std::string> lines;
     if (options.traces) {
         lines.push_back(conditions.text());

@@ -54,6 +54,7 @@ struct RunOptions {
     bool calm = false;
     bool late = false;
     bool traces = false;
+    Instant begins{std::chrono::hours{1}};
 };
 
 /// One line under faults for so many transactions, then without until all is right again.

@@ -2,6 +2,8 @@
 /// The table of HA389815 ch. 9 row by row, and the time line of the lamps.
 #include "watch.hpp"
 
+#include "support/long_times.hpp"
+
 #include <gtest/gtest.h>
 
 namespace dpslave::led {
@@ -145,6 +147,14 @@ TEST(Words, OfOptionBoardsAndControllersHaveTheFrequency)
         EXPECT_EQ(words(language, Pattern{}), "off");
         EXPECT_EQ(words(language, Pattern{1s, 1s}), "on") << "lit all the time";
     }
+}
+
+TEST(Lamps, FlashAtTheirRateWhenTheClockHasRunForWeeks)
+{
+    const std::vector<Lamp> lamps = led::lamps(Language::option_board, kNoMaster);
+    for (const test::LongTime& time : test::kLongTimes)
+        for (const Lamp& lamp : lamps)
+            EXPECT_EQ(watch(lamp.pattern, time.since_start - 1s), watch(lamp.pattern, 12'345ms)) << time;
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The watchdog (conformance tests C-13 and C-14 of wire reference 10; section 7.1).
-#include "bench.hpp"
+#include "dp/bench.hpp"
 
 #include <functional>
 
