@@ -1,8 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What a user without any right may do to the control socket, all at once and until it is ended.
+"""What a user without any right may do to the control socket, until it is ended.
 
-usage: attacker.py SOCKET UID    with UID other than its own it becomes that user first (as root)
+usage: attacker.py SOCKET UID [ATTACK]    with UID other than its own it becomes that user first (as root)
+
+ATTACK is "all" (all habits at once, 200 connections), or one of
+  pipeline   7 connections, each sends calls without end and takes the replies
+  connects   1000 connections that say nothing
+  slow       7 connections, each sends calls without end and takes no reply
+  garbage    7 connections, each sends octets that are no call; ends after 64 MiB
+A connection that the daemon has ended is made again.
 """
 import itertools
 import os
@@ -17,6 +24,8 @@ def call(method, parameters="{}", more=""):
 OWN = "org.dpslaved.Control."
 MANY = 200
 # What a connection sends, again and again or once, and whether it takes what is answered.
+SILENT = (b"", "once", False)
+GARBAGE = (b"x" * 65536, "again", False)
 HABITS = [
     (call(OWN + "GetStatus") * MANY, "again", True),
     (call(OWN + "GetCounters") * MANY, "again", False),
@@ -25,15 +34,25 @@ HABITS = [
     (call(OWN + "WriteTag", '{"tag":62,"value":"1"}') * MANY, "again", True),
     (call(OWN + "Watch", more=',"more":true'), "once", False),
     (b'{"method":"org.dpslaved.', "once", False),
-    (b"x" * 65536, "again", False),
+    GARBAGE,
     (b"{" * 1000 + b"\0", "again", True),
 ]
+# Which habits, and how many connections.
+ATTACKS = {
+    "all": (HABITS, 200),
+    "pipeline": (HABITS[0:1] + HABITS[2:5], 7),
+    "connects": ([SILENT], 1000),
+    "slow": (HABITS[1:2], 7),
+    "garbage": ([GARBAGE], 7),
+}
+MOST_GARBAGE = 64 << 20
 
 
 class Caller:
     def __init__(self, path, habit):
         self.path, (self.octets, self.how_often, self.reads) = path, habit
         self.socket = None
+        self.sent = 0
 
     def act(self):
         try:
@@ -41,9 +60,10 @@ class Caller:
                 self.socket = socket.socket(socket.AF_UNIX)
                 self.socket.setblocking(False)
                 self.socket.connect(self.path)
-                self.socket.send(self.octets)
+                if self.how_often == "once":
+                    self.socket.send(self.octets)
             while self.how_often == "again":
-                self.socket.send(self.octets)
+                self.sent += self.socket.send(self.octets)
             self.listen()
         except BlockingIOError:
             self.listen()
@@ -70,17 +90,21 @@ class Caller:
 
 
 def main():
-    path, uid = sys.argv[1], int(sys.argv[2])
+    path, uid, attack = sys.argv[1], int(sys.argv[2]), (sys.argv + ["all"])[3]
     if uid != os.geteuid():
         os.setgroups([])
         os.setgid(uid)
         os.setuid(uid)
-    callers = [Caller(path, habit) for habit, _ in zip(itertools.cycle(HABITS), range(200))]
+    habits, count = ATTACKS[attack]
+    callers = [Caller(path, habit) for habit, _ in zip(itertools.cycle(habits), range(count))]
     for turn in itertools.count():
         for one in callers:
             one.act()
         if turn == 3:
             print("attacking", flush=True)
+        if attack == "garbage" and sum(one.sent for one in callers) >= MOST_GARBAGE:
+            print("sent", sum(one.sent for one in callers), flush=True)
+            return
 
 
 main()

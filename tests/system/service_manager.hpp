@@ -15,7 +15,6 @@
 #include <cerrno>
 #include <chrono>
 #include <filesystem>
-#include <optional>
 #include <sstream>
 #include <string>
 #include <system_error>
@@ -50,6 +49,10 @@ public:
 
     /// Between two WATCHDOG=1 that were heard until now.
     std::chrono::nanoseconds longest_silence() const { return longest_silence_.load(); }
+    /// The same, and begins anew.
+    std::chrono::nanoseconds take_longest_silence() { return longest_silence_.exchange({}); }
+    /// When the last WATCHDOG=1 was heard; none: the beginning of the clock.
+    std::chrono::steady_clock::time_point last_sign_of_life() const { return last_.load(); }
 
 private:
     void listen(const std::stop_token& stop)
@@ -72,13 +75,13 @@ private:
     void note_sign_of_life()
     {
         const auto now = std::chrono::steady_clock::now();
-        if (last_)
-            longest_silence_ = std::max(longest_silence_.load(), std::chrono::nanoseconds{now - *last_});
-        last_ = now;
+        const auto before = last_.exchange(now);
+        if (before != std::chrono::steady_clock::time_point{})
+            longest_silence_ = std::max(longest_silence_.load(), std::chrono::nanoseconds{now - before});
     }
 
     int fd_;
-    std::optional<std::chrono::steady_clock::time_point> last_;
+    std::atomic<std::chrono::steady_clock::time_point> last_{};
     std::atomic<std::chrono::nanoseconds> longest_silence_{};
     Transcript transcript_;
     Reader heard_{transcript_};
