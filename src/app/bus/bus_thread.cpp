@@ -65,7 +65,10 @@ void BusThread::leave_bus()
 Instant BusThread::next_wake() const
 {
     Instant next = layer2_.next_deadline();
-    if (!layer2_.reply_waits()) next = std::min(next, stations_.next_publication());
+    // What is due now. What falls due later waits for the next telegram or tick: a timer for each telegram
+    // would cost more than the publication.
+    const bool has_time = !layer2_.reply_waits() && !port_.is_sending();
+    if (has_time && stations_.next_publication() <= published_until_) next = published_until_;
     // Somewhat before: the driver is switched off at the exact time, and to wake up takes its time.
     if (port_.is_sending()) next = std::min(next, port_.sending_ends() - 2 * kSpin);
     return next;
@@ -149,6 +152,7 @@ void BusThread::publish(Instant now)
 {
     if (now >= next_bus_snapshot_) publish_bus(now);
     stations_.publish(now);
+    published_until_ = now;
 }
 
 /// Page faults are to be seen from the moment on at which none should be left.

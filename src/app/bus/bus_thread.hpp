@@ -64,6 +64,7 @@ private:
     std::uint64_t too_late_ = 0;
     Instant next_bus_snapshot_{};
     bool memory_is_ready_ = false;
+    Instant published_until_{}; ///< what was due by then was looked at, one station at a time
     std::uint64_t faults_at_start_ = 0;
 };
 

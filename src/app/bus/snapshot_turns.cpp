@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "snapshot_turns.hpp"
 
+#include "set_bits.hpp"
+
 #include <algorithm>
 
 namespace dpslave::app {
@@ -8,7 +10,7 @@ namespace dpslave::app {
 void SnapshotTurns::changed(std::size_t slot)
 {
     changed_.set(slot);
-    next_ = std::min(next_, std::max(all_rest_until_, rests_until_[slot]));
+    next_ = std::min(next_, rests_until_[slot]);
 }
 
 void SnapshotTurns::forget(std::size_t slot)
@@ -18,7 +20,7 @@ void SnapshotTurns::forget(std::size_t slot)
     find_next();
 }
 
-std::optional<std::size_t> SnapshotTurns::take(Instant now, std::size_t stations)
+std::optional<std::size_t> SnapshotTurns::take(Instant now)
 {
     if (now < next_) return std::nullopt;
     std::size_t slot = last_;
@@ -27,7 +29,6 @@ std::optional<std::size_t> SnapshotTurns::take(Instant now, std::size_t stations
     last_ = slot;
     changed_.reset(slot);
     rests_until_[slot] = now + kInterval;
-    all_rest_until_ = now + kInterval / std::max<std::size_t>(stations, 1);
     find_next();
     return slot;
 }
@@ -35,8 +36,7 @@ std::optional<std::size_t> SnapshotTurns::take(Instant now, std::size_t stations
 void SnapshotTurns::find_next()
 {
     next_ = kNever;
-    for (std::size_t slot = 0; slot < kSlots; ++slot)
-        if (changed_.test(slot)) next_ = std::min(next_, std::max(all_rest_until_, rests_until_[slot]));
+    for_each(changed_, [this](std::size_t slot) { next_ = std::min(next_, rests_until_[slot]); });
 }
 
 } // namespace dpslave::app

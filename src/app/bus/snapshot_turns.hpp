@@ -24,16 +24,14 @@ public:
     void forget(std::size_t slot);
     /// Nothing is due before this; kNever = all is published.
     Instant next() const { return next_; }
-    /// The slot that is to be published now, if one is. The next one follows kInterval / `stations` later at
-    /// the earliest.
-    std::optional<std::size_t> take(Instant now, std::size_t stations);
+    /// The slot that is to be published now, if one is.
+    std::optional<std::size_t> take(Instant now);
 
 private:
     void find_next();
 
     std::bitset<kSlots> changed_;
     std::array<Instant, kSlots> rests_until_{}; ///< each slot after it was published
-    Instant all_rest_until_{};                  ///< after any was published
     Instant next_ = kNever;
     std::size_t last_ = kSlots - 1; ///< the slot that was published last
 };

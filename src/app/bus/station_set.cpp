@@ -1,31 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "station_set.hpp"
 
+#include "set_bits.hpp"
+
 #include "dpslave/io/clock.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <utility>
 
 namespace dpslave::app {
-
-namespace {
-
-/// Calls `visit(n)` for every bit n that is set, without looking at the others one by one.
-template <class Visit>
-void for_each(const std::bitset<128>& bits_set, Visit visit)
-{
-    constexpr std::bitset<128> kLow{~0ULL};
-    for (unsigned half = 0; half < 2; ++half) {
-        std::uint64_t bits = ((bits_set >> (half * 64)) & kLow).to_ullong();
-        while (bits != 0) {
-            visit(half * 64 + static_cast<unsigned>(std::countr_zero(bits)));
-            bits &= bits - 1;
-        }
-    }
-}
-
-} // namespace
 
 StationSet::StationSet(std::unique_ptr<BusStations> stations, Handover<BusStations>& next,
                        fdl::Layer2& layer2)
@@ -136,17 +119,17 @@ void StationSet::forward()
 {
     const auto addresses = layer2_.take_touched();
     if (addresses.none() && waiting_.none()) return;
-    for_each(addresses, [this](unsigned address) {
+    for_each(addresses, [this](std::size_t address) {
         if (!slot_at_[address]) return; // it was detached after its request, and has passed on everything
         waiting_.set(*slot_at_[address]);
         turns_.changed(*slot_at_[address]);
     });
-    for_each(waiting_, [this](unsigned slot) { waiting_.set(slot, !slots_[slot].station->forward()); });
+    for_each(waiting_, [this](std::size_t slot) { waiting_.set(slot, !slots_[slot].station->forward()); });
 }
 
 void StationSet::publish(Instant now)
 {
-    if (const auto slot = turns_.take(now, stations_->size())) slots_[*slot].station->publish_snapshot();
+    if (const auto slot = turns_.take(now)) slots_[*slot].station->publish_snapshot();
 }
 
 void StationSet::stop()
