@@ -45,11 +45,16 @@ Port::Port() : master_(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC
     if (::tcsetattr(keeps_open_.get(), TCSANOW, &settings) != 0) fail(name);
 }
 
+void Port::send(const Octets& telegram)
+{
+    if (::write(master_.get(), telegram.data(), telegram.size()) != static_cast<ssize_t>(telegram.size()))
+        fail("write");
+}
+
 std::optional<Port::Answer> Port::exchange(const Octets& request, std::chrono::nanoseconds slot)
 {
     const Instant start = io::monotonic_now();
-    if (::write(master_.get(), request.data(), request.size()) != static_cast<ssize_t>(request.size()))
-        fail("write");
+    send(request);
     std::size_t have = 0;
     while (wait_readable(master_.get(), start + slot - io::monotonic_now())) {
         const ssize_t got = ::read(master_.get(), room_.data() + have, room_.size() - have);

@@ -26,6 +26,8 @@ public:
     };
     std::optional<Answer> exchange(const Octets& request, std::chrono::nanoseconds slot);
 
+    void send(const Octets& telegram); ///< no answer is waited for
+
     void drain(); ///< throws away what has come
 
 private:

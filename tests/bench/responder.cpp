@@ -8,6 +8,7 @@
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -15,6 +16,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <fstream>
 #include <stdexcept>
@@ -25,6 +27,9 @@ namespace dpslave::bench {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// MaxTsdr, in bit times: no master takes more.
+constexpr unsigned kPatientTsdr = 1023;
 
 pid_t fork_child()
 {
@@ -43,13 +48,23 @@ void write_config(const DaemonSetup& setup, const fs::path& file)
     else
         out << "direction = \"gpio\"\ngpio_chip = \"" << setup.gpio_chip.string()
             << "\"\ngpio_line = " << kDriverLine << "\n";
-    out << "max_tsdr = " << setup.max_tsdr
+    out << "max_tsdr = " << kPatientTsdr
         << "\n[realtime]\npriority = 80\nlock_memory = true\ncpu = " << setup.cpu << "\n"
-        << "[control]\nsocket = \"" << (setup.folder / "control.sock").string() << "\"\n"
-        << "[[line]]\nname = \"p3\"\nport = \"" << setup.drive << "\"\nprotocol = \"ei-ascii\"\nbaud = 9600\n"
-        << "[[station]]\nname = \"bench\"\naddress = " << int{kSlave}
-        << "\nprofile = \"590\"\nline = \"p3\"\nunit = \"00\"\n";
+        << "[control]\nsocket = " << control_socket(setup.folder) << "\n"
+        << "[[line]]\nname = \"p3\"\nport = \"" << setup.drive
+        << "\"\nprotocol = \"ei-ascii\"\nbaud = 9600\n";
+    for (std::size_t i = 0; i < setup.stations; ++i)
+        out << "[[station]]\nname = \"bench" << i << "\"\naddress = " << kSlave + i
+            << "\nprofile = \"590\"\nline = \"p3\"\nunit = \"" << i / 10 << i % 10 << "\"\n";
     if (!out.flush()) throw std::runtime_error{file.string() + " cannot be written"};
+}
+
+/// A program that is started by hand may run on every processor, wherever the bench itself runs.
+void may_run_everywhere()
+{
+    cpu_set_t all;
+    std::memset(&all, 0xFF, sizeof all);
+    ::sched_setaffinity(0, sizeof all, &all);
 }
 
 bool pin(int cpu)
@@ -61,10 +76,11 @@ bool pin(int cpu)
     return ::sched_setaffinity(0, sizeof set, &set) == 0;
 }
 
-std::chrono::nanoseconds now()
+std::chrono::nanoseconds read(clockid_t clock)
 {
     timespec time{};
-    ::clock_gettime(CLOCK_MONOTONIC, &time);
+    if (::clock_gettime(clock, &time) != 0)
+        throw std::system_error{errno, std::system_category(), "clock_gettime"};
     return std::chrono::seconds{time.tv_sec} + std::chrono::nanoseconds{time.tv_nsec};
 }
 
@@ -87,13 +103,13 @@ std::chrono::nanoseconds now()
         if (::ppoll(&waiting, 1, &heartbeat, nullptr) == 0) continue;
         const ssize_t got = ::read(tty, room.data() + have, room.size() - have);
         if (got <= 0) ::_exit(2);
-        const auto opens = now() + min_tsdr;
+        const auto opens = read(CLOCK_MONOTONIC) + min_tsdr;
         have += static_cast<std::size_t>(got);
         if (have < 6 || have < room[1] + std::size_t{6}) continue;
         const bool whole =
             room[0] == 0x68 && room[1] == room[2] && room[3] == 0x68 && have == room[1] + std::size_t{6};
         have = 0;
-        while (min_tsdr.count() != 0 && now() < opens) {
+        while (min_tsdr.count() != 0 && read(CLOCK_MONOTONIC) < opens) {
         }
         if (whole && ::write(tty, reply.data(), reply.size()) != static_cast<ssize_t>(reply.size()))
             ::_exit(3);
@@ -111,6 +127,12 @@ std::string text(const Scheduling& scheduling)
 }
 
 Child::Child(Child&& other) noexcept : pid_(std::exchange(other.pid_, -1)) {}
+
+Child& Child::operator=(Child&& other) noexcept
+{
+    std::swap(pid_, other.pid_);
+    return *this;
+}
 
 Child::~Child()
 {
@@ -132,10 +154,38 @@ bool Child::alive()
 std::chrono::nanoseconds Child::cpu() const
 {
     clockid_t clock = 0;
-    timespec used{};
-    if (::clock_getcpuclockid(pid_, &clock) != 0 || ::clock_gettime(clock, &used) != 0)
-        throw std::runtime_error{"a responder has ended: its CPU time cannot be read"};
-    return std::chrono::seconds{used.tv_sec} + std::chrono::nanoseconds{used.tv_nsec};
+    if (::clock_getcpuclockid(pid_, &clock) != 0)
+        throw std::runtime_error{"a process has ended: its CPU time cannot be read"};
+    return read(clock);
+}
+
+std::chrono::nanoseconds Child::wait()
+{
+    rusage used{};
+    if (::wait4(std::exchange(pid_, -1), nullptr, 0, &used) < 0)
+        throw std::system_error{errno, std::system_category(), "wait4"};
+    const auto time = [](const timeval& value) -> std::chrono::nanoseconds {
+        return std::chrono::seconds{value.tv_sec} + std::chrono::microseconds{value.tv_usec};
+    };
+    return time(used.ru_utime) + time(used.ru_stime);
+}
+
+Child start_child(const std::function<void()>& body)
+{
+    const pid_t child = fork_child();
+    if (child == 0) {
+        const sched_param ordinary{};
+        ::sched_setscheduler(0, SCHED_OTHER, &ordinary);
+        may_run_everywhere();
+        body();
+        ::_exit(127);
+    }
+    return Child{child};
+}
+
+std::chrono::nanoseconds cpu_of_caller()
+{
+    return read(CLOCK_THREAD_CPUTIME_ID);
 }
 
 int reserve_cpu()
@@ -150,13 +200,30 @@ int reserve_cpu()
     return static_cast<int>(last);
 }
 
+Folder::Folder()
+{
+    std::string name = (fs::temp_directory_path() / "dpslave-bench-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error{"no temporary folder"};
+    path_ = name;
+}
+
+Folder::~Folder()
+{
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+}
+
+fs::path control_socket(const fs::path& folder)
+{
+    return folder / "control.sock";
+}
+
 Child start_daemon(const DaemonSetup& setup)
 {
     const fs::path config = setup.folder / "dpslaved.toml";
     write_config(setup, config);
     const std::string log = setup.folder / "log";
-    const pid_t child = fork_child();
-    if (child == 0) {
+    return start_child([&] {
         const int out = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
         ::dup2(out, STDOUT_FILENO);
         ::dup2(out, STDERR_FILENO);
@@ -164,9 +231,7 @@ Child start_daemon(const DaemonSetup& setup)
         if (!setup.gpio_chip.empty()) ::setenv("LD_LIBRARY_PATH", GPIO_STAND_IN_FOLDER, 1);
         ::execl(setup.program.c_str(), setup.program.c_str(), "--config", config.c_str(), "--profiles",
                 setup.profiles.c_str(), nullptr);
-        ::_exit(127);
-    }
-    return Child{child};
+    });
 }
 
 pid_t bus_thread_of(pid_t daemon)
@@ -205,6 +270,17 @@ std::chrono::nanoseconds cpu_of_thread(pid_t daemon, pid_t thread)
     std::int64_t ran = 0;
     book >> ran;
     return std::chrono::nanoseconds{ran};
+}
+
+std::size_t resident_octets(pid_t process)
+{
+    std::ifstream status{"/proc/" + std::to_string(process) + "/status"};
+    std::string word;
+    std::size_t kib = 0;
+    while (status >> word)
+        if (word == "VmRSS:") status >> kib;
+    if (kib == 0) throw std::runtime_error{"a process has ended: its memory cannot be read"};
+    return kib * 1024;
 }
 
 Child start_null_responder(const std::string& path, const Octets& reply, const Scheduling& scheduling,

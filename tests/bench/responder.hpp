@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 namespace dpslave::bench {
@@ -26,16 +27,22 @@ public:
     Child() = default;
     explicit Child(pid_t pid) : pid_(pid) {}
     Child(Child&& other) noexcept;
-    Child& operator=(Child&&) = delete;
+    Child& operator=(Child&& other) noexcept;
     ~Child(); ///< SIGTERM, and SIGKILL if that does not help within five seconds
 
     pid_t pid() const { return pid_; }
     bool alive();                         ///< false as soon as it has ended
     std::chrono::nanoseconds cpu() const; ///< used by the whole process up to now
+    std::chrono::nanoseconds wait();      ///< for its end; what it has used in all
 
 private:
     pid_t pid_ = -1;
 };
+
+/// A child that may run on every processor, with ordinary scheduling. It ends with `body`.
+Child start_child(const std::function<void()>& body);
+/// Used by the calling thread up to now.
+std::chrono::nanoseconds cpu_of_caller();
 
 /// All responders share one processor, and the master takes the others: a reply that has to wake another
 /// processor, or has not, would make more difference than any program. Pins the caller away from the
@@ -45,8 +52,22 @@ int reserve_cpu();
 /// The line that switches the transceiver, of a chip that the stand-in of libgpiod plays.
 inline constexpr unsigned kDriverLine = 5;
 
-/// Starts the daemon with one station (profile 590, address 5) on `bus` at 1.5 Mbit/s and a drive line on
-/// `drive`. Its configuration, socket and log lie in `folder`.
+/// A folder that goes with its contents.
+class Folder {
+public:
+    Folder();
+    ~Folder();
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+/// Starts the daemon with stations of profile 590, from address 5 on, on `bus` at 1.5 Mbit/s and a drive line
+/// on `drive`. It gives each reply as much time as a master can grant: a pause of the machine is a long
+/// turnaround and no lost reply. Its configuration, socket and log lie in `folder`.
 struct DaemonSetup {
     std::filesystem::path program;
     std::filesystem::path profiles;
@@ -54,17 +75,20 @@ struct DaemonSetup {
     std::string drive;
     std::filesystem::path folder;
     std::filesystem::path
-        gpio_chip{};       ///< driver enable by line kDriverLine of this file; empty = direction "none"
-    int cpu = -1;          ///< [realtime] cpu
-    unsigned max_tsdr = 0; ///< [bus] max_tsdr; 0 = the profile's
+        gpio_chip{};          ///< driver enable by line kDriverLine of this file; empty = direction "none"
+    int cpu = -1;             ///< [realtime] cpu
+    std::size_t stations = 1; ///< up to 32
 };
 Child start_daemon(const DaemonSetup& setup);
+/// Its control socket.
+std::filesystem::path control_socket(const std::filesystem::path& folder);
 
 /// The thread of the daemon that serves the bus: the one of that name, else the one with the highest
 /// priority.
 pid_t bus_thread_of(pid_t daemon);
 Scheduling scheduling_of(pid_t thread); ///< policy and priority
 std::chrono::nanoseconds cpu_of_thread(pid_t daemon, pid_t thread);
+std::size_t resident_octets(pid_t process); ///< VmRSS
 
 /// A process that reads `path`, checks the SD2 length and writes `reply`, not before `min_tsdr` after the
 /// read: two system calls a telegram, nothing else.

@@ -36,7 +36,8 @@ struct Row {
     double ratio() const; ///< median of the blocks
     std::optional<double> aa_ratio() const;
     bool is_kept() const;
-    bool is_noisy() const; ///< A/A is not within its limits: nothing is known of the row
+    /// A/A is not within its limits, or the machine was too slow for all blocks: nothing is known of the row.
+    bool is_noisy() const;
 };
 
 double median(std::vector<double> values); ///< not empty

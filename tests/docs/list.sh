@@ -6,6 +6,6 @@ cd "$1/docs"
 listed=$(grep -oE '^\| \[[^]]+\]\([^)#]+' README.md | sed 's/.*(//' | sort)
 there=$(find . -name '*.md' ! -path ./README.md | sed 's,^\./,,' | sort)
 [ "$listed" = "$there" ] || { printf 'docs/README.md lists:\n%s\n\nThere are:\n%s\n' "$listed" "$there" >&2 && exit 1; }
-for picture in guide/pictures/*.png; do
-    grep -qF "](pictures/${picture##*/})" guide/*.md || { echo "no page has the picture $picture" >&2 && exit 1; }
+for picture in guide/pictures/*.png internals/pictures/*.svg; do
+    grep -qF "](pictures/${picture##*/})" "${picture%%/*}"/*.md || { echo "no page has the picture $picture" >&2 && exit 1; }
 done

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Joins what the programs of tools/bench have found into one table, judges it, and renews the page of the figures.
+
+Each FILE is what one program wrote: {"rows": [{"id", "metric", "blocks", "ratio", "aa", "aa_ratio", "aa_kind", "limit",
+"direction"}], "curves": {}}. Exit status: 0 every row is kept, 1 a row is broken or missing, 77 the machine was too noisy.
+"""
+
+import argparse
+import datetime
+import json
+import pathlib
+import sys
+
+import pictures
+
+HERE = pathlib.Path(__file__).resolve().parent
+PAGE = HERE.parent.parent / "docs/internals/performance.md"
+BEGIN, END = "<!-- written by tools/bench --docs -->", "<!-- end -->"
+BLOCKS = 21
+AA_LIMITS = {"p50": (0.97, 1.03), "p99": (0.90, 1.10)}
+
+
+def known_rows() -> list[tuple[str, str]]:
+    """(id, metric) of every row, in the order of the table."""
+    lines = (HERE / "rows.csv").read_text(encoding="utf-8").splitlines()
+    return [tuple(line.split(";", 1)) for line in lines if not line.startswith("#")]
+
+
+def verdict(row: dict) -> str:
+    low, high = AA_LIMITS.get(row["aa_kind"], (0, float("inf")))
+    if row["aa"] and len(row["blocks"]) < BLOCKS:  # the machine was too slow for all of them
+        return "too noisy"
+    if row["aa_ratio"] is not None and not low <= row["aa_ratio"] <= high:
+        return "too noisy"
+    kept = row["ratio"] >= row["limit"] if row["direction"] == "min" else row["ratio"] <= row["limit"]
+    return "kept" if kept else "BROKEN"
+
+
+def number(value: float) -> str:
+    return f"{value:.1f}" if value >= 10 else f"{value:.3f}"
+
+
+def cells(row: dict) -> list[str]:
+    error = "-" if row["aa_ratio"] is None else number(row["aa_ratio"])
+    limit = ("≥ " if row["direction"] == "min" else "≤ ") + format(row["limit"], "g")
+    return [row["id"], row["metric"], number(row["ratio"]), error, limit, verdict(row)]
+
+
+def in_order(rows: list[dict]) -> tuple[list[dict], list[str]]:
+    """The rows as the table has them, and what is wrong with their names."""
+    known = known_rows()
+    by_name = {(row["id"], row["metric"]): row for row in rows}
+    faults = [f"{id} {metric}: no program measured it" for id, metric in known if (id, metric) not in by_name]
+    faults += [f"{id} {metric}: is not in rows.csv" for id, metric in by_name if (id, metric) not in known]
+    return [by_name[name] for name in known if name in by_name], faults
+
+
+def print_table(rows: list[dict]) -> None:
+    print(f"{'':<4} {'':<68} {'ratio':>8} {'A/A':>8} {'limit':>8}")
+    for id, metric, ratio, error, limit, judged in map(cells, rows):
+        print(f"{id:<4} {metric:<68} {ratio:>8} {error:>8} {limit:>8}  {judged}")
+
+
+def renew_page(rows: list[dict], curves: dict, machine: str) -> None:
+    text = PAGE.read_text(encoding="utf-8")
+    head, rest = text.split(BEGIN, 1)
+    tail = rest.split(END, 1)[1]
+    names = pictures.write(curves, PAGE.parent / "pictures")
+    lines = [f"![{words}](pictures/{name})\n" for name, words in names]
+    lines += [f"`tools/bench --docs` on {datetime.date.today().isoformat()}, {machine}:\n"]
+    lines += ["| | what | ratio | A/A | limit | |", "|---|---|---|---|---|---|"]
+    lines += [f"| {' | '.join(cells(row))} |" for row in rows]
+    PAGE.write_text(head + BEGIN + "\n" + "\n".join(lines) + "\n" + END + tail, encoding="utf-8")
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(prog="tools/bench", description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("file", nargs="+", type=pathlib.Path)
+    parser.add_argument("--json", type=pathlib.Path, help="one file with all rows and curves")
+    parser.add_argument("--docs", action="store_true", help="writes the table and the pictures into the page")
+    parser.add_argument("--machine", default="", help="for the page")
+    parser.add_argument("--names", action="store_true", help="compares the names of the rows only; a part of them will do")
+    words = parser.parse_args()
+
+    found = [json.loads(file.read_text(encoding="utf-8")) for file in words.file]
+    rows, faults = in_order([row for one in found for row in one["rows"]])
+    if words.names:
+        faults = [fault for fault in faults if "no program" not in fault]
+        print("\n".join(faults))
+        return 1 if faults else 0
+    curves = {name: curve for one in found for name, curve in one["curves"].items()}
+    print_table(rows)
+    print("\n".join(faults))
+    if words.json:
+        words.json.write_text(json.dumps({"rows": rows, "curves": curves}, indent=1) + "\n", encoding="utf-8")
+    if words.docs:
+        renew_page(rows, curves, words.machine)
+    judged = [verdict(row) for row in rows]
+    if faults or "BROKEN" in judged:
+        return 1
+    return 77 if "too noisy" in judged else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
