@@ -9,8 +9,10 @@ namespace {
 
 /// No station may answer sooner, whatever was parameterised: min T_SDR of a slave after power-on.
 constexpr Tbit kLeastTsdr{11};
-/// A slave must not fall silent because a master asked for a long min T_SDR (wire reference 1.5).
-constexpr Tbit kWindow{50};
+/// A slave must not fall silent because a master asked for a long min T_SDR (wire reference 1.5). With a min
+/// T_SDR of 11 it ends at 60, the smallest MaxTsdr of the classes: it never outlasts what such a GSD
+/// promises.
+constexpr Tbit kWindow{49};
 
 /// SRD, SDA and MSRD in a sequence: the frame count bit guards them (wire reference 2.6).
 bool is_counted(const Telegram& request)

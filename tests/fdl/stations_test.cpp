@@ -74,11 +74,11 @@ TEST_F(Stations, SayTheWindowAsItWasBeforeTheRequest)
 
     const auto before = asks(kSrdFcb0);
     EXPECT_EQ(before.not_before, 11_tbit);
-    EXPECT_EQ(before.not_after, 61_tbit); // 11 + 50 is more than max T_SDR
+    EXPECT_EQ(before.not_after, 60_tbit);
 
     const auto after = asks(kSrdFcb1);
     EXPECT_EQ(after.not_before, 90_tbit);
-    EXPECT_EQ(after.not_after, 140_tbit);
+    EXPECT_EQ(after.not_after, 139_tbit);
 }
 
 TEST_F(Stations, CountTheOwnedAndTheSupervisedOnes)

@@ -111,20 +111,28 @@ TEST_F(ReplyWindow, IsClosedAfterMaxTsdrAndTheReplyIsCounted)
     EXPECT_EQ(s.next_deadline(), kNever);
 }
 
-TEST_F(ReplyWindow, IsAtLeast50BitsWideBehindALongMinTsdr)
+TEST_F(ReplyWindow, OfTheDefaultMinTsdrNeverOutlastsTheMaxTsdrOfItsClass)
+{
+    fdl::Layer2& s = station_with(60_tbit);
+    s.on_time(kRead + bits(60) + nanoseconds{1});
+
+    EXPECT_FALSE(s.take_transmit());
+}
+
+TEST_F(ReplyWindow, IsAtLeast49BitsWideBehindALongMinTsdr)
 {
     user.min_tsdr_bits = 200_tbit;
     fdl::Layer2& s = station_with(60_tbit);
-    s.on_time(kRead + bits(250));
+    s.on_time(kRead + bits(249));
 
     EXPECT_TRUE(s.take_transmit());
 }
 
-TEST_F(ReplyWindow, EndsAtMinTsdrPlus50WhenThatIsLater)
+TEST_F(ReplyWindow, EndsAtMinTsdrPlus49WhenThatIsLater)
 {
     user.min_tsdr_bits = 200_tbit;
     fdl::Layer2& s = station_with(60_tbit);
-    s.on_time(kRead + bits(250) + nanoseconds{1});
+    s.on_time(kRead + bits(249) + nanoseconds{1});
 
     EXPECT_FALSE(s.take_transmit());
 }
@@ -152,7 +160,7 @@ TEST_F(ReplyWindow, ReplyThatWasNotTakenInTimeIsLate)
 
 TEST_F(FdlStation, LateReplyIsSuppressedButItsRetryGetsIt)
 {
-    bus.edge_is_late_by(bus.bits(55)); // min T_SDR 11 + 55 is behind 61
+    bus.edge_is_late_by(bus.bits(55)); // min T_SDR 11 + 55 is behind 60
     bus.master_sends(sd2(kUs, kMaster, kSrdFcb1, {1}));
     EXPECT_FALSE(bus.reply());
     bus.advance(bus.bits(10)); // the edge wakes up behind the slot time

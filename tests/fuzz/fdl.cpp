@@ -194,7 +194,7 @@ private:
         const nanoseconds after = reply.at - read_at_;
         const std::uint32_t least = std::min(user.min, user.min_before);
         const std::uint32_t most =
-            std::max(kMaxTsdr[index_of(baud)].count, std::max(user.min, user.min_before) + 50);
+            std::max(kMaxTsdr[index_of(baud)].count, std::max(user.min, user.min_before) + 49);
         demand(after >= bits(least, baud), "no reply before min T_SDR");
         demand(after <= bits(most, baud) + nanoseconds{1}, "no reply behind its window");
     }

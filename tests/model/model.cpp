@@ -72,7 +72,7 @@ void Slave::request(const Request& asked)
 {
     tick(asked.at);
     not_before = min_tsdr;
-    not_after = std::max(device.max_tsdr, min_tsdr + 50);
+    not_after = std::max(device.max_tsdr, min_tsdr + 49);
     const int function = asked.fc & 0x0F;
     const int fcb = (asked.fc >> 5) & 1;
     const int fcv = (asked.fc >> 4) & 1;

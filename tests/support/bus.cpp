@@ -23,7 +23,7 @@ Bus::duration Bus::bits(std::uint32_t count) const
 Bus::duration Bus::deadline() const
 {
     const Tbit max_tsdr = settings_.max_tsdr.value_or(kClassMaxTsdr[dpslave::index_of(settings_.baud)]);
-    return bits(std::max(max_tsdr.count, settings_.min_tsdr.count + 50));
+    return bits(std::max(max_tsdr.count, settings_.min_tsdr.count + 49));
 }
 
 void Bus::master_sends(const Octets& telegram)

@@ -4,7 +4,7 @@
 /// it asks to be woken.
 ///
 /// The test fails (ADD_FAILURE) by itself when
-///   - a reply starts before min T_SDR or after the deadline max(max T_SDR, min T_SDR + 50 T_bit),
+///   - a reply starts before min T_SDR or after the deadline max(max T_SDR, min T_SDR + 49 T_bit),
 ///   - two talk at once,
 ///   - a master's request comes before T_SYN,
 ///   - a reply is no valid telegram by the second hand (wire.hpp), or answers what is no valid request,

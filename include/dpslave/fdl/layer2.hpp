@@ -50,7 +50,7 @@ class Layer2 {
 public:
     explicit Layer2(const Layer2Settings& settings);
 
-    /// From now on `user` answers at `address`, with replies no later than max(max_tsdr, min T_SDR + 50
+    /// From now on `user` answers at `address`, with replies no later than max(max_tsdr, min T_SDR + 49
     /// T_bit). The user outlives it. False, and nothing is attached, if the address is no station address
     /// (0..126).
     bool attach(std::uint8_t address, SapUser& user, const MaxTsdr& max_tsdr);
