@@ -69,69 +69,6 @@ Personality controller()
     return device;
 }
 
-std::uint8_t Master::next_fc()
-{
-    fc_ = fc_ == 0 ? 0x6D : (fc_ == 0x5D ? 0x7D : 0x5D);
-    return fc_;
-}
-
-std::string Master::send(const Octets& telegram)
-{
-    last_ = telegram;
-    bus_.master_sends(telegram);
-    asked_at_ = bus_.now();
-    const auto reply = bus_.reply();
-    if (!reply) return "-";
-    const auto telegram_back = heard(*reply);
-    if (!telegram_back) return "not a telegram: " + show(*reply);
-    if (telegram_back->delimiter == 0xE5) return "SC";
-    std::string name;
-    switch (telegram_back->fc) {
-        case 0x00: name = "OK"; break;
-        case 0x01: name = "UE"; break;
-        case 0x02: name = "RR"; break;
-        case 0x03: name = "RS"; break;
-        case 0x08: name = "DL"; break;
-        case 0x0A: name = "DH"; break;
-        default: name = "FC " + show({telegram_back->fc}); break;
-    }
-    return telegram_back->data.empty() ? name : name + " " + show(telegram_back->data);
-}
-
-std::string Master::asks(std::uint8_t dsap, const Octets& data, std::uint8_t ssap)
-{
-    return send(sd2(kUs, address_, next_fc(), Saps{dsap, ssap}, data));
-}
-
-std::string Master::data_exchange(const Octets& outputs)
-{
-    return send(outputs.empty() ? sd1(kUs, address_, next_fc()) : sd2(kUs, address_, next_fc(), outputs));
-}
-
-void Master::control(std::string_view data)
-{
-    bus_.master_sends(sd2(127, address_, 0x46, Saps{58, 62}, octets(data)));
-    EXPECT_FALSE(bus_.reply()) << "Global_Control is never answered";
-}
-
-std::string Master::fdl_status()
-{
-    return send(sd1(kUs, address_, 0x49));
-}
-
-std::string Master::repeats()
-{
-    return send(last_);
-}
-
-std::string Master::says(std::string_view telegram)
-{
-    bus_.master_sends(octets(telegram));
-    asked_at_ = bus_.now();
-    const auto reply = bus_.reply();
-    return reply ? show(*reply) : "-";
-}
-
 std::string board_prm(const std::vector<std::uint16_t>& tags, std::string_view header)
 {
     Octets all = octets(header);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "support/bus.hpp"
+#include "support/master.hpp"
 
 #include "dpslave/dp/slave.hpp"
 
@@ -15,8 +16,6 @@
 #include <vector>
 
 namespace test {
-
-inline constexpr std::uint8_t kUs = 5;
 
 /// The slave of the examples in the wire reference: ident 4711, two octets in (11), two out (21), no tags.
 dpslave::dp::Personality example_device();
@@ -38,44 +37,6 @@ inline dpslave::Parameter output(std::uint16_t tag)
 {
     return {tag, false, true};
 }
-
-/// A DP master by the second hand. Requests are answered in a short form: "SC", "RS", "RR", "DL 12 34", "DH
-/// 12 34";
-/// "-" is silence.
-class Master {
-public:
-    Master(Bus& bus, std::uint8_t address) : bus_(bus), address_(address) {}
-
-    std::string asks(std::uint8_t dsap, const Octets& data = {}, std::uint8_t ssap = 62);
-    std::string data_exchange(const Octets& outputs);
-    std::string data_exchange(std::string_view outputs) { return data_exchange(octets(outputs)); }
-    std::string rd_inp(const Octets& data = {}) { return asks(56, data); }
-    std::string rd_outp(const Octets& data = {}) { return asks(57, data); }
-    std::string get_cfg(const Octets& data = {}) { return asks(59, data); }
-    std::string slave_diag(const Octets& data = {}) { return asks(60, data); }
-    std::string set_prm(std::string_view prm) { return asks(61, octets(prm)); }
-    std::string chk_cfg(std::string_view cfg) { return asks(62, octets(cfg)); }
-    /// Global_Control to all stations: control command, group select.
-    void control(std::string_view data);
-    std::string fdl_status();
-    /// The last request once more, as after a lost reply.
-    std::string repeats();
-    /// One telegram, written out, and the reply to it in octets ("-": none).
-    std::string says(std::string_view telegram);
-
-    /// When the slave had read the last request.
-    dpslave::Instant asked_at() const { return asked_at_; }
-
-private:
-    std::string send(const Octets& telegram);
-    std::uint8_t next_fc();
-
-    Bus& bus_;
-    std::uint8_t address_;
-    std::uint8_t fc_ = 0;
-    Octets last_;
-    dpslave::Instant asked_at_{};
-};
 
 /// Set_Prm of the option board: status, factors, min T_SDR, ident, group, then 12 tags (the rest 0).
 std::string board_prm(const std::vector<std::uint16_t>& tags,

@@ -172,7 +172,7 @@ TEST_F(Diagnosis, C20_StatDiagKeepsTheDiagnosisPendingHoweverOftenItIsRead)
 TEST_F(Diagnosis, C20_StatDiagEndsOneSecondAfterChkCfgEvenWithoutInputs)
 {
     start_up(kPrmNoWatchdog, kCfg);
-    const auto checked = master.asked_at();
+    const auto checked = bus.asked_at();
 
     time_is(checked + 1s - 1ns);
     EXPECT_TRUE(seen().stat_diag);

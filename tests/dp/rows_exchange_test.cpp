@@ -247,7 +247,7 @@ TEST_F(Rows, G2_GlobalControlIsIgnoredElsewhere)
 TEST_F(Rows, W1_WatchdogGuardsWaitCfg)
 {
     waits_for_cfg();
-    const auto expiry = master.asked_at() + std::chrono::milliseconds{200};
+    const auto expiry = bus.asked_at() + std::chrono::milliseconds{200};
 
     time_is(expiry - std::chrono::nanoseconds{1});
     EXPECT_EQ(state(), State::wait_cfg);

@@ -103,7 +103,7 @@ TEST_F(SetPrm, C21_InDataExchTheWatchdogIsTakenAtOnce)
     exchanges();
 
     master.set_prm("88 03 01 0B 47 11 01"); // 30 ms instead of 200
-    time_is(master.asked_at() + 30ms);
+    time_is(bus.asked_at() + 30ms);
 
     EXPECT_EQ(state(), State::wait_prm);
 }

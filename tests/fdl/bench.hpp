@@ -74,7 +74,6 @@ private:
     }
 };
 
-inline constexpr std::uint8_t kUs = 5;
 inline constexpr std::uint8_t kOther = 9; // another slave, not of this station
 inline constexpr std::uint8_t kMaster = 2;
 inline constexpr std::uint8_t kOtherMaster = 3;

@@ -35,6 +35,12 @@ void Bus::master_sends(const Octets& telegram)
     ended(telegram);
 }
 
+void Bus::send(const Octets& telegram)
+{
+    master_sends(telegram);
+    if (const auto answer = reply()) ADD_FAILURE() << show(telegram) << " is answered: " << show(*answer);
+}
+
 void Bus::arrives_octet_by_octet(const Octets& telegram)
 {
     arrives_in_bunches(telegram, 1);

@@ -11,6 +11,7 @@
 ///   - the station's next_deadline() does not move on.
 #pragma once
 
+#include "master.hpp"
 #include "print.hpp"
 #include "wire.hpp"
 
@@ -35,7 +36,7 @@ inline constexpr std::array<dpslave::Tbit, dpslave::kBauds.size()> kClassMaxTsdr
     dpslave::Tbit{60}, dpslave::Tbit{60},  dpslave::Tbit{60}, dpslave::Tbit{60},
     dpslave::Tbit{60}, dpslave::Tbit{100}, dpslave::Tbit{150}};
 
-class Bus {
+class Bus final : public Wire {
 public:
     using duration = std::chrono::nanoseconds;
 
@@ -66,6 +67,15 @@ public:
 
     /// Its reply to the last telegram; waits for it, at most for the slot time. Each reply is given once.
     std::optional<Octets> reply();
+    /// A telegram of a master, read in one go, and the reply to it.
+    std::optional<Octets> ask(const Octets& telegram) override
+    {
+        master_sends(telegram);
+        return reply();
+    }
+    void send(const Octets& telegram) override;
+    /// When the last request was read.
+    dpslave::Instant asked_at() const { return request_end_; }
     /// From the last octet of the last request to the first bit of the last reply.
     duration turnaround() const;
     /// The rates that the station switched to since the last call.

@@ -34,9 +34,9 @@ TEST_P(WatchdogTimes, C13_ExpiresAtTheProductOfTheFactorsNeitherSoonerNorLater)
     ASSERT_EQ(state(), State::wait_cfg);
     EXPECT_EQ(seen().watchdog, period);
 
-    time_is(master.asked_at() + period - 1ns);
+    time_is(bus.asked_at() + period - 1ns);
     EXPECT_EQ(state(), State::wait_cfg);
-    time_is(master.asked_at() + period);
+    time_is(bus.asked_at() + period);
     EXPECT_EQ(state(), State::wait_prm);
 }
 
@@ -54,11 +54,11 @@ protected:
     template <class Sign>
     bool lives_on_after(Sign sign)
     {
-        time_is(master.asked_at() + 190ms);
+        time_is(bus.asked_at() + 190ms);
         sign();
-        time_is(master.asked_at() + 199ms);
+        time_is(bus.asked_at() + 199ms);
         const bool alive = state() == State::data_exch;
-        time_is(master.asked_at() + 200ms);
+        time_is(bus.asked_at() + 200ms);
         return alive && state() == State::wait_prm;
     }
 };
@@ -85,7 +85,7 @@ TEST_F(WatchdogBench, C13_EveryRequestOfTheOwnerIsASignOfLife)
 TEST_F(WatchdogBench, C13_ForeignRequestsAreNone)
 {
     exchanges();
-    const auto expiry = master.asked_at() + 200ms;
+    const auto expiry = bus.asked_at() + 200ms;
     time_is(expiry - 20ms);
     foreign.slave_diag();
     foreign.fdl_status();
@@ -102,7 +102,7 @@ TEST_F(WatchdogBench, C13_ForeignRequestsAreNone)
 TEST_F(WatchdogBench, C13_GlobalControlIsNone)
 {
     exchanges();
-    const auto expiry = master.asked_at() + 200ms;
+    const auto expiry = bus.asked_at() + 200ms;
     time_is(expiry - 20ms);
     master.control("00 00");
 
