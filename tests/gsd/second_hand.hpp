@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A small GSD reader of the tests' own, so that the files are judged by a second hand; the profiles and
-/// files of this tree; and octets written out.
+/// The profiles and files of this tree, and findings as text.
 #pragma once
 
 #include "profile/files.hpp"
+#include "reader.hpp"
 
 #include "dpslave/gsd/check.hpp"
 #include "dpslave/profile/gsd_device.hpp"
@@ -11,7 +11,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,23 +25,6 @@ inline const std::vector<std::string> kProfiles{"584s", "590",     "620",   "584
 
 /// An ident that no profile has, for those that have none.
 inline constexpr std::uint16_t kOwnIdent = 0x7EA5;
-
-struct SecondHand {
-    std::map<std::string, std::string> keys; ///< as printed; the last one counts, as in the masters' tools
-    struct Module {
-        std::string name;
-        std::vector<std::uint8_t> identifiers;
-        bool preset = false;
-    };
-    std::vector<Module> modules;
-
-    /// A key that is not there is a failure of the test.
-    int number(const std::string& key) const;
-    std::vector<std::uint8_t> octets(const std::string& key) const;
-    /// All identifiers of the plugged modules: those of a compact station, and the preset ones.
-    std::vector<std::uint8_t> cfg() const;
-};
-SecondHand second_hand(const std::string& content);
 
 profile::Profile load(const std::string& name);
 
