@@ -37,10 +37,15 @@ void must(const ::testing::AssertionResult& result)
     if (!result) throw std::runtime_error(result.message());
 }
 
-std::unique_ptr<Process> paced_line(unsigned baud, const char* bits, const fs::path& a, const fs::path& b)
+std::unique_ptr<Process> simulated_line(const Wiring& wiring, unsigned baud, const char* bits,
+                                        const fs::path& a, const fs::path& b)
 {
-    auto process = std::make_unique<Process>(
-        Arguments{DPSIM_PROGRAM, "line", "--baud", std::to_string(baud), "--bits", bits, "--a", a, "--b", b});
+    constexpr unsigned kFastest = 12'000'000;
+    Arguments command{DPSIM_PROGRAM, "line", "--baud", std::to_string(wiring.paced ? baud : kFastest),
+                      "--bits",      bits,   "--a",    a,
+                      "--b",         b};
+    if (!wiring.paced) command.push_back("--any-rate");
+    auto process = std::make_unique<Process>(std::move(command));
     must(process->says("ready"));
     return process;
 }
@@ -199,7 +204,7 @@ void Gateway::start_daemon()
 
 void Gateway::plug_bus()
 {
-    bus_ = paced_line(wiring_.bus_baud, "11", bus_end(), folder_ / "bus-gateway");
+    bus_ = simulated_line(wiring_, wiring_.bus_baud, "11", bus_end(), folder_ / "bus-gateway");
 }
 
 void Gateway::unplug_bus()
@@ -209,7 +214,7 @@ void Gateway::unplug_bus()
 
 void Gateway::plug_drive_line()
 {
-    line_ = paced_line(wiring_.drive_baud, "10", drive_end(), folder_ / "drive-gateway");
+    line_ = simulated_line(wiring_, wiring_.drive_baud, "10", drive_end(), folder_ / "drive-gateway");
 }
 
 void Gateway::plug_drive()

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "daemon_slave.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+
+#include <algorithm>
+#include <csignal>
+#include <stdexcept>
+#include <thread>
+
+namespace conformance {
+
+using namespace std::chrono_literals;
+using dpslave::test::Wiring;
+
+namespace {
+
+constexpr unsigned kRate = 93'750;
+/// What the station promises, in bit times (8 ms), and when the slot ends: the promise, and what the programs
+/// between may need on a loaded machine.
+constexpr unsigned kMaxTsdr = 750;
+constexpr auto kSlot = 25ms;
+constexpr auto kTsyn = 352us; // 33 bit times
+/// How often a request is repeated that the machine was too busy for.
+constexpr int kTries = 15;
+constexpr unsigned kTripTag = 4, kStatusTag = 75;
+
+/// Of the telegram that begins here; 0: more octets have to tell.
+std::size_t length_of(const Octets& octets)
+{
+    if (octets.empty()) return 0;
+    switch (octets[0]) {
+        case 0xE5: return 1;
+        case 0x10: return 6;
+        case 0x68: return octets.size() < 2 ? 0 : octets[1] + std::size_t{6};
+        default: return 0; // a slave sends nothing else
+    }
+}
+
+/// A drive of these tests: words without a scale, so that a word of the bus is a word of the drive.
+std::string table()
+{
+    std::string text = "tag,name,type,decimals,min,max,access,values,start\n";
+    const auto row = [&](unsigned tag, const char* access, unsigned start) {
+        text += fmt::format("{},Tag {},WORD,,0000,FFFF,{},,{:04X}\n", tag, tag, access, start);
+    };
+    row(kTripTag, "ro", 0);
+    row(kStatusTag, "ro", 0);
+    for (std::size_t i = 0; i < kInputTags.size(); ++i) row(kInputTags[i], "ro", kInputsAtStart[i]);
+    for (const std::uint16_t tag : kOutputTags) row(tag, "rw", 0);
+    return text;
+}
+
+Wiring wiring_of(const Family& family)
+{
+    Wiring wiring;
+    wiring.bus_baud = kRate;
+    wiring.paced = false; // a Global_Control that the line tears is not repeated
+    wiring.profile = family.profile;
+    wiring.max_tsdr = kMaxTsdr;
+    wiring.output_refresh_s = "3600"; // a word that the drive got twice was sent twice
+    wiring.table = table();
+    const bool is_controller = family.has_own_ident;
+    if (is_controller) {
+        wiring.protocol = "modbus-rtu";
+        wiring.units = {"1"};
+        // Where the outputs may be held, the end of the exchange cannot be seen at the drive.
+        wiring.keys = fmt::format("ident = {}\noutput_loss = \"zero\"\n", family.ident);
+    }
+    if (family.has_diagnosis()) wiring.keys += "ext_diag_bit = true\n";
+    if (family.has_diagnosis() && !is_controller)
+        wiring.keys += fmt::format("[station.tec]\ntrip_tag = {}\n", kTripTag);
+    return wiring;
+}
+
+} // namespace
+
+DaemonSlave::DaemonSlave(const Family& family) : family_(family), gateway_(wiring_of(family))
+{
+    auto bus = dpslave::sim::open_tty(gateway_.bus_end(), kRate, dpslave::sim::Format::bits8_even);
+    if (!bus) throw std::runtime_error{bus.error()};
+    bus_ = std::move(*bus);
+}
+
+/// Sends after T_SYN, in which nobody may speak.
+void DaemonSlave::put(const Octets& octets)
+{
+    expect_nothing(std::chrono::steady_clock::now() + kTsyn);
+    write(octets);
+}
+
+void DaemonSlave::write(const Octets& octets)
+{
+    if (dpslave::sim::write_all(bus_.get(), octets, 1s) != octets.size())
+        throw std::runtime_error{"the bus takes no octets"};
+}
+
+void DaemonSlave::expect_nothing(Time until)
+{
+    while (std::chrono::steady_clock::now() < until)
+        if (const auto word = reply_until(until))
+            ADD_FAILURE() << "nobody asked, and the slave sends " << test::show(*word);
+}
+
+/// The telegram that comes in time. Octets that are none are a failure.
+std::optional<Octets> DaemonSlave::reply_until(Time slot_ends)
+{
+    while (true) {
+        if (const std::size_t length = length_of(heard_); length != 0 && length <= heard_.size()) {
+            const auto end = heard_.begin() + static_cast<std::ptrdiff_t>(length);
+            Octets telegram(heard_.begin(), end);
+            heard_.erase(heard_.begin(), end);
+            return telegram;
+        }
+        const auto left = slot_ends - std::chrono::steady_clock::now();
+        pollfd bus{bus_.get(), POLLIN, 0};
+        const timespec wait{0, std::max<long>(std::chrono::nanoseconds{left}.count(), 0)};
+        if (::ppoll(&bus, 1, &wait, nullptr) != 1) {
+            if (!heard_.empty()) ADD_FAILURE() << "the slave sends no telegram: " << test::show(heard_);
+            heard_.clear();
+            return std::nullopt;
+        }
+        const auto more = dpslave::sim::read_some(bus_.get());
+        if (!more) throw std::runtime_error{"the bus is gone"};
+        heard_.insert(heard_.end(), more->begin(), more->end());
+        slot_ends = std::max(slot_ends, std::chrono::steady_clock::now() + kSlot); // it has begun in time
+    }
+}
+
+std::optional<Octets> DaemonSlave::ask(const Octets& request)
+{
+    put(request);
+    auto reply = reply_until(std::chrono::steady_clock::now() + kSlot);
+    for (int tries = 1; !reply && tries < kTries; ++tries) {
+        reply = reply_until(std::chrono::steady_clock::now() + kTsyn);
+        if (reply) return reply; // in time, but late in this program
+        write(request);
+        reply = reply_until(std::chrono::steady_clock::now() + kSlot);
+        if (reply) drop_doubles(*reply);
+    }
+    return reply;
+}
+
+/// A request that was repeated may have been answered in time and reached this program late: then each of its
+/// repetitions is answered too.
+void DaemonSlave::drop_doubles(const Octets& reply)
+{
+    while (const auto again = reply_until(std::chrono::steady_clock::now() + kSlot))
+        EXPECT_EQ(test::show(*again), test::show(reply)) << "the answer to a repetition";
+}
+
+testing::AssertionResult DaemonSlave::is_silent_to(const Octets& octets)
+{
+    put(octets);
+    const auto reply = reply_until(std::chrono::steady_clock::now() + kSlot);
+    if (!reply) return testing::AssertionSuccess();
+    return testing::AssertionFailure() << test::show(octets) << " is answered with " << test::show(*reply);
+}
+
+void DaemonSlave::send(const Octets& telegram)
+{
+    put(telegram);
+}
+
+void DaemonSlave::pass(std::chrono::milliseconds time)
+{
+    expect_nothing(std::chrono::steady_clock::now() + time);
+}
+
+void DaemonSlave::begin_case()
+{
+    drive_answers(true);
+    for (std::size_t i = 0; i < kInputTags.size(); ++i)
+        tell_drive(fmt::format("set {} {:04X}", kInputTags[i], kInputsAtStart[i]));
+    for (const unsigned tag : {kTripTag, kStatusTag}) tell_drive(fmt::format("set {} 0000", tag));
+    restart(test::kUs);
+    written();
+}
+
+/// It does not end by itself: the supply is gone.
+void DaemonSlave::restart(std::uint8_t address)
+{
+    gateway_.daemon().end(SIGKILL);
+    std::string text = gateway_.config_text();
+    const std::string key = "\naddress = ";
+    const auto at = text.find(key) + key.size();
+    text.replace(at, text.find('\n', at) - at, std::to_string(address));
+    dpslave::test::write_file(gateway_.config(), text);
+    gateway_.start_daemon();
+}
+
+/// Returns when the drive has done it.
+void DaemonSlave::tell_drive(const std::string& command)
+{
+    auto& drive = gateway_.drive();
+    const std::size_t before = drive.transcript().size();
+    drive.send_line(command);
+    drive.send_line(fmt::format("get {}", kStatusTag)); // what it says comes in the order of the commands
+    EXPECT_TRUE(
+        drive.transcript().await(fmt::format("tag {} = ", kStatusTag), before, dpslave::test::kLimit));
+}
+
+void DaemonSlave::drive_answers(bool does)
+{
+    tell_drive(does ? "ok" : "silence");
+}
+
+/// Two refreshes that began after the change: the first may have been asked before it.
+void DaemonSlave::set_input(std::size_t index, std::uint16_t word)
+{
+    const auto reads = [this] { return gateway_.station().at("drive").at("reads").get<std::uint64_t>(); };
+    tell_drive(fmt::format("set {} {:04X}", kInputTags.at(index), word));
+    const auto enough = reads() + 2 * (kInputTags.size() + kOutputTags.size() + 2);
+    EXPECT_TRUE(dpslave::test::eventually([&] { return reads() >= enough; }));
+}
+
+testing::AssertionResult DaemonSlave::drive_gets(std::uint16_t word)
+{
+    return gateway_.drive().says(fmt::format("tag {} written >{:04X}", kOutputTags[0], word));
+}
+
+std::vector<std::uint16_t> DaemonSlave::written()
+{
+    const std::string what = fmt::format("tag {} written >", kOutputTags[0]);
+    const auto lines = gateway_.drive().transcript().lines(written_until_);
+    written_until_ += lines.size();
+    std::vector<std::uint16_t> words;
+    for (const std::string& line : lines)
+        if (const auto at = line.find(what); at != std::string::npos)
+            words.push_back(
+                static_cast<std::uint16_t>(std::stoul(line.substr(at + what.size()), nullptr, 16)));
+    return words;
+}
+
+void DaemonSlave::report_fault(bool stands)
+{
+    const bool by_trip = family_.faulty.size() == 4;
+    tell_drive(fmt::format("set {} {:04X}", by_trip ? kTripTag : kStatusTag, stands ? 1 : 0));
+    const std::string block = test::show(stands ? family_.faulty : family_.healthy);
+    EXPECT_TRUE(dpslave::test::eventually(
+        [&] { return gateway_.diagnosis().at("hex").get<std::string>().ends_with(block); }));
+}
+
+} // namespace conformance
