@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpslave/base/recent_count.hpp"
-
 #include "support/long_times.hpp"
+
+#include "dpslave/base/recent_count.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The table of HA389815 ch. 9 row by row, and the time line of the lamps.
-#include "watch.hpp"
-
 #include "support/long_times.hpp"
+#include "watch.hpp"
 
 #include <gtest/gtest.h>
 

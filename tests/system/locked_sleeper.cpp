@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Locks its memory and sleeps: linked with the libraries of the daemon it is what these alone take. With an argument it
-// ends at once: what the start of a program with them takes.
+// Locks its memory and sleeps: linked with the libraries of the daemon it is what these alone take. With an
+// argument it ends at once: what the start of a program with them takes.
 #include <sys/mman.h>
 #include <unistd.h>
 
