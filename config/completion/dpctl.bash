@@ -22,8 +22,8 @@ _dpctl_options()
         'gsd show') echo '--profile --profiles --table --json --help' ;;
         'gsd make') echo '--profile --profiles --table --mapping --in --out --in-out --list --demand --ident --max-tsdr --description
                           --model --output --force --json --help' ;;
-        'gsd import') echo '--profile --profiles --output --force --json --help' ;;
-        'gsd diff') echo '--profile --profiles --json --help' ;;
+        'gsd import') echo '--profile --profiles --table --output --force --json --help' ;;
+        'gsd diff') echo '--profile --profiles --table --json --help' ;;
         'gsd configure') echo '--page --json --help' ;;
         'gsd types') echo '--output --brief --force --json --help' ;;
         gsd) echo '--help' ;;
