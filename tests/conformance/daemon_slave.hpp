@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The real daemon over ptys: a bus at 93.75 kbit/s, a drive line, and a simulated drive. The lines (dpsim)
-/// pass octets at once.
+/// The real daemon at 93.75 kbit/s on a pty, with a drive line and a simulated drive. A telegram comes whole.
 #pragma once
 
 #include "dpsim/common/system.hpp"
@@ -43,8 +42,8 @@ private:
     void tell_drive(const std::string& command);
 
     const Family& family_;
+    dpslave::sim::Pty bus_;
     dpslave::test::Gateway gateway_;
-    dpslave::sim::Fd bus_;
     Octets heard_;                  ///< behind the last telegram
     std::size_t written_until_ = 0; ///< line of what the drive says
 };

@@ -37,15 +37,10 @@ void must(const ::testing::AssertionResult& result)
     if (!result) throw std::runtime_error(result.message());
 }
 
-std::unique_ptr<Process> simulated_line(const Wiring& wiring, unsigned baud, const char* bits,
-                                        const fs::path& a, const fs::path& b)
+std::unique_ptr<Process> paced_line(unsigned baud, const char* bits, const fs::path& a, const fs::path& b)
 {
-    constexpr unsigned kFastest = 12'000'000;
-    Arguments command{DPSIM_PROGRAM, "line", "--baud", std::to_string(wiring.paced ? baud : kFastest),
-                      "--bits",      bits,   "--a",    a,
-                      "--b",         b};
-    if (!wiring.paced) command.push_back("--any-rate");
-    auto process = std::make_unique<Process>(std::move(command));
+    auto process = std::make_unique<Process>(
+        Arguments{DPSIM_PROGRAM, "line", "--baud", std::to_string(baud), "--bits", bits, "--a", a, "--b", b});
     must(process->says("ready"));
     return process;
 }
@@ -161,9 +156,9 @@ std::string Gateway::config_text() const
                     "port = \"{}\"\n"
                     "protocol = \"{}\"\n"
                     "baud = {}\n",
-                    (folder_ / "bus-gateway").string(), wiring_.bus_baud,
-                    wiring_.max_tsdr.value_or(patient_max_tsdr(wiring_.bus_baud)), lamp_folder().string(),
-                    socket().string(), own_group(), wiring_.control_keys,
+                    wiring_.bus_port.empty() ? (folder_ / "bus-gateway").string() : wiring_.bus_port,
+                    wiring_.bus_baud, wiring_.max_tsdr.value_or(patient_max_tsdr(wiring_.bus_baud)),
+                    lamp_folder().string(), socket().string(), own_group(), wiring_.control_keys,
                     (folder_ / "drive-gateway").string(), wiring_.protocol, wiring_.drive_baud);
     text += wiring_.line_keys;
     for (std::size_t i = 0; i < wiring_.units.size(); ++i) {
@@ -204,7 +199,8 @@ void Gateway::start_daemon()
 
 void Gateway::plug_bus()
 {
-    bus_ = simulated_line(wiring_, wiring_.bus_baud, "11", bus_end(), folder_ / "bus-gateway");
+    if (wiring_.bus_port.empty())
+        bus_ = paced_line(wiring_.bus_baud, "11", bus_end(), folder_ / "bus-gateway");
 }
 
 void Gateway::unplug_bus()
@@ -214,7 +210,7 @@ void Gateway::unplug_bus()
 
 void Gateway::plug_drive_line()
 {
-    line_ = simulated_line(wiring_, wiring_.drive_baud, "10", drive_end(), folder_ / "drive-gateway");
+    line_ = paced_line(wiring_.drive_baud, "10", drive_end(), folder_ / "drive-gateway");
 }
 
 void Gateway::plug_drive()

@@ -40,8 +40,7 @@ void write_file(const std::filesystem::path& file, const std::string& text);
 struct Wiring {
     unsigned bus_baud = 187'500;
     unsigned drive_baud = 38'400; ///< faster than usual: no test waits longer than it must
-    bool paced =
-        true; ///< false: the lines have no character times, so that no load of the machine tears a telegram
+    std::string bus_port{}; ///< a tty of the test instead of the simulated bus; empty: the simulated bus
     std::string profile = "590";
     std::vector<std::string> units{"00"};
     std::vector<std::string> present{}; ///< of the units, those that are really there; empty: all
