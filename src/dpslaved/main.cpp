@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "log.hpp"
+
 #include "dpslave/app/daemon.hpp"
 #include "dpslave/app/service.hpp"
 #include "dpslave/app/version.hpp"
-#include "dpslave/base/printable.hpp"
 #include "dpslave/config/config.hpp"
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <spdlog/pattern_formatter.h>
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <cstdio>
-#include <cstdlib>
-#include <memory>
 #include <string>
 
 namespace {
@@ -29,60 +23,6 @@ constexpr const char* kFooter = R"(Exit status:
   2  wrong usage
   3  a device or the control socket could not be opened)";
 
-/// systemd says which stream it has connected to the journal; a variable that was inherited does not count.
-bool stderr_is_journal()
-{
-    const char* stream = std::getenv("JOURNAL_STREAM");
-    struct stat there {};
-    if (stream == nullptr || ::fstat(STDERR_FILENO, &there) != 0) return false;
-    return fmt::format("{}:{}", there.st_dev, there.st_ino) == stream;
-}
-
-/// "<4>": the level as the journal reads it at the beginning of a line (sd-daemon(3)).
-class JournalLevel final : public spdlog::custom_flag_formatter {
-public:
-    void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& out) override
-    {
-        using Level = spdlog::level::level_enum;
-        const char digit = message.level >= Level::critical ? '2'
-                           : message.level == Level::err    ? '3'
-                           : message.level == Level::warn   ? '4'
-                           : message.level == Level::info   ? '6'
-                                                            : '7';
-        for (const char character : {'<', digit, '>'}) out.push_back(character);
-    }
-    std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<JournalLevel>(); }
-};
-
-/// The message, in which no text of a file, a drive or a caller can forge a line or move a cursor.
-class PrintableMessage final : public spdlog::custom_flag_formatter {
-public:
-    void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& out) override
-    {
-        const std::string text = dpslave::printable({message.payload.data(), message.payload.size()});
-        out.append(text.data(), text.data() + text.size());
-    }
-    std::unique_ptr<custom_flag_formatter> clone() const override
-    {
-        return std::make_unique<PrintableMessage>();
-    }
-};
-
-/// To standard error: with the time, or with the level for the journal. Not into the journal's own socket:
-/// what a program says there right before its end is not found under its unit.
-void set_up_log()
-{
-    auto log =
-        std::make_shared<spdlog::logger>("dpslaved", std::make_shared<spdlog::sinks::stderr_sink_mt>());
-    auto format = std::make_unique<spdlog::pattern_formatter>();
-    format->add_flag<JournalLevel>('*');
-    format->add_flag<PrintableMessage>('~');
-    format->set_pattern(stderr_is_journal() ? "%*%~" : "%Y-%m-%d %H:%M:%S.%e %l: %~");
-    log->set_formatter(std::move(format));
-    log->flush_on(spdlog::level::info);
-    spdlog::set_default_logger(std::move(log));
-}
-
 int status(ExitStatus status)
 {
     return static_cast<int>(status);
@@ -92,7 +32,7 @@ int status(ExitStatus status)
 int say_whether_configured(const std::string& file)
 {
     if (!dpslave::app::is_unconfigured(file)) return 0;
-    set_up_log();
+    dpslave::set_up_log();
     spdlog::warn(
         "{} configures neither bus nor line nor station, so there is nothing to start: delete the # before "
         "[bus], [[line]] and [[station]], set the keys below them, and start the service again",
@@ -105,7 +45,7 @@ int say_whether_configured(const std::string& file)
 int release_driver(const std::string& file, const std::string& profiles)
 {
     namespace app = dpslave::app;
-    set_up_log();
+    dpslave::set_up_log();
     auto driver = app::kept_driver(app::runtime_folder());
     if (!driver) {
         const auto config = dpslave::config::load_config(file, profiles);
@@ -158,7 +98,7 @@ int main(int argc, char** argv)
             std::fprintf(stderr, "%s (warning)\n", to_string(without_operator_group(*config)).c_str());
         return 0;
     }
-    set_up_log();
+    dpslave::set_up_log();
     try {
         return status(dpslave::app::run_daemon(*config, profiles));
     } catch (const std::exception& error) { // no descriptor, no thread or no memory left

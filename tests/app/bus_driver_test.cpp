@@ -131,17 +131,31 @@ TEST(BusSender, DistinguishesAPortThatHasGoneFromOneThatIsFull)
     app::BusSender sender{*driver};
     const Octets telegram(255, 0x00);
 
-    auto sent = sender.send(telegram, *port, Baud::k1500);
+    auto sent = sender.send(telegram, *port, Baud::k1500, kNever);
     EXPECT_TRUE(sent);
-    for (int i = 0; i < 1000 && sent; ++i) sent = sender.send(telegram, *port, Baud::k1500); // not read
+    for (int i = 0; i < 1000 && sent; ++i)
+        sent = sender.send(telegram, *port, Baud::k1500, kNever); // not read
     ASSERT_FALSE(sent);
     EXPECT_EQ(sent.error(), app::BusSender::Unsent::not_taken);
 
     pty.hang_up();
-    sent = sender.send(telegram, *port, Baud::k1500);
+    sent = sender.send(telegram, *port, Baud::k1500, kNever);
     ASSERT_FALSE(sent);
     EXPECT_EQ(sent.error(), app::BusSender::Unsent::port_gone);
     EXPECT_EQ(sender.write_errors(), 2u);
+}
+
+TEST_F(DriverEnableOfTheBus, F19_OfAStuckTransmitterIsDroppedWithTheReplyThatDidNotLeave)
+{
+    start({.baud = Baud::k500, .direction = io::Direction::none}, {station(kStation)});
+    uart::hold_back(6);
+    master.ask(fdl_status(kStation), 1);
+    EXPECT_TRUE(eventually([] { return uart::flushes() == 1; })) << "without a further request";
+    EXPECT_TRUE(eventually([this] { return snapshot().unsent == 1; }));
+    EXPECT_EQ(snapshot().write_errors, 1u);
+
+    ask_status();
+    EXPECT_EQ(uart::flushes(), 1u) << "what leaves is left alone";
 }
 
 /// The bus thread does not release it: it hangs, or the program is at its end.

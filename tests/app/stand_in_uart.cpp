@@ -3,6 +3,7 @@
 
 #include "dpslave/io/clock.hpp"
 
+#include <asm/termbits.h>
 #include <linux/serial.h>
 #include <sys/ioctl.h>
 #include <sys/syscall.h>
@@ -12,6 +13,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdarg>
+#include <cstdint>
 
 namespace dpslave::test::uart {
 namespace {
@@ -19,6 +21,8 @@ namespace {
 std::atomic<bool> active{false};
 std::atomic<bool> refusing{false};
 std::atomic<Shift> shift{Shift::unknown};
+std::atomic<int> held_back{0};
+std::atomic<unsigned> flushed{0};
 std::array<Edge, 16384> seen;
 std::atomic<std::size_t> count{0};
 
@@ -53,6 +57,8 @@ void reset()
 {
     active = refusing = false;
     shift = Shift::unknown;
+    held_back = 0;
+    flushed = 0;
     count = 0;
 }
 void refuse_edges(bool refuse)
@@ -62,6 +68,26 @@ void refuse_edges(bool refuse)
 void shift_register(Shift says)
 {
     shift = says;
+}
+void hold_back(int octets)
+{
+    held_back = octets;
+}
+unsigned flushes()
+{
+    return flushed;
+}
+bool takes_output_queue(unsigned long request, void* argument)
+{
+    if (held_back == 0) return false;
+    if (request == TIOCOUTQ) {
+        *static_cast<int*>(argument) = held_back;
+        return true;
+    }
+    if (request != TCFLSH || reinterpret_cast<std::uintptr_t>(argument) != TCOFLUSH) return false;
+    held_back = 0;
+    ++flushed;
+    return true;
 }
 bool is_active()
 {
@@ -82,6 +108,7 @@ extern "C" int ioctl(int fd, unsigned long request, ...) noexcept
     va_start(rest, request);
     void* const argument = va_arg(rest, void*);
     va_end(rest);
+    if (uart::takes_output_queue(request, argument)) return 0;
     switch (request) {
         case TIOCMGET: *static_cast<int*>(argument) = uart::is_active() ? TIOCM_RTS : 0; return 0;
         case TIOCMBIS:

@@ -5,6 +5,7 @@
 #   wire reference 1.5; section 4.10                 a section of docs/reference/profibus-dp.md
 #   wire reference 6.4, C2; row P11; TEST(X, P11_…)  a row of its section 6.4
 #   C-19; TEST(X, C19_…)                             a line of its section 10
+#   TEST(X, F07_…)                                   a row of docs/internals/reliability.md: reliability.sh looks at them
 #   EI-ASCII reference, section 3                    a section of docs/reference/drive-protocols.md
 #   (also "EI-ASCII and Modbus reference" and "Modbus reference")
 #   A-084, B-029a, X-48; an instance A084            a row of docs/reference/manual-coverage.md
@@ -86,7 +87,7 @@ function found(kind, after) {
         sub(/.*, */, "", matched)
         sub(/_$/, "", matched)
         if (matched ~ /^C[0-9][0-9]$/) cite("conformance", "C-" substr(matched, 2))
-        else cite("transition", matched)
+        else if (matched !~ /^F[0-9]/) cite("transition", matched)
     } else if (kind == "instance") {
         sub(/.*\( */, "", matched)
         cite("row", substr(matched, 1, 1) "-" substr(matched, 2))

@@ -90,6 +90,9 @@ public:
     /// not allowed. What the driver does not take whole is discarded: std::errc::no_buffer_space.
     std::error_code send(Bytes telegram);
 
+    /// Discards what was written and has not left the kernel. True: there was something.
+    bool discard_unsent();
+
     /// Discards what has come and was not read yet.
     std::error_code discard_input();
 

@@ -73,6 +73,7 @@ void BusPort::set_baud(Baud baud)
 
 void BusPort::read(fdl::Layer2& layer2)
 {
+    discard_what_is_stuck(); // the master goes on: what has not left by now would meet its telegrams
     while (port_.is_open()) {
         const auto chunk = port_.tty().read(buffer_);
         if (!chunk) return lose();
@@ -97,23 +98,34 @@ void BusPort::hear(Bytes octets, Instant read_at, bool more, fdl::Layer2& layer2
     layer2.on_bytes(foreign.octets, read_at, more);
 }
 
-std::optional<Instant> BusPort::send(Bytes reply, Baud baud)
+std::optional<Instant> BusPort::send(Bytes reply, Baud baud, Instant window_ended)
 {
     if (!port_.is_open()) {
         ++unsent_;
         return std::nullopt;
     }
-    const auto written = sender_.send(reply, port_.tty(), baud);
+    const auto written = sender_.send(reply, port_.tty(), baud, window_ended + driver_.edge_time());
     if (!written) {
-        ++unsent_;
+        ++(written.error() == BusSender::Unsent::too_late ? late_ : unsent_);
         if (written.error() == BusSender::Unsent::port_gone) lose();
         return std::nullopt;
     }
     const Tbit length{static_cast<std::uint32_t>(reply.size()) * kCharacter.count};
     const Instant over = *written + duration_of(length, baud);
     // The FIFO of the UART and the kernel's own workers delay an echo as they do the rest of a telegram.
-    echo_.sent(reply, over + duration_of(fdl::kTsyn, baud), over + fdl::silence_limit(baud));
+    leaves_by_ = over + fdl::silence_limit(baud);
+    echo_.sent(reply, over + duration_of(fdl::kTsyn, baud), leaves_by_);
     return *written;
+}
+
+/// A reply that the transmitter holds back (an adapter that hangs, a handshake) must not leave at some later
+/// time.
+void BusPort::discard_what_is_stuck()
+{
+    if (std::exchange(leaves_by_, kNever) == kNever || !port_.is_open()) return;
+    if (!port_.tty().discard_unsent()) return;
+    ++unsent_;
+    ++stuck_;
 }
 
 void BusPort::finish_sending()
@@ -123,6 +135,7 @@ void BusPort::finish_sending()
 
 void BusPort::check(Instant now)
 {
+    if (now >= leaves_by_) discard_what_is_stuck();
     if (!port_.is_open()) reopen(now);
     if (port_.is_open()) check_driver_enable(now);
 }
@@ -189,7 +202,9 @@ void BusPort::report(PortMessage message)
 void BusPort::write_state(BusSnapshot& snapshot) const
 {
     snapshot.port_open = port_.is_open();
-    snapshot.write_errors = sender_.write_errors();
+    snapshot.counters.late += late_;
+    snapshot.counters.replies -= late_; // layer 2 had handed them over
+    snapshot.write_errors = sender_.write_errors() + stuck_;
     snapshot.unsent = unsent_;
     snapshot.driver_works = driver_.works();
     snapshot.driver_errors = sender_.driver_errors();

@@ -46,8 +46,9 @@ public:
     /// When the newest octets were read that are no echo.
     Instant heard_at() const { return heard_at_; }
 
-    /// The reply leaves now. Gives the moment after the write; nothing: it was not sent, and is counted.
-    std::optional<Instant> send(Bytes reply, Baud baud);
+    /// The reply leaves now. `window_ended`: as Layer2 has it, which leaves room for the edge of the driver
+    /// enable. Gives the moment after the write; nothing: it was not sent, and is counted.
+    std::optional<Instant> send(Bytes reply, Baud baud, Instant window_ended);
     bool is_sending() const { return sender_.is_sending(); }
     Instant sending_ends() const { return sender_.next_deadline(); } ///< as BusSender::next_deadline()
     void finish_sending();
@@ -65,6 +66,7 @@ private:
     void detach();
     void reopen(Instant now);
     void check_driver_enable(Instant now);
+    void discard_what_is_stuck();
     void report(PortEvent event)
     {
         link_.port_events.push(event);
@@ -81,7 +83,10 @@ private:
     BusLink& link_;
     std::array<std::uint8_t, 512> buffer_{};
     Instant heard_at_{};
+    Instant leaves_by_ = kNever; ///< when the last reply must have left the kernel; kNever: it has
     std::uint64_t unsent_ = 0;
+    std::uint64_t stuck_ = 0; ///< of these, taken by the port and not sent
+    std::uint64_t late_ = 0;
     bool driver_worked_ = true;
     bool guard_reported_ = false;
     std::uint64_t guarded_ = 0; ///< as seen last

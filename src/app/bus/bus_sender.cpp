@@ -5,10 +5,14 @@
 
 namespace dpslave::app {
 
-Result<Instant, BusSender::Unsent> BusSender::send(Bytes telegram, io::Tty& tty, Baud baud)
+Result<Instant, BusSender::Unsent> BusSender::send(Bytes telegram, io::Tty& tty, Baud baud, Instant not_after)
 {
     const bool by_hand = driver_.by_hand();
     if (by_hand && !make_active(tty)) return Failure{Unsent::no_driver};
+    if (const Instant now = io::monotonic_now(); now > not_after) {
+        if (by_hand) make_inactive(now);
+        return Failure{Unsent::too_late};
+    }
     if (const std::error_code error = tty.send(telegram)) {
         ++write_errors_;
         if (by_hand) make_inactive(io::monotonic_now());

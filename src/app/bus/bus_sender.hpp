@@ -28,11 +28,13 @@ public:
     /// Why a reply was not sent.
     enum class Unsent : std::uint8_t {
         no_driver, ///< the driver enable does not work
+        too_late,  ///< its window closed while the driver was made active
         not_taken, ///< the port did not take it whole
         port_gone, ///< the port did not take it, and has gone
     };
-    /// The reply leaves now and whole. Gives the moment after the write.
-    Result<Instant, Unsent> send(Bytes telegram, io::Tty& tty, Baud baud);
+    /// The reply leaves now and whole, if it can begin by `not_after`: an edge of the driver may take long.
+    /// Gives the moment after the write.
+    Result<Instant, Unsent> send(Bytes telegram, io::Tty& tty, Baud baud, Instant not_after);
 
     /// Whether the driver is active because of a reply that goes out.
     bool is_sending() const { return transmission_.is_running(); }

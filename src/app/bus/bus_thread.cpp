@@ -119,7 +119,8 @@ void BusThread::send()
     const auto reply = layer2_.take_transmit();
     if (!reply) return;
     const Baud baud = layer2_.baud();
-    if (const auto written = port_.send(*reply, baud)) count_turnaround(*written, baud);
+    if (const auto written = port_.send(*reply, baud, layer2_.window_ended()))
+        count_turnaround(*written, baud);
 }
 
 /// From the read of the request's last octet to the end of the write: the newest octets heard are that

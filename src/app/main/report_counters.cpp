@@ -43,7 +43,8 @@ Group bus_counters(const View& view)
     add(c, "too_late", view.bus.too_late,
         "replies begun in time whose write ended behind MaxTsdr: see [realtime] and max_tsdr");
     add(c, "own_address", fdl.own_address, "telegrams of another device with one of our addresses");
-    add(c, "write_errors", view.bus.write_errors, "replies that the port did not accept");
+    add(c, "write_errors", view.bus.write_errors,
+        "replies that the port did not accept, or did not send in time");
     add(c, "unsent", view.bus.unsent,
         "replies that did not go out: those, or the port was closed, or the driver enable did not work");
     add(c, "driver_errors", view.bus.driver_errors,

@@ -228,6 +228,13 @@ std::error_code Tty::send(Bytes telegram)
     return std::make_error_code(std::errc::no_buffer_space);
 }
 
+bool Tty::discard_unsent()
+{
+    if (!has_unsent(fd())) return false;
+    flush_output(fd());
+    return true;
+}
+
 std::error_code Tty::discard_input()
 {
     if (marked_) {

@@ -84,6 +84,12 @@ void flush_output(int fd)
     ::ioctl(fd, TCFLSH, TCOFLUSH);
 }
 
+bool has_unsent(int fd)
+{
+    int octets = 0;
+    return ::ioctl(fd, TIOCOUTQ, &octets) == 0 && octets > 0;
+}
+
 std::optional<bool> transmitter_empty(int fd)
 {
     unsigned status = 0;

@@ -25,5 +25,6 @@ std::optional<bool> transmitter_empty(int fd);
 
 bool flush_input(int fd); ///< false: errno says why
 void flush_output(int fd);
+bool has_unsent(int fd); ///< octets that the kernel has not handed to the transmitter
 
 } // namespace dpslave::io

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "log.hpp"
+
+#include "dpslave/base/printable.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <spdlog/pattern_formatter.h>
+#include <spdlog/sinks/base_sink.h>
+#include <spdlog/spdlog.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <climits>
+#include <cstdlib>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+namespace dpslave {
+namespace {
+
+/// systemd says which stream it has connected to the journal; a variable that was inherited does not count.
+bool stderr_is_journal()
+{
+    const char* stream = std::getenv("JOURNAL_STREAM");
+    struct stat there {};
+    if (stream == nullptr || ::fstat(STDERR_FILENO, &there) != 0) return false;
+    return fmt::format("{}:{}", there.st_dev, there.st_ino) == stream;
+}
+
+/// "<4>": the level as the journal reads it at the beginning of a line (sd-daemon(3)).
+class JournalLevel final : public spdlog::custom_flag_formatter {
+public:
+    void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& out) override
+    {
+        using Level = spdlog::level::level_enum;
+        const char digit = message.level >= Level::critical ? '2'
+                           : message.level == Level::err    ? '3'
+                           : message.level == Level::warn   ? '4'
+                           : message.level == Level::info   ? '6'
+                                                            : '7';
+        for (const char character : {'<', digit, '>'}) out.push_back(character);
+    }
+    std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<JournalLevel>(); }
+};
+
+/// The message, in which no text of a file, a drive or a caller can forge a line or move a cursor.
+class PrintableMessage final : public spdlog::custom_flag_formatter {
+public:
+    void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& out) override
+    {
+        const std::string text = printable({message.payload.data(), message.payload.size()});
+        out.append(text.data(), text.data() + text.size());
+    }
+    std::unique_ptr<custom_flag_formatter> clone() const override
+    {
+        return std::make_unique<PrintableMessage>();
+    }
+};
+
+/// Standard error, which others may share and may have stopped to read: a pipe, the journal, a terminal. It
+/// stays blocking, for O_NONBLOCK would be theirs too.
+class StandardError final : public spdlog::sinks::base_sink<std::mutex> {
+private:
+    void sink_it_(const spdlog::details::log_msg& message) override
+    {
+        if (lost_ != 0) {
+            const std::string text =
+                fmt::format("{} line(s) of the log were lost: what reads it had stopped", lost_);
+            if (say({message.logger_name, spdlog::level::warn, text})) lost_ = 0;
+        }
+        if (lost_ != 0 || !say(message)) ++lost_;
+    }
+    bool say(const spdlog::details::log_msg& message)
+    {
+        spdlog::memory_buf_t line;
+        if (is_cut_) line.push_back('\n');
+        formatter_->format(message, line);
+        return put({line.data(), line.size()});
+    }
+    void flush_() override {} // nothing is kept
+
+    /// False: there was no room for all of it. A pipe that can be written takes PIPE_BUF octets without a
+    /// wait (pipe(7)).
+    bool put(std::string_view text)
+    {
+        while (!text.empty()) {
+            pollfd there{STDERR_FILENO, POLLOUT, 0};
+            if (::poll(&there, 1, 0) != 1 || (there.revents & POLLOUT) == 0) return false;
+            const ssize_t taken =
+                ::write(STDERR_FILENO, text.data(), std::min<std::size_t>(text.size(), PIPE_BUF));
+            if (taken < 0 && errno == EINTR) continue;
+            if (taken <= 0) return false;
+            text.remove_prefix(static_cast<std::size_t>(taken));
+            is_cut_ = !text.empty();
+        }
+        return true;
+    }
+
+    std::uint64_t lost_ = 0;
+    bool is_cut_ = false; ///< the last line has no end
+};
+
+} // namespace
+
+void set_up_log()
+{
+    auto log = std::make_shared<spdlog::logger>("dpslaved", std::make_shared<StandardError>());
+    auto format = std::make_unique<spdlog::pattern_formatter>();
+    format->add_flag<JournalLevel>('*');
+    format->add_flag<PrintableMessage>('~');
+    format->set_pattern(stderr_is_journal() ? "%*%~" : "%Y-%m-%d %H:%M:%S.%e %l: %~");
+    log->set_formatter(std::move(format));
+    spdlog::set_default_logger(std::move(log));
+}
+
+} // namespace dpslave
