@@ -13,6 +13,7 @@ _dpctl_options()
         io) echo "$_dpctl_common --follow" ;;
         'tec set') echo "$_dpctl_common --station --yes" ;;
         read | write) echo "$_dpctl_common --station" ;;
+        metrics) echo "$_dpctl_common --write" ;;
         reload) echo "$_dpctl_common --dry-run" ;;
         survey) echo "$_dpctl_common --tags --table --for --passes --resume" ;;
         tag) echo '--json --all --table --profile --profiles --help' ;;
@@ -67,7 +68,7 @@ _dpctl()
     local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD - 1]} command='' i word words=''
     COMPREPLY=()
     case $prev in
-        --socket | --table | --mapping | --page) compopt -o filenames 2>/dev/null
+        --socket | --table | --mapping | --page | --write) compopt -o filenames 2>/dev/null
             mapfile -t COMPREPLY < <(compgen -f -- "$cur"); return ;;
         --profiles | --output) compopt -o filenames 2>/dev/null
             mapfile -t COMPREPLY < <(compgen -f -- "$cur"); return ;;
@@ -79,7 +80,7 @@ _dpctl()
     for ((i = 1; i < COMP_CWORD; i++)); do
         word=${COMP_WORDS[i]}
         case $word in
-            --socket | --timeout | --wait | --tags | --table | --for | --passes) i=$((i + 1)) ;;
+            --socket | --timeout | --wait | --write | --tags | --table | --for | --passes) i=$((i + 1)) ;;
             -*) ;;
             *)
                 case "$command" in
@@ -94,7 +95,7 @@ _dpctl()
         words=$(_dpctl_options "$command")
     else
         case $command in
-            '') words='status show io diag counters doctor read write tec survey reload tune tag hex decode gsd version' ;;
+            '') words='status show io diag counters doctor metrics read write tec survey reload tune tag hex decode gsd version' ;;
             status | show | io | diag | doctor | survey) _dpctl_offer "$cur" < <(_dpctl_stations); return ;;
             tec) words='set' ;;
             'tec set') words='TYPE ADDRESS EXT_DIAGNOSTIC INT_DIAG_SELECT RIDE_THROUGH UNUSED_1' ;;

@@ -29,6 +29,7 @@ void Histogram::add(std::uint32_t value) noexcept
 {
     ++counts_[class_of(value)];
     ++count_;
+    sum_ += value;
     highest_ = std::max(highest_, value);
 }
 

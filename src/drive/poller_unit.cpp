@@ -5,6 +5,7 @@
 #include "unit_view.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace dpslave::drive {
 namespace {
@@ -244,7 +245,12 @@ Transaction Poller::Unit::probe() const
 
 void Poller::Unit::begin_round(Instant now)
 {
-    if (const auto took = cyclic_.begin_round(now)) snapshot_.cycle = *took;
+    if (const auto took = cyclic_.begin_round(now)) {
+        snapshot_.cycle = *took;
+        const auto longest = std::chrono::milliseconds{std::numeric_limits<std::uint32_t>::max()};
+        snapshot_.refresh_ms.add(static_cast<std::uint32_t>(
+            std::min(std::chrono::ceil<std::chrono::milliseconds>(*took), longest).count()));
+    }
     owes_round_ = false;
     turn_.round_begins();
 }

@@ -45,6 +45,7 @@ TEST(CountersReport, HasTheTurnaroundInMicrosecondsAndBitTimes)
     const json& us = reply.at("turnaround").at(0);
     EXPECT_EQ(us.at("unit"), "us");
     EXPECT_EQ(us.at("count"), 1000);
+    EXPECT_EQ(us.at("sum"), 999 * 66 + 50'000);
     EXPECT_EQ(us.at("p50"), 79); // the upper end of 64 to 79
     EXPECT_EQ(us.at("p999"), 79);
     EXPECT_EQ(us.at("highest"), 50'000);
@@ -53,6 +54,32 @@ TEST(CountersReport, HasTheTurnaroundInMicrosecondsAndBitTimes)
     const json& bits = reply.at("turnaround").at(1);
     EXPECT_EQ(bits.at("unit"), "T_bit");
     EXPECT_EQ(bits.at("classes"), json::parse(R"([{"from":12,"to":12,"count":1}])"));
+}
+
+TEST(CountersReport, HasTheRoundsOfEachStationOnItsLine)
+{
+    config::StationConfig config;
+    config.name = "unwinder";
+    config::LineConfig line;
+    line.name = "p3";
+    Station station{};
+    station.config = std::make_shared<const config::StationConfig>(config);
+    station.line = &line;
+    station.drive.refresh_ms.add(12);
+    station.drive.refresh_ms.add(100);
+    View view;
+    view.stations = {&station, 1};
+    const json reply = json_of(counters_report(view, Instant{}));
+    EXPECT_EQ(control::reply_mismatch("GetCounters", reply), std::nullopt);
+
+    ASSERT_EQ(reply.at("refresh").size(), 1u);
+    const json& one = reply.at("refresh").at(0);
+    EXPECT_EQ(one.at("station"), "unwinder");
+    EXPECT_EQ(one.at("line"), "p3");
+    EXPECT_EQ(one.at("rounds").at("unit"), "ms");
+    EXPECT_EQ(one.at("rounds").at("sum"), 112);
+    EXPECT_EQ(one.at("rounds").at("classes"), json::parse(R"([{"from":12,"to":12,"count":1},
+                                                              {"from":96,"to":111,"count":1}])"));
 }
 
 TEST(CountersReport, HasWhatTheEdgeCounted)

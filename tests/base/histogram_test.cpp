@@ -34,6 +34,14 @@ TEST(Histogram, HasNoFigureBeforeTheFirstValue)
     EXPECT_EQ(none.quantile(0.5), 0u);
 }
 
+TEST(Histogram, HasTheSumOfAllValuesAlsoOfThoseBeyondTheLastClass)
+{
+    Histogram counted;
+    for (const std::uint32_t value : {3u, 66u, 4'000'000'000u, 4'000'000'000u}) counted.add(value);
+
+    EXPECT_EQ(counted.sum(), 8'000'000'069u);
+}
+
 TEST(Histogram, HasLowerEndsThatGrowByAQuarterAtMost)
 {
     EXPECT_EQ(Histogram::lower_end(0), 0u);

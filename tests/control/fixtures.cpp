@@ -67,13 +67,19 @@ const char* const kCounters = R"({"groups":[{"name":"bus","counters":[
   {"name":"telegrams","value":123456,"meaning":"valid telegrams heard","minute":3000,"last_age_ms":500.0,"since_age_ms":3600000.0},
   {"name":"checked","value":60000,"meaning":"with a checksum","minute":1500,"last_age_ms":500.0,"since_age_ms":3600000.0},
   {"name":"octets","value":900000,"meaning":"received","minute":20000,"last_age_ms":500.0,"since_age_ms":3600000.0},
-  {"name":"flaw.checksum","value":3,"meaning":"FCS wrong","minute":0,"last_age_ms":3600000.0,"since_age_ms":null}]},
-  {"name":"unwinder","counters":[{"name":"data_exchange","value":7,"meaning":"Data_Exchange requests answered","minute":7,"last_age_ms":500.0,"since_age_ms":20000.0}]}],
+  {"name":"flaw: checksum","value":3,"meaning":"FCS wrong","minute":0,"last_age_ms":3600000.0,"since_age_ms":null}]},
+  {"name":"unwinder","counters":[{"name":"data_exchange","value":7,"meaning":"Data_Exchange requests answered","minute":7,"last_age_ms":500.0,"since_age_ms":20000.0},
+    {"name":"drive_reads","value":4000,"meaning":"transactions with the drive","minute":60,"last_age_ms":500.0,"since_age_ms":20000.0},
+    {"name":"drive_delay_ms","value":420,"meaning":"of the late answers","minute":0,"last_age_ms":null,"since_age_ms":null}]},
+  {"name":"control socket","counters":[{"name":"calls","value":9,"meaning":"","minute":1,"last_age_ms":500.0,"since_age_ms":20000.0}]}],
   "turnaround":[
-  {"unit":"us","count":2000,"p50":12,"p99":79,"p999":210,"highest":20000,"classes":[
+  {"unit":"us","count":2000,"sum":66000,"p50":12,"p99":79,"p999":210,"highest":20000,"classes":[
     {"from":12,"to":12,"count":1600},{"from":64,"to":79,"count":399},{"from":14336,"to":null,"count":1}]},
-  {"unit":"T_bit","count":2000,"p50":3,"p99":15,"p999":40,"highest":3750,"classes":[
-    {"from":3,"to":3,"count":1600},{"from":14,"to":14,"count":399},{"from":3584,"to":4095,"count":1}]}]})";
+  {"unit":"T_bit","count":2000,"sum":14000,"p50":3,"p99":15,"p999":40,"highest":3750,"classes":[
+    {"from":3,"to":3,"count":1600},{"from":14,"to":14,"count":399},{"from":3584,"to":4095,"count":1}]}],
+  "refresh":[{"station":"unwinder","line":"p3","rounds":{"unit":"ms","count":90,"sum":4500,"p50":31,"p99":63,"p999":63,"highest":60,
+    "classes":[{"from":30,"to":31,"count":50},{"from":56,"to":63,"count":40}]}},
+  {"station":"rewinder","line":"p3","rounds":{"unit":"ms","count":0,"sum":0,"p50":null,"p99":null,"p999":null,"highest":null,"classes":[]}}]})";
 
 std::map<std::string, json> all()
 {

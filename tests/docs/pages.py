@@ -87,7 +87,7 @@ class Program:
     def help(self, command):
         if command not in self.known:
             text = subprocess.run([self.path, *command, "--help"], capture_output=True, text=True, check=False).stdout
-            section = "".join(re.findall(r"^(?:Subcommands|Look|Operate|Offline|Version):\n((?: .*\n)+)", text, re.M))
+            section = "".join(re.findall(r"^(?:Subcommands|Look|Watch|Operate|Offline|Version):\n((?: .*\n)+)", text, re.M))
             self.known[command] = (set(re.findall(r"^  ([a-z][a-z-]*)", section, re.M)),
                                    set(re.findall(r"(?:^ +|,)(--?[a-z][a-z-]*)", text, re.M)) | {"--help", "-h"})
         return self.known[command]

@@ -65,7 +65,7 @@ TEST_F(DpctlProgram, PrintsWhatTheRenderersMakeWithoutColourIntoAPipe)
 
 TEST_F(DpctlProgram, EndsWith0WhenAllIsFine)
 {
-    for (const char* subcommand : {"status", "show", "io", "diag", "counters", "version"}) {
+    for (const char* subcommand : {"status", "show", "io", "diag", "counters", "metrics", "version"}) {
         const Ran ran = run({subcommand});
         EXPECT_EQ(ran.exit, 0) << subcommand;
         EXPECT_EQ(ran.err, "") << subcommand;
@@ -87,8 +87,8 @@ std::string executed_in(std::string_view text)
 TEST(DpctlOfAHostileReply, PrintsNothingThatATerminalExecutesAndKeepsOtherText)
 {
     const FixtureDaemon daemon{" Z\u00FCrich\x1B[2J\u009B31m\u202E\r\n"};
-    for (const char* words :
-         {"status", "show", "io", "diag", "counters", "version", "doctor", "reload", "read 7", "read 1"}) {
+    for (const char* words : {"status", "show", "io", "diag", "counters", "metrics", "version", "doctor",
+                              "reload", "read 7", "read 1"}) {
         std::string word;
         std::vector<std::string> arguments{"--socket", daemon.socket()};
         for (std::istringstream all{words}; all >> word;) arguments.push_back(word);
@@ -283,6 +283,7 @@ TEST(DpctlWithoutDaemon, EndsWith3AndSaysWhatToDo)
                                                {"io", "--follow"},
                                                {"diag"},
                                                {"counters"},
+                                               {"metrics"},
                                                {"tec", "set", "TYPE", "2"},
                                                {"read", "7"},
                                                {"write", "7", "1"}}) {

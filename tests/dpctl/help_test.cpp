@@ -89,10 +89,10 @@ TEST(DpctlHelp, HasACommandOfEachKindUnderItsHeading)
     const std::string all = dpctl({"--help"}).out;
     std::size_t at = 0;
     for (const char* line :
-         {"\nLook:\n",   "\n  status ",  "\n  show ",    "\n  io ",    "\n  diag ", "\n  counters ",
-          "\n  doctor ", "\nOperate:\n", "\n  read ",    "\n  write ", "\n  tec ",  "\n  survey ",
-          "\n  reload ", "\n  tune ",    "\nOffline:\n", "\n  tag ",   "\n  hex ",  "\n  decode ",
-          "\n  gsd ",    "\nVersion:\n", "\n  version "}) {
+         {"\nLook:\n",   "\n  status ", "\n  show ",    "\n  io ",      "\n  diag ",    "\n  counters ",
+          "\n  doctor ", "\nWatch:\n",  "\n  metrics ", "\nOperate:\n", "\n  read ",    "\n  write ",
+          "\n  tec ",    "\n  survey ", "\n  reload ",  "\n  tune ",    "\nOffline:\n", "\n  tag ",
+          "\n  hex ",    "\n  decode ", "\n  gsd ",     "\nVersion:\n", "\n  version "}) {
         const std::size_t found = all.find(line, at > 0 ? at - 1 : 0);
         ASSERT_NE(found, std::string::npos) << line;
         at = found + std::string_view{line}.size();
@@ -127,6 +127,8 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair{
             "survey",
             "0 complete, 1 refused, faulty or not complete, 2 wrong usage or no such station, 3 no daemon."},
+        std::pair{"metrics",
+                  "0 success, 1 a faulty answer or the file cannot be written, 2 wrong usage, 3 no daemon."},
         std::pair{"reload", "0 applied, or can be; 1 refused or faulty; 2 wrong usage; 3 no daemon."},
         std::pair{"tune", "0 success, 1 the rate of the bus cannot be held or something must be corrected,\n"
                           "2 wrong usage, 3 no PORT and no daemon."},

@@ -398,15 +398,21 @@ TEST(DpctlCounters, AreGroups)
 {
     EXPECT_EQ(render_counters(fixture("GetCounters"), false), test::lines(R"(
 bus
-   COUNT  LAST MINUTE  OF             MEANING
-  123456         3000  telegrams      valid telegrams heard
-   60000         1500  checked        with a checksum
-  900000        20000  octets         received
-       3            0  flaw.checksum  FCS wrong
+   COUNT  LAST MINUTE  OF              MEANING
+  123456         3000  telegrams       valid telegrams heard
+   60000         1500  checked         with a checksum
+  900000        20000  octets          received
+       3            0  flaw: checksum  FCS wrong
 
 unwinder
-  COUNT  LAST MINUTE  OF             MEANING
-      7            7  data_exchange  Data_Exchange requests answered
+  COUNT  LAST MINUTE  OF              MEANING
+      7            7  data_exchange   Data_Exchange requests answered
+   4000           60  drive_reads     transactions with the drive
+    420            0  drive_delay_ms  of the late answers
+
+control socket
+  COUNT  LAST MINUTE  OF     MEANING
+      9            1  calls
 
 turnaround of 2000 replies, from the end of the request to the end of the write
                           us  T_bit

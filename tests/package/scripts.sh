@@ -21,7 +21,8 @@ asked() {
     rm "$work/asked"
 }
 debian=$1
-grep -q 'dh_installsystemd --no-start --restart-after-upgrade' "$debian/rules"
+grep -q 'dh_installsystemd -pdpslaved --no-start --restart-after-upgrade dpslaved.service' "$debian/rules"
+grep -q 'dh_installsystemd -pdpslaved --no-start --no-enable --restart-after-upgrade dpslaved-metrics.timer' "$debian/rules"
 case $2 in
     install) # started, once
         script preinst install
@@ -37,7 +38,7 @@ case $2 in
         ;;
     again) # removed and installed again: as new, although dpkg names the version before
         script prerm remove
-        asked 'stop dpslaved.service dpslaved@*.service'
+        asked 'stop dpslaved-metrics.timer dpslaved-metrics@*.timer dpslaved.service dpslaved@*.service'
         script preinst install 1
         script postinst configure 1
         asked 'start dpslaved.service'

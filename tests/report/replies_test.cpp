@@ -83,11 +83,11 @@ Described described(const std::string& suffix = "")
 
 TEST(Replies, HaveAStructForEachTypeOfTheInterfaceWithItsFields)
 {
-    EXPECT_EQ(
-        (described<Led, StationLeds, Drive, Ride, Station, Unanswered, Bus, Info, TecRow, Tec, Word, Demand,
-                   StationIo, StationWords, DiagOctet, Refusal, Unscaled, RefusedTag, Diagnosis, Counter,
-                   CounterGroup, DistributionClass, Distribution, TagSpan, Answering, LeavingStation>()),
-        test::control_varlink().types);
+    EXPECT_EQ((described<Led, StationLeds, Drive, Ride, Station, Unanswered, Bus, Info, TecRow, Tec, Word,
+                         Demand, StationIo, StationWords, DiagOctet, Refusal, Unscaled, RefusedTag, Diagnosis,
+                         Counter, CounterGroup, DistributionClass, Distribution, Refresh, TagSpan, Answering,
+                         LeavingStation>()),
+              test::control_varlink().types);
 }
 
 TEST(Replies, HaveAStructForEachMethodOfTheInterface)

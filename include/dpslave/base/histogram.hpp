@@ -22,6 +22,7 @@ public:
     void add(std::uint32_t value) noexcept;
     std::uint64_t count() const noexcept { return count_; }
     std::uint32_t highest() const noexcept { return highest_; }
+    std::uint64_t sum() const noexcept { return sum_; } ///< of all values
     /// The value below or at which `share` (0..1) of all values lie: the upper end of its class, at most
     /// highest(). 0: none was counted.
     std::uint32_t quantile(double share) const noexcept;
@@ -34,6 +35,7 @@ public:
 private:
     std::array<std::uint64_t, kClasses> counts_{};
     std::uint64_t count_ = 0;
+    std::uint64_t sum_ = 0;
     std::uint32_t highest_ = 0;
 };
 

@@ -3,6 +3,7 @@
 /// orders, results and the time come in; transactions, inputs and answers go out as values.
 #pragma once
 
+#include "dpslave/base/histogram.hpp"
 #include "dpslave/base/process_image.hpp"
 #include "dpslave/drive/backend.hpp"
 #include "dpslave/drive/tag.hpp"
@@ -107,6 +108,7 @@ struct UnitSnapshot {
     std::array<AnswerText, kMaxParameters> answer_texts{}; ///< behind the errors no_scale and contradicted
     std::array<Instant, kMaxParameters> updated_at{};      ///< last success; default = never
     std::chrono::nanoseconds cycle{}; ///< the last whole round over this unit's parameters
+    Histogram refresh_ms;             ///< all of them since the start, in ms, rounded up
     std::uint64_t reads = 0, writes = 0, silences = 0, refusals = 0, losses = 0;
     std::uint64_t not_understood = 0; ///< those of the refusals that say so: noise towards the drive
     /// Writes of Demand Data that were never made: too many waited, or they no longer stood when the drive

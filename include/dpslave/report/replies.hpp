@@ -190,10 +190,15 @@ struct DistributionClass {
 };
 struct Distribution {
     std::string unit{};
-    std::int64_t count = 0;
+    std::int64_t count = 0, sum = 0;
     std::optional<std::int64_t> p50{}, p99{}, p999{}, highest{};
     std::vector<DistributionClass> classes{};
-    DPSLAVE_FIELDS(unit, count, p50, p99, p999, highest, classes)
+    DPSLAVE_FIELDS(unit, count, sum, p50, p99, p999, highest, classes)
+};
+struct Refresh {
+    std::string station{}, line{};
+    Distribution rounds{};
+    DPSLAVE_FIELDS(station, line, rounds)
 };
 struct TagSpan {
     std::int64_t first = 0, last = 0;
@@ -241,7 +246,8 @@ struct GetDiagnosisReply {
 struct GetCountersReply {
     std::vector<CounterGroup> groups{};
     std::vector<Distribution> turnaround{};
-    DPSLAVE_FIELDS(groups, turnaround)
+    std::vector<Refresh> refresh{};
+    DPSLAVE_FIELDS(groups, turnaround, refresh)
 };
 struct GetLedsReply {
     std::vector<StationLeds> stations{};

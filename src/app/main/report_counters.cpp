@@ -156,7 +156,7 @@ report::Counter counter_report(const Counter& counter, const RecentCount* recent
 
 report::Distribution distribution(const char* unit, const Histogram& counted)
 {
-    report::Distribution result{unit, integer(counted.count())};
+    report::Distribution result{unit, integer(counted.count()), integer(counted.sum())};
     for (std::size_t n = 0; n < Histogram::kClasses; ++n) {
         if (counted.in_class(n) == 0) continue;
         result.classes.push_back({Histogram::lower_end(n), std::nullopt, integer(counted.in_class(n))});
@@ -208,6 +208,9 @@ report::GetCountersReply counters_report(const View& view, Instant now)
     }
     result.turnaround = {distribution("us", view.bus.turnaround_us),
                          distribution("T_bit", view.bus.turnaround_tbit)};
+    for (const Station& one : view.stations)
+        result.refresh.push_back({one.config->name, one.line != nullptr ? one.line->name : std::string{},
+                                  distribution("ms", one.drive.refresh_ms)});
     return result;
 }
 

@@ -162,6 +162,13 @@ void octet_arguments(CLI::App& app, Options& options)
     profile_options(app, options, "Explain tags, modules and the extended diagnosis as those of this device");
 }
 
+void metrics_arguments(CLI::App& app, Options& options)
+{
+    app.add_option("--write", options.output,
+                   "Write FILE instead, whole at every moment; without a daemon it says so (dpslaved_up 0)")
+        ->type_name("FILE");
+}
+
 void survey_arguments(CLI::App& app, Options& options)
 {
     app.add_option("STATION", options.station, "Name or address; required if there are several")

@@ -10,6 +10,7 @@ namespace dpslave::dpctl {
 namespace {
 
 constexpr const char* kLook = "Look";
+constexpr const char* kWatch = "Watch";
 constexpr const char* kOperate = "Operate";
 
 constexpr const char* kShows =
@@ -21,6 +22,8 @@ constexpr const char* kJudges =
     "0 all is well, 1 something was found, 2 wrong usage or no such station, 3 no daemon.";
 constexpr const char* kSurveys =
     "0 complete, 1 refused, faulty or not complete, 2 wrong usage or no such station, 3 no daemon.";
+constexpr const char* kWritesFigures =
+    "0 success, 1 a faulty answer or the file cannot be written, 2 wrong usage, 3 no daemon.";
 constexpr const char* kReloads = "0 applied, or can be; 1 refused or faulty; 2 wrong usage; 3 no daemon.";
 constexpr const char* kTunes =
     "0 success, 1 the rate of the bus cannot be held or something must be corrected,\n"
@@ -50,6 +53,10 @@ constexpr std::array kCommands = std::to_array<Command>({
      "dpctl doctor --probe    searches for a drive that never answered (root and the operator group)\n"
      "dpctl doctor --all      all rules, for lamps and symptoms that you see",
      doctor_arguments, do_doctor},
+    {"metrics", kWatch, "Prints the figures for Prometheus, in its text format", kMetricsJson, kWritesFigures,
+     "dpctl metrics | promtool check metrics\n"
+     "dpctl metrics --write /var/lib/prometheus/node-exporter/dpslaved.prom",
+     metrics_arguments, do_metrics},
     {"read", kOperate, "Reads a tag from the drive now", "ReadTag", kShows,
      "dpctl read 55 --station unwinder", tag_argument, do_read},
     {"write", kOperate, "Writes a tag of the drive now (root and the operator group)", "WriteTag", kShows,
@@ -116,7 +123,7 @@ const char* const kFooter =
     "The Varlink interface org.dpslaved.Control describes them: see\n" DPSLAVE_DATA_FOLDER
     "/org.dpslaved.Control.varlink, or ask the daemon:\n"
     "varlinkctl introspect /run/dpslaved/control.sock org.dpslaved.Control\n"
-    "show, doctor, survey, tune, tag, hex and decode have their own form: see their --help.\n"
+    "show, doctor, survey, tune, metrics, tag, hex and decode have their own form: see their --help.\n"
     "Exit codes; the --help of each command has the details:\n"
     "  0  success\n"
     "  1  refused by the daemon or the drive, a faulty answer or input, not found, or the answer is no "

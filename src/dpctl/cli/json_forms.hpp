@@ -32,6 +32,9 @@ inline constexpr const char* kTuneJson =
 "findings": [{"severity": "mend", "better" or "know", "name", "what", "cost", "steps": [text]}]};
 THREAD = {"id", "name", "policy", "priority", "cpus"}; what could not be found out is null)";
 
+inline constexpr const char* kMetricsJson =
+    R"({"version": the reply of GetVersion, "status": of GetStatus, "counters": of GetCounters})";
+
 inline constexpr const char* kTagJson =
     R"({"tags": [{"table", "tag", "hex", "name", "aliases": [text], "type", "decimals", "follows_display", "unsigned",
 "min", "max": null or as displayed, "access", "mnemonic": null or text, "modbus_register", "demand_data": null or

@@ -47,6 +47,7 @@ struct Options {
     bool yes = false;                    ///< `tec set`: also what silences a station in exchange
     bool probe = false;                  ///< `doctor`: looks for the drive
     std::string port;                    ///< `tune`: a tty; empty = the daemon's
+    std::string output;                  ///< `metrics --write`: a file; empty = standard output
 
     std::chrono::milliseconds timeout() const
     {
@@ -79,6 +80,9 @@ int do_read(const Options&, Terminal&);
 int do_write(const Options&, Terminal&);
 int do_tec_set(const Options&, Terminal&);
 int do_reload(const Options&, Terminal&);
+
+// metrics.cpp
+int do_metrics(const Options&, Terminal&);
 
 // survey.cpp
 int do_survey(const Options&, Terminal&);

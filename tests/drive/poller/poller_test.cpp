@@ -176,6 +176,19 @@ TEST_F(PollerOfOne, AnOutputThatChangesAllTheTimeTakesOnlyItsShareOfTheCycle)
     EXPECT_EQ(seen().cycle, 6 * test::kAnswerTime) << "the cycle is the sum of its parameters (A-081)";
 }
 
+TEST_F(PollerOfOne, CountsEachWholeRoundByItsTimeThroughAllLayouts)
+{
+    bench.layout(0, 1, {1, 2, 3, 4}, {});
+    bench.steps(4 * 3 + 1);
+    EXPECT_EQ(seen().refresh_ms.count(), 3u);
+    EXPECT_EQ(seen().refresh_ms.sum(), 3 * 80u) << "four answers of 20 ms in each";
+
+    bench.layout(0, 2, {1}, {});
+    bench.steps(2);
+    EXPECT_EQ(seen().refresh_ms.count(), 4u) << "the start of another layout ends no round";
+    EXPECT_EQ(seen().refresh_ms.sum(), 3 * 80u + 20);
+}
+
 TEST_F(PollerOfOne, WritesAChangeBeforeItReadsOn)
 {
     bench.layout(0, 1, {1, 2, 3, 4, 5}, {10});
