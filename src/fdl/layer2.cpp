@@ -31,6 +31,13 @@ bool is_answered(Function function)
     return false;
 }
 
+bool is_same(const Telegram& one, const Telegram& other)
+{
+    return one.delimiter == other.delimiter && one.da == other.da && one.sa == other.sa &&
+           one.fc == other.fc && one.dsap == other.dsap && one.ssap == other.ssap &&
+           std::equal(one.data.begin(), one.data.end(), other.data.begin(), other.data.end());
+}
+
 } // namespace
 
 Layer2::Layer2(const Layer2Settings& settings)
@@ -98,6 +105,7 @@ std::optional<Bytes> Layer2::take_transmit()
     if (!pending_ || !pending_->open) return std::nullopt;
     const Bytes octets = pending_->octets;
     window_ended_ = pending_->not_after;
+    sent_ = octets;
     pending_.reset();
     ++counters_.replies;
     return octets;
@@ -142,10 +150,7 @@ void Layer2::on_telegram(const Telegram& telegram, Instant read_at, bool newest)
         follow_search();
         if (silent) return; // the telegram that ends the search is still heard in it
     }
-    if (stations_.has(telegram.sa)) {
-        ++counters_.own_address;
-        return;
-    }
+    if (stations_.has(telegram.sa)) return on_own_address(telegram);
     const bool known_code = (telegram.fc & 0x80) == 0; // bit 7 is a second code table with nothing for us
     if (!telegram.is_request() || !known_code) return;
 
@@ -156,11 +161,22 @@ void Layer2::on_telegram(const Telegram& telegram, Instant read_at, bool newest)
         report_supervision(read_at);
     } else if (ours && is_answered(telegram.function())) {
         ++counters_.requests;
+        sent_ = {};
         if (newest)
             on_request(telegram, read_at);
         else
             ++counters_.overtaken; // dropped whole, FCB included: the master's retry still looks new
     }
+}
+
+/// Either another device has the address, or the transceiver hears what it sends. Then it is what was sent,
+/// and comes once.
+void Layer2::on_own_address(const Telegram& telegram)
+{
+    ++counters_.own_address;
+    if (sent_.empty()) return;
+    const auto sent = decode(std::exchange(sent_, {}));
+    if (sent && is_same(*sent, telegram)) ++counters_.came_back;
 }
 
 void Layer2::on_request(const Telegram& request, Instant at)

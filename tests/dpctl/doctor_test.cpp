@@ -227,6 +227,7 @@ TEST_F(Doctor, DistinguishesATransceiverThatHearsItselfFromAnAddressThatIsUsedTw
 {
     count("replies", 400);
     count("own_address", 398);
+    count("came_back", 398);
     EXPECT_THAT(found(), ElementsAre("bus.echo"));
     EXPECT_EQ(evidence("bus.echo"),
               "398 of 400 replies came back to the gateway in the last minute, and the master goes on");
@@ -234,6 +235,18 @@ TEST_F(Doctor, DistinguishesATransceiverThatHearsItselfFromAnAddressThatIsUsedTw
 
     count("retries", 200);
     EXPECT_EQ(found().front(), "bus.double_address") << "another device spoils the replies";
+}
+
+TEST_F(Doctor, FindsAnAddressThatIsUsedTwiceHoweverManyRepliesThereWere)
+{
+    count("replies", 400);
+    count("own_address", 398);
+    EXPECT_THAT(found(), ElementsAre("bus.double_address")) << "none of them was a reply of the gateway";
+
+    count("own_address", 403);
+    count("came_back", 400);
+    EXPECT_THAT(found(), ElementsAre("bus.echo", "bus.double_address"));
+    EXPECT_THAT(evidence("bus.double_address"), HasSubstr("3 telegrams of another device"));
 }
 
 TEST_F(Doctor, NamesAnEchoThatDoesNotComeAndNotTheFlawsThatFollowFromIt)

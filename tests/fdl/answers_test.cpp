@@ -294,7 +294,25 @@ TEST_F(Answers, OwnAddressAsSenderIsAConflictThatIsCountedAndNotAnswered)
     bus.master_sends(octets("68 05 05 68 02 05 08 12 34 55 16")); // another station answers as slave 5
 
     EXPECT_EQ(station.counters().own_address, 2u);
+    EXPECT_EQ(station.counters().came_back, 0u);
     EXPECT_TRUE(user.heards.empty());
+}
+
+TEST_F(Answers, OwnReplyThatComesBackIsDistinguishedFromAnotherStationOfTheSameAddress)
+{
+    bus.master_sends(sd1(kUs, kMaster, kFdlStatus));
+    const auto reply = bus.reply();
+    ASSERT_TRUE(reply);
+    bus.breaks_in_after(bus.bits(100), *reply); // an echo
+    bus.breaks_in_after(bus.bits(100), *reply); // each reply has one at most
+    EXPECT_EQ(station.counters().own_address, 2u);
+    EXPECT_EQ(station.counters().came_back, 1u);
+
+    bus.master_sends(sd1(kUs, kMaster, kFdlStatus));
+    ASSERT_TRUE(bus.reply());
+    bus.breaks_in_after(bus.bits(100), sd2(kMaster, kUs, 0x08, {1})); // no reply of ours
+    EXPECT_EQ(station.counters().own_address, 3u);
+    EXPECT_EQ(station.counters().came_back, 1u);
 }
 
 TEST_F(Answers, MasterAt126IsAnswered)

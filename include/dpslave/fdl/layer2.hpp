@@ -39,7 +39,8 @@ struct Counters {
     std::uint64_t overtaken = 0; ///< requests not answered because something followed them
     std::uint64_t late = 0;      ///< replies suppressed because the deadline had passed
     std::uint64_t own_address =
-        0; ///< telegrams that carry one of our addresses as sender: an address conflict
+        0;                       ///< telegrams that carry one of our addresses as sender: an address conflict
+    std::uint64_t came_back = 0; ///< of these, the reply that was sent last: an echo that is not taken away
     std::array<std::uint64_t, kFlaws> flaws{}; ///< at the rate of the bus
     /// While the rate is searched: what is no telegram at a rate that is tried says nothing about the line.
     std::uint64_t search_flaws = 0;
@@ -115,6 +116,7 @@ private:
     void on_telegram(const Telegram& telegram, Instant read_at, bool newest);
     void on_request(const Telegram& request, Instant at);
     void cancel_reply();
+    void on_own_address(const Telegram& telegram);
     void count(Flaw flaw);
     bool rate_is_kept(std::size_t good, std::size_t bad, Instant at);
     void report_supervision(Instant at);
@@ -132,6 +134,7 @@ private:
 
     std::optional<Pending> pending_;
     Instant window_ended_{}; // of the reply handed out last
+    Bytes sent_;             // that reply, until the next request; empty: none, or its echo was heard
     Instant last_telegram_{};
     Counters counters_;
 };

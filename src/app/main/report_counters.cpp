@@ -42,7 +42,9 @@ Group bus_counters(const View& view)
     add(c, "late", fdl.late, "replies suppressed because MaxTsdr had passed: see [realtime] and max_tsdr");
     add(c, "too_late", view.bus.too_late,
         "replies begun in time whose write ended behind MaxTsdr: see [realtime] and max_tsdr");
-    add(c, "own_address", fdl.own_address, "telegrams of another device with one of our addresses");
+    add(c, "own_address", fdl.own_address,
+        "telegrams with one of our addresses as the sender: of another device, or those in came_back");
+    add(c, "came_back", fdl.came_back, "replies that came back as they were sent: check echo under [bus]");
     add(c, "write_errors", view.bus.write_errors,
         "replies that the port did not accept, or did not send in time");
     add(c, "unsent", view.bus.unsent,

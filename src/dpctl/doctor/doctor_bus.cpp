@@ -62,17 +62,17 @@ std::string seen_driver_gone(const Facts& f)
 /// address would spoil them.
 bool is_echo(const Facts& f)
 {
-    const Count own = counted(f.counters, "own_address");
+    const Count back = counted(f.counters, "came_back");
     const std::int64_t replies = counted(f.counters, "replies").minute;
     const std::int64_t retries = counted(f.counters, "retries").minute;
-    return replies >= kSomeFlaws && own.minute * 10 >= replies * 9 && retries * 10 < replies;
+    return replies >= kSomeFlaws && back.minute * 10 >= replies * 9 && retries * 10 < replies;
 }
 std::string seen_echo(const Facts& f)
 {
     if (!is_echo(f)) return {};
-    const Count own = counted(f.counters, "own_address");
-    return fmt::format("{} of {} came back to the gateway {}, and the master goes on", own.minute,
-                       plural(counted(f.counters, "replies").minute, "reply", "replies"), lately(own));
+    const Count back = counted(f.counters, "came_back");
+    return fmt::format("{} of {} came back to the gateway {}, and the master goes on", back.minute,
+                       plural(counted(f.counters, "replies").minute, "reply", "replies"), lately(back));
 }
 bool is_without_echo(const Facts& f)
 {
@@ -87,8 +87,9 @@ std::string seen_no_echo(const Facts& f)
 }
 std::string seen_double(const Facts& f)
 {
-    const Count strange = counted(f.counters, "own_address");
-    if (strange.minute == 0 || is_echo(f)) return {};
+    Count strange = counted(f.counters, "own_address");
+    if (is_echo(f)) strange.minute -= counted(f.counters, "came_back").minute;
+    if (strange.minute <= 0) return {};
     return fmt::format("{} of another device with one of our addresses as the sender {}",
                        plural(strange.minute, "telegram"), lately(strange));
 }
