@@ -213,8 +213,7 @@ TEST(DoctorOfTags, NamesAValueOutOfRangeThatTheMasterSendsButNoTypingErrorOfDpct
     const Outcome typo = gateway.dpctl({"read", "999"});
     EXPECT_EQ(typo.status, 1);
     EXPECT_THAT(typo.err, HasSubstr("has no line for tag 999"));
-    EXPECT_TRUE(first_cause_is(gateway, "well"))
-        << "a wrong tag in a dpctl command is no fault of the plant";
+    EXPECT_TRUE(first_cause_is(gateway, "well")) << "a wrong tag in a dpctl command is no fault of the plant";
     EXPECT_THAT(gateway.dpctl({"write", "56", "5"}).out, HasSubstr("will overwrite it"));
 
     ASSERT_TRUE(master.does("out 1 = 20000"));
