@@ -305,7 +305,8 @@ std::vector<std::string> caller_of(const Gateway& gateway, const std::vector<std
 constexpr const char* kReadOfRewinder =
     R"({"method":"org.dpslaved.Control.ReadTag","parameters":{"station":"rewinder","tag":55}})";
 
-/// A line that waits so long for its drives that a read still waits when the reload comes, on a busy machine too.
+/// A line that waits so long for its drives that a read still waits when the reload comes, on a busy machine
+/// too.
 class ReloadOfALineThatWaits : public Reload {
 protected:
     ReloadOfALineThatWaits() : Reload{{.units = {"00", "01"}, .line_keys = "timeout_ms = 10000\n"}}
@@ -399,10 +400,10 @@ TEST_F(ReloadOfATable, NamesInADryRunTheStationsThatWouldLeaveTheBusAndDoesNothi
     unwinder_noticed_nothing();
 }
 
-TEST_F(ReloadOfATable, IsDoneTwoHundredTimesWithoutALossOfTheExchange)
+TEST_F(ReloadOfATable, IsDoneAgainAndAgainWithoutALossOfTheExchange)
 {
     master.send_line("try wait 60s for in 1 = 0");
-    for (int i = 0; i < 200; ++i) {
+    for (int i = 0; i < RELOADS; ++i) {
         write_file(gateway.folder("tags.csv"),
                    kRows + std::string{"57,CURRENT,REAL,"} + (i % 2 == 0 ? "1" : "2") + ",,,\n");
         const Outcome outcome = gateway.dpctl({"reload", "--json"});

@@ -98,5 +98,21 @@ function(dpslave_test name)
     dpslave_test_headers(test_${name})
   endif()
   target_compile_definitions(test_${name} PRIVATE DPSLAVE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  gtest_discover_tests(test_${name} TEST_PREFIX "${name}." NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 120)
+  dpslave_ctest(${name})
+endfunction()
+
+# dpslave_ctest(NAME [FILTER]) makes the ctest entries of the program test_NAME: one for each test. With a sanitizer one for all
+# of them, for the start of a sanitized program takes longer than most tests.
+function(dpslave_ctest name)
+  set(filter ${ARGN})
+  if(NOT filter)
+    set(filter "*")
+  endif()
+  if(DPSLAVE_SANITIZE)
+    add_test(NAME ${name}.all COMMAND test_${name} --gtest_filter=${filter} --gtest_brief=1)
+    set_tests_properties(${name}.all PROPERTIES TIMEOUT 900)
+  else()
+    gtest_discover_tests(test_${name} TEST_FILTER "${filter}" TEST_PREFIX "${name}." NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60
+      PROPERTIES TIMEOUT 120)
+  endif()
 endfunction()
