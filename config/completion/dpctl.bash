@@ -95,7 +95,7 @@ _dpctl()
         words=$(_dpctl_options "$command")
     else
         case $command in
-            '') words='status show io diag counters doctor metrics read write tec survey reload tune tag hex decode gsd version' ;;
+            '') words='status show io diag counters doctor bus metrics read write tec survey reload tune tag hex decode gsd version' ;;
             status | show | io | diag | doctor | survey) _dpctl_offer "$cur" < <(_dpctl_stations); return ;;
             tec) words='set' ;;
             'tec set') words='TYPE ADDRESS EXT_DIAGNOSTIC INT_DIAG_SELECT RIDE_THROUGH UNUSED_1' ;;

@@ -12,6 +12,7 @@
 #include "dpslave/base/process_image.hpp"
 #include "dpslave/base/ring.hpp"
 #include "dpslave/config/config.hpp"
+#include "dpslave/dp/bus_members.hpp"
 #include "dpslave/dp/event_log.hpp"
 #include "dpslave/dp/snapshot.hpp"
 #include "dpslave/drive/poller.hpp"
@@ -103,7 +104,7 @@ struct BusSnapshot {
     Instant taken_at{};
     Instant last_telegram{}; ///< with a right check sum, of any station; default = none was heard yet
     fdl::Counters counters{};
-    fdl::AskedAddresses::List unanswered{}; ///< addresses of others that do not answer
+    dp::BusMembers::UnansweredList unanswered{}; ///< addresses that do not answer, ours among them
     std::uint64_t write_errors = 0;
     std::uint64_t unsent = 0; ///< replies not sent: write errors, no port, or no driver enable
     /// Of each reply, from the read of the request's last octet to the end of the write: us, and T_bit of the
@@ -120,6 +121,8 @@ struct BusSnapshot {
 };
 struct BusLink {
     Mailbox<BusSnapshot> snapshot;
+    /// Who is on the bus, bus -> main; twice a second.
+    Mailbox<dp::BusMembers::Table> members;
     /// Counts the rounds of the bus thread: while it moves, the watchdog of systemd is fed.
     std::atomic<std::uint64_t> heartbeat{0};
     /// A thread has failed (the log says how): the main thread ends the program.

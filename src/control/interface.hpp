@@ -34,6 +34,7 @@ inline constexpr std::array kMethods = std::to_array<MethodEntry>({
     {"GetIo", Right::look},
     {"GetDiagnosis", Right::look},
     {"GetCounters", Right::look},
+    {"GetBus", Right::look},
     {"GetLeds", Right::look},
     {"GetTec", Right::look},
     {"Watch", Right::look},

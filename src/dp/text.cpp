@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "dpslave/dp/bus_members.hpp"
 #include "dpslave/dp/refusal.hpp"
 #include "dpslave/dp/state.hpp"
 
@@ -11,6 +12,20 @@ std::string_view text(State state) noexcept
         case State::wait_prm: return "Wait_Prm";
         case State::wait_cfg: return "Wait_Cfg";
         case State::data_exch: return "Data_Exch";
+    }
+    return "?";
+}
+
+std::string_view text(Member::State state) noexcept
+{
+    switch (state) {
+        case Member::State::unknown: return "unknown";
+        case Member::State::prm_required: return "Prm_Req";
+        case Member::State::prm_fault: return "Prm_Fault";
+        case Member::State::cfg_fault: return "Cfg_Fault";
+        case Member::State::not_ready: return "Station_Not_Ready";
+        case Member::State::ready: return "ready";
+        case Member::State::exchange: return "Data_Exch";
     }
     return "?";
 }

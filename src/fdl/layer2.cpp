@@ -139,7 +139,7 @@ void Layer2::on_telegram(const Telegram& telegram, Instant read_at, bool newest)
 {
     ++counters_.telegrams;
     const bool ours = telegram.has_fc() && stations_.has(telegram.da);
-    if (!ours) asked_.on_telegram(telegram, read_at);
+    if (listener_ != nullptr) listener_->on_telegram(telegram, read_at);
     if (!telegram.has_fc()) return; // SC and token: no checksum, no evidence, no request
     ++counters_.checked;
     last_telegram_ = read_at;

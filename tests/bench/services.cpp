@@ -3,6 +3,8 @@
 /// counts the same instructions in each run. tools/check-instructions calls it and compares the count.
 #include "dp/bench.hpp"
 
+#include "dpslave/dp/bus_members.hpp"
+
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -17,6 +19,9 @@ constexpr int kRequests = 10'000;
 constexpr std::uint8_t kMaster = 2, kOther = 17;
 
 struct Gateway {
+    Gateway() { station.listen(&members); }
+
+    dpslave::dp::BusMembers members;
     dpslave::dp::Personality personality = test::option_board();
     dpslave::fdl::Layer2 station{{.baud = dpslave::Baud::k187_5, .search = {}, .start_up_latency = {}}};
     dpslave::dp::Slave slave{personality, test::kUs};

@@ -50,6 +50,17 @@ const char* const kDiagnosis = R"({"stations":[
    "last_prm":"88 01 0A 0B 05 33 00","last_cfg":"73 50 51","held":false,"unscaled":[],"trouble":["tag 999 is in no table"],
    "refused":[{"tag":999,"write":false,"code":"invalid_tag","text":"tag 999 is in no table"}]}]})";
 
+const char* const kMembers =
+    R"({"port":"/dev/ttyS1","baud":187500,"baud_state":"DP_Control","load_percent":20.5,"members":[
+  {"address":2,"ours":false,"master":true,"slave":false,"state":"unknown","ident":null,"asked_by":null,"asked":0,"answers":0,
+   "retries":0,"unanswered":0,"last_heard_age_ms":3.0,"last_asked_age_ms":null,
+   "cycle":{"min_ms":4.21,"mean_ms":5.04,"max_ms":9.73},"load_percent":12.25},
+  {"address":5,"ours":true,"master":false,"slave":true,"state":"Data_Exch","ident":1331,"asked_by":2,"asked":12000,
+   "answers":12000,"retries":1,"unanswered":0,"last_heard_age_ms":4.5,"last_asked_age_ms":5.0,
+   "cycle":{"min_ms":9.8,"mean_ms":10.0,"max_ms":12.4},"load_percent":8.25},
+  {"address":9,"ours":false,"master":false,"slave":false,"state":"unknown","ident":null,"asked_by":2,"asked":40,"answers":0,
+   "retries":80,"unanswered":120,"last_heard_age_ms":null,"last_asked_age_ms":150.0,"cycle":null,"load_percent":0}]})";
+
 const char* const kLeds = R"({"stations":[{"name":"unwinder","meaning":"data exchange with the master",
   "leds":[{"name":"red","sink":"gpio:23","lit":false,"pattern":"off"},
           {"name":"green","sink":"led:dpslaved-green","lit":true,"pattern":"flashing 2 Hz"}]}]})";
@@ -104,6 +115,7 @@ std::map<std::string, json> all()
         {"GetIo", io},
         {"GetDiagnosis", json::parse(kDiagnosis)},
         {"GetCounters", json::parse(kCounters)},
+        {"GetBus", json::parse(kMembers)},
         {"GetLeds", json::parse(kLeds)},
         {"GetTec", json::parse(kTec)},
         {"SetTec", json::parse(kTec)},

@@ -65,7 +65,7 @@ TEST_F(DpctlProgram, PrintsWhatTheRenderersMakeWithoutColourIntoAPipe)
 
 TEST_F(DpctlProgram, EndsWith0WhenAllIsFine)
 {
-    for (const char* subcommand : {"status", "show", "io", "diag", "counters", "metrics", "version"}) {
+    for (const char* subcommand : {"status", "show", "io", "diag", "counters", "bus", "metrics", "version"}) {
         const Ran ran = run({subcommand});
         EXPECT_EQ(ran.exit, 0) << subcommand;
         EXPECT_EQ(ran.err, "") << subcommand;
@@ -87,8 +87,8 @@ std::string executed_in(std::string_view text)
 TEST(DpctlOfAHostileReply, PrintsNothingThatATerminalExecutesAndKeepsOtherText)
 {
     const FixtureDaemon daemon{" Z\u00FCrich\x1B[2J\u009B31m\u202E\r\n"};
-    for (const char* words : {"status", "show", "io", "diag", "counters", "metrics", "version", "doctor",
-                              "reload", "read 7", "read 1"}) {
+    for (const char* words : {"status", "show", "io", "diag", "counters", "bus", "metrics", "version",
+                              "doctor", "reload", "read 7", "read 1"}) {
         std::string word;
         std::vector<std::string> arguments{"--socket", daemon.socket()};
         for (std::istringstream all{words}; all >> word;) arguments.push_back(word);
@@ -130,7 +130,7 @@ TEST_P(DpctlJson, IsTheReplyOfTheMethodAsTheSchemaDescribesIt)
 INSTANTIATE_TEST_SUITE_P(EachSubcommand, DpctlJson,
                          testing::Values(JsonRow{"GetStatus", {"status"}}, JsonRow{"GetIo", {"io"}},
                                          JsonRow{"GetDiagnosis", {"diag"}},
-                                         JsonRow{"GetCounters", {"counters"}},
+                                         JsonRow{"GetCounters", {"counters"}}, JsonRow{"GetBus", {"bus"}},
                                          JsonRow{"ReadTag", {"read", "7", "--station", "5"}},
                                          JsonRow{"WriteTag", {"write", "7", "50", "--station", "5"}},
                                          JsonRow{"SetTec", {"tec", "set", "TYPE", "2"}},
@@ -284,6 +284,7 @@ TEST(DpctlWithoutDaemon, EndsWith3AndSaysWhatToDo)
                                                {"diag"},
                                                {"counters"},
                                                {"metrics"},
+                                               {"bus"},
                                                {"tec", "set", "TYPE", "2"},
                                                {"read", "7"},
                                                {"write", "7", "1"}}) {

@@ -89,10 +89,10 @@ TEST(DpctlHelp, HasACommandOfEachKindUnderItsHeading)
     const std::string all = dpctl({"--help"}).out;
     std::size_t at = 0;
     for (const char* line :
-         {"\nLook:\n",   "\n  status ", "\n  show ",    "\n  io ",      "\n  diag ",    "\n  counters ",
-          "\n  doctor ", "\nWatch:\n",  "\n  metrics ", "\nOperate:\n", "\n  read ",    "\n  write ",
-          "\n  tec ",    "\n  survey ", "\n  reload ",  "\n  tune ",    "\nOffline:\n", "\n  tag ",
-          "\n  hex ",    "\n  decode ", "\n  gsd ",     "\nVersion:\n", "\n  version "}) {
+         {"\nLook:\n",   "\n  status ", "\n  show ",   "\n  io ",      "\n  diag ",    "\n  counters ",
+          "\n  doctor ", "\nWatch:\n",  "\n  bus ",    "\n  metrics ", "\nOperate:\n", "\n  read ",
+          "\n  write ",  "\n  tec ",    "\n  survey ", "\n  reload ",  "\n  tune ",    "\nOffline:\n",
+          "\n  tag ",    "\n  hex ",    "\n  decode ", "\n  gsd ",     "\nVersion:\n", "\n  version "}) {
         const std::size_t found = all.find(line, at > 0 ? at - 1 : 0);
         ASSERT_NE(found, std::string::npos) << line;
         at = found + std::string_view{line}.size();
@@ -120,8 +120,8 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair{"status", "0 success, with --wait: in exchange; 1 refused or faulty, with --wait: not in "
                             "exchange;\n2 wrong usage or no such station; 3 no daemon."},
         std::pair{"show", kShows}, std::pair{"io", kShows}, std::pair{"diag", kShows},
-        std::pair{"counters", kShows}, std::pair{"read", kShows}, std::pair{"write", kShows},
-        std::pair{"tec", kShows},
+        std::pair{"counters", kShows}, std::pair{"bus", kShows}, std::pair{"read", kShows},
+        std::pair{"write", kShows}, std::pair{"tec", kShows},
         std::pair{"doctor",
                   "0 all is well, 1 something was found, 2 wrong usage or no such station, 3 no daemon."},
         std::pair{

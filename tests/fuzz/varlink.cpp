@@ -41,6 +41,7 @@ constexpr std::array kDescribed{
     Described{"GetIo", "station?s", false},
     Described{"GetDiagnosis", "station?s", false},
     Described{"GetCounters", "", false},
+    Described{"GetBus", "", false},
     Described{"GetLeds", "station?s", false},
     Described{"GetTec", "station?s", false},
     Described{"Watch", "station?s", false},

@@ -86,16 +86,16 @@ TEST(Replies, HaveAStructForEachTypeOfTheInterfaceWithItsFields)
     EXPECT_EQ((described<Led, StationLeds, Drive, Ride, Station, Unanswered, Bus, Info, TecRow, Tec, Word,
                          Demand, StationIo, StationWords, DiagOctet, Refusal, Unscaled, RefusedTag, Diagnosis,
                          Counter, CounterGroup, DistributionClass, Distribution, Refresh, TagSpan, Answering,
-                         LeavingStation>()),
+                         LeavingStation, Member, Spacing>()),
               test::control_varlink().types);
 }
 
 TEST(Replies, HaveAStructForEachMethodOfTheInterface)
 {
     EXPECT_EQ((described<GetVersionReply, GetStatusReply, ListStationsReply, GetInfoReply, GetIoReply,
-                         GetDiagnosisReply, GetCountersReply, GetLedsReply, GetTecReply, WatchReply,
-                         ReadTagReply, GetSurveyScopeReply, SurveyReply, WriteTagReply, ProbeDriveReply,
-                         SetTecReply, ReloadReply>("Reply")),
+                         GetDiagnosisReply, GetCountersReply, GetBusReply, GetLedsReply, GetTecReply,
+                         WatchReply, ReadTagReply, GetSurveyScopeReply, SurveyReply, WriteTagReply,
+                         ProbeDriveReply, SetTecReply, ReloadReply>("Reply")),
               test::control_varlink().outputs);
 }
 

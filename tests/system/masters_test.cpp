@@ -147,5 +147,40 @@ TEST(Owner, KeepsTheSlaveAgainstAnotherMasterUntilItReleasesIt)
     EXPECT_TRUE(eventually([&] { return gateway.station().at("master") == 3; }));
 }
 
+/// The member of `dpctl bus --json` with this address; null: there is none.
+Json member_of_bus(const Gateway& gateway, int address)
+{
+    const Json bus = gateway.json({"bus"});
+    for (const Json& one : bus.at("members"))
+        if (one.at("address") == address) return one;
+    return nullptr;
+}
+
+TEST(BusMembers, AreTheMasterThisGatewayAndTheAddressThatNobodyHas)
+{
+    Gateway gateway;
+    Master master{gateway, {"--tags", "55,56w"}};
+    ASSERT_TRUE(master.does("start 30s"));
+    for (int i = 0; i < 5; ++i) // Slave_Diag of address 7 by master 2
+        EXPECT_TRUE(master.does("send 68 05 05 68 87 82 6D 3C 3E F0 16"));
+
+    Json ours;
+    EXPECT_TRUE(eventually([&] {
+        ours = member_of_bus(gateway, 5);
+        return ours.is_object() && ours.at("cycle").is_object();
+    })) << ours;
+    EXPECT_EQ(ours.at("ours"), true);
+    EXPECT_EQ(ours.at("state"), "Data_Exch");
+    EXPECT_EQ(ours.at("ident"), 0x0533);
+    EXPECT_EQ(ours.at("asked_by"), 2);
+    EXPECT_GT(ours.at("load_percent"), 0);
+    EXPECT_EQ(member_of_bus(gateway, 2).at("master"), true);
+    EXPECT_TRUE(eventually([&] {
+        const Json nobody = member_of_bus(gateway, 7);
+        return nobody.is_object() && nobody.at("unanswered") >= 5 && nobody.at("slave") == false;
+    }));
+    EXPECT_THAT(gateway.dpctl({"bus"}).out, HasSubstr("Master 2 asks for address 7 and gets no answer"));
+}
+
 } // namespace
 } // namespace dpslave::test

@@ -5,12 +5,12 @@
 #pragma once
 
 #include "dpslave/base/units.hpp"
-#include "dpslave/fdl/asked_addresses.hpp"
 #include "dpslave/fdl/baud_search.hpp"
 #include "dpslave/fdl/receiver.hpp"
 #include "dpslave/fdl/sap_user.hpp"
 #include "dpslave/fdl/stations.hpp"
 #include "dpslave/fdl/telegram.hpp"
+#include "dpslave/fdl/telegram_listener.hpp"
 
 #include <array>
 #include <bitset>
@@ -60,6 +60,10 @@ public:
     /// attached stays so. Call on_time() after it.
     void detach(std::uint8_t address);
 
+    /// From now on `listener` is told of each valid telegram heard, of any station. It outlives layer 2.
+    /// nullptr: nobody is told.
+    void listen(TelegramListener* listener) { listener_ = listener; }
+
     /// Octets read from the line in one go; `read_at` is taken right after the read. `more_follows`: what was
     /// read goes on in the next call, so a request at the end of these octets is not the newest thing heard.
     void on_bytes(Bytes bytes, Instant read_at, bool more_follows = false);
@@ -99,8 +103,6 @@ public:
     Baud baud() const { return baud_; }
     BaudState baud_state() const { return baud_state_; }
     const Counters& counters() const { return counters_; }
-    /// Addresses of others that are asked and do not answer.
-    AskedAddresses::List unanswered() const { return asked_.unanswered(); }
 
 private:
     /// A reply that waits for its window.
@@ -130,7 +132,7 @@ private:
 
     Receiver receiver_;
     Stations stations_;
-    AskedAddresses asked_;
+    TelegramListener* listener_ = nullptr;
 
     std::optional<Pending> pending_;
     Instant window_ended_{}; // of the reply handed out last

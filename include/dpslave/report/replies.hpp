@@ -70,6 +70,23 @@ struct Bus {
     DPSLAVE_FIELDS(port, baud, baud_state, configured_baud, port_open, driver_works, unanswered, stations,
                    exchanging, last_telegram_age_ms)
 };
+/// Of something that comes again and again.
+struct Spacing {
+    double min_ms = 0, mean_ms = 0, max_ms = 0;
+    DPSLAVE_FIELDS(min_ms, mean_ms, max_ms)
+};
+struct Member {
+    std::int64_t address = 0;
+    bool ours = false, master = false, slave = false;
+    std::string state{};
+    std::optional<std::int64_t> ident{}, asked_by{};
+    std::int64_t asked = 0, answers = 0, retries = 0, unanswered = 0;
+    std::optional<double> last_heard_age_ms{}, last_asked_age_ms{};
+    std::optional<Spacing> cycle{};
+    double load_percent = 0;
+    DPSLAVE_FIELDS(address, ours, master, slave, state, ident, asked_by, asked, answers, retries, unanswered,
+                   last_heard_age_ms, last_asked_age_ms, cycle, load_percent)
+};
 struct Info {
     std::string name{}, profile{}, device{}, order_code{}, firmware{}, manual{};
     std::int64_t ident = 0, address_active = 0;
@@ -248,6 +265,14 @@ struct GetCountersReply {
     std::vector<Distribution> turnaround{};
     std::vector<Refresh> refresh{};
     DPSLAVE_FIELDS(groups, turnaround, refresh)
+};
+struct GetBusReply {
+    std::string port{};
+    std::int64_t baud = 0;
+    std::string baud_state{};
+    double load_percent = 0;
+    std::vector<Member> members{};
+    DPSLAVE_FIELDS(port, baud, baud_state, load_percent, members)
 };
 struct GetLedsReply {
     std::vector<StationLeds> stations{};

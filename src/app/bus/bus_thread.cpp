@@ -19,6 +19,7 @@ BusThread::BusThread(const config::BusConfig& config, io::Port port, io::DriverE
       stations_(std::move(stations), link.stations, layer2_),
       link_(link)
 {
+    layer2_.listen(&members_);
     link_.baud.store(layer2_.baud(), std::memory_order_relaxed);
 }
 
@@ -38,8 +39,9 @@ void BusThread::run(const std::stop_token& stop, io::EventFd& wake)
         }
         process(octets_before(next_wake()));
         if (layer2_.next_deadline() - io::monotonic_now() < kSpin) wait_for_window();
-        send();
+        const auto reply = send();
         port_.finish_sending(); // a short reply is over before anything else could be done
+        if (reply) hear_ourselves(*reply);
         stations_.forward();
         port_.finish_sending();
         follow_rate();
@@ -114,13 +116,22 @@ void BusThread::wait_for_window()
     process(octets);
 }
 
-void BusThread::send()
+/// The reply if it was sent, until more is heard.
+std::optional<Bytes> BusThread::send()
 {
     const auto reply = layer2_.take_transmit();
-    if (!reply) return;
+    if (!reply) return std::nullopt;
     const Baud baud = layer2_.baud();
-    if (const auto written = port_.send(*reply, baud, layer2_.window_ended()))
-        count_turnaround(*written, baud);
+    const auto written = port_.send(*reply, baud, layer2_.window_ended());
+    if (!written) return std::nullopt;
+    count_turnaround(*written, baud);
+    return reply;
+}
+
+/// Our stations are on the bus like all others, but what they send is not read back.
+void BusThread::hear_ourselves(Bytes reply)
+{
+    if (const auto telegram = fdl::decode(reply)) members_.on_telegram(*telegram, io::monotonic_now());
 }
 
 /// From the read of the request's last octet to the end of the write: the newest octets heard are that
@@ -152,6 +163,10 @@ bool BusThread::may_publish(Instant now) const
 void BusThread::publish(Instant now)
 {
     if (now >= next_bus_snapshot_) publish_bus(now);
+    if (now >= next_members_) {
+        next_members_ = now + kMembersInterval;
+        link_.members.publish(members_.table());
+    }
     stations_.publish(now);
     published_until_ = now;
 }
@@ -173,7 +188,7 @@ void BusThread::publish_bus(Instant now)
                          .taken_at = now,
                          .last_telegram = layer2_.last_telegram(),
                          .counters = layer2_.counters(),
-                         .unanswered = layer2_.unanswered(),
+                         .unanswered = members_.unanswered(),
                          .turnaround_us = turnaround_us_,
                          .turnaround_tbit = turnaround_tbit_,
                          .too_late = too_late_,

@@ -9,12 +9,14 @@
 #include "station_set.hpp"
 
 #include "dpslave/config/config.hpp"
+#include "dpslave/dp/bus_members.hpp"
 #include "dpslave/fdl/layer2.hpp"
 #include "dpslave/io/epoll.hpp"
 #include "dpslave/io/event_fd.hpp"
 #include "dpslave/io/ticker.hpp"
 
 #include <memory>
+#include <optional>
 #include <stop_token>
 
 namespace dpslave::app {
@@ -36,6 +38,8 @@ private:
     static constexpr std::chrono::microseconds kLastLook{1};
     /// While a driver is to be switched off within this time nothing longer is begun.
     static constexpr std::chrono::microseconds kDriverMargin{200};
+    /// How often the view of the whole bus is passed on.
+    static constexpr std::chrono::milliseconds kMembersInterval{500};
     /// What is ready, in the epoll.
     static constexpr std::uint64_t kPortKey = 0, kWakeKey = 1, kTickKey = 2;
 
@@ -43,7 +47,8 @@ private:
     bool octets_before(Instant when);
     void process(bool octets);
     void wait_for_window();
-    void send();
+    std::optional<Bytes> send();
+    void hear_ourselves(Bytes reply);
     void count_turnaround(Instant written, Baud baud);
     void follow_rate();
     bool may_publish(Instant now) const;
@@ -56,13 +61,14 @@ private:
     BusPort port_;
     fdl::Layer2 layer2_;
     StationSet stations_;
+    dp::BusMembers members_;
     BusLink& link_;
     io::Ticker ticker_{kTick};
     bool update_due_ = true; ///< the stations are updated with each tick
     Histogram turnaround_us_;
     Histogram turnaround_tbit_;
     std::uint64_t too_late_ = 0;
-    Instant next_bus_snapshot_{};
+    Instant next_bus_snapshot_{}, next_members_{};
     bool memory_is_ready_ = false;
     Instant published_until_{}; ///< what was due by then was looked at, one station at a time
     std::uint64_t faults_at_start_ = 0;

@@ -70,6 +70,7 @@ control::Handlers ControlMethods::handlers()
         {"GetIo", each([now](const Station& station) { return io_report(station, now()); })},
         {"GetDiagnosis", each([](const Station& station) { return diagnosis_report(station); })},
         {"GetCounters", with([&monitor, now] { return counters_report(monitor.view(), now()); })},
+        {"GetBus", with([&monitor, now] { return members_report(monitor.view(), now()); })},
         {"GetLeds", each([this](const Station& station) { return leds(station); })},
         {"GetTec", [this](const Json& parameters, const Caller&) { return tec(parameters); }},
         {"Watch", [this](const Json& parameters, const Caller&) { return watch(parameters); }},

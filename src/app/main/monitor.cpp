@@ -79,6 +79,7 @@ Monitor::Choice Monitor::choose(const Json& parameters, bool one_is_needed) cons
 void Monitor::refresh()
 {
     view_.bus = bus_.snapshot.latest();
+    if (bus_.members.fresh()) view_.members = bus_.members.latest();
     view_.lost_events = lost_before_;
     for (Station& station : runtime_.stations()) {
         StationLink& link = *station.link;

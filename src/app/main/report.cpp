@@ -72,8 +72,8 @@ std::optional<report::Ride> ride_report(const Station& station, Instant now)
 std::vector<report::Unanswered> unanswered_report(const View& view, Instant now)
 {
     std::vector<report::Unanswered> all;
-    for (const fdl::UnansweredAddress& one : view.bus.unanswered)
-        if (one.requests != 0)
+    for (const dp::UnansweredAddress& one : view.bus.unanswered)
+        if (one.requests != 0 && !is_ours(view, one.address))
             all.push_back({one.address, one.master, integer(one.requests), milliseconds(now - one.last)});
     return all;
 }

@@ -49,6 +49,7 @@ private:
 struct View {
     const config::Config* config = nullptr;
     BusSnapshot bus{};
+    dp::BusMembers::Table members{};
     std::span<const Station> stations; ///< in the order of config.stations
     std::uint64_t lost_events = 0;     ///< events that no log could take
     control::ServerCounters calls{};   ///< of the control socket
@@ -56,6 +57,9 @@ struct View {
 };
 
 report::Bus bus_report(const View& view, Instant now);
+report::GetBusReply members_report(const View& view, Instant now);
+/// Whether one of our stations has this address.
+bool is_ours(const View& view, std::uint8_t address);
 report::Station station_report(const Station& station, Instant now);
 std::vector<report::Station> stations_report(const View& view, Instant now);
 /// `pending`: the address in the configuration file now, when it differs from the active one. `notes`: of

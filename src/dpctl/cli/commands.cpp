@@ -53,6 +53,8 @@ constexpr std::array kCommands = std::to_array<Command>({
      "dpctl doctor --probe    searches for a drive that never answered (root and the operator group)\n"
      "dpctl doctor --all      all rules, for lamps and symptoms that you see",
      doctor_arguments, do_doctor},
+    {"bus", kWatch, "Shows who is on the bus: masters, slaves, cycles, retries, load", "GetBus", kShows,
+     "dpctl bus            also addresses that a master asks and nobody answers", no_arguments, do_bus},
     {"metrics", kWatch, "Prints the figures for Prometheus, in its text format", kMetricsJson, kWritesFigures,
      "dpctl metrics | promtool check metrics\n"
      "dpctl metrics --write /var/lib/prometheus/node-exporter/dpslaved.prom",

@@ -63,6 +63,7 @@ int do_status(const Options&, Terminal&);
 int do_io(const Options&, Terminal&);
 int do_diag(const Options&, Terminal&);
 int do_counters(const Options&, Terminal&);
+int do_bus(const Options&, Terminal&);
 int do_version(const Options&, Terminal&);
 
 // show.cpp
