@@ -10,9 +10,10 @@ _dpctl_options()
         '') echo "$_dpctl_common --version" ;;
         doctor) echo "$_dpctl_common --all --probe --yes" ;;
         status) echo "$_dpctl_common --follow --wait --drive --quiet" ;;
-        io) echo "$_dpctl_common --follow" ;;
+        io | events) echo "$_dpctl_common --follow" ;;
         'tec set') echo "$_dpctl_common --station --yes" ;;
-        read | write) echo "$_dpctl_common --station" ;;
+        read) echo "$_dpctl_common --every --list --station" ;;
+        write) echo "$_dpctl_common --station" ;;
         metrics) echo "$_dpctl_common --write" ;;
         reload) echo "$_dpctl_common --dry-run" ;;
         survey) echo "$_dpctl_common --tags --table --for --passes --resume" ;;
@@ -32,15 +33,31 @@ _dpctl_options()
     esac
 }
 
-# Of the daemon behind the socket that the line names; nothing if it does not answer at once.
-_dpctl_stations()
+# The names in what dpctl prints with these arguments, of the daemon behind the socket that the line names; nothing if it does
+# not answer at once.
+_dpctl_names()
 {
     local i socket=()
     for ((i = 1; i < COMP_CWORD; i++)); do
         [ "${COMP_WORDS[i]}" != --socket ] || socket=(--socket "${COMP_WORDS[i + 1]}")
     done
-    dpctl "${socket[@]}" --timeout 1 --json status 2>/dev/null |
+    dpctl "${socket[@]}" --timeout 1 --json "$@" 2>/dev/null |
         grep -oE '"name": *"[^"]*"' | sed -E 's/^"name": *"(.*)"$/\1/'
+}
+
+_dpctl_stations()
+{
+    _dpctl_names status
+}
+
+# Of the tag table of the station that the line names, or of the only one.
+_dpctl_tags()
+{
+    local i station=()
+    for ((i = 1; i < COMP_CWORD; i++)); do
+        [ "${COMP_WORDS[i]}" != --station ] || station=(--station "${COMP_WORDS[i + 1]}")
+    done
+    _dpctl_names read --list "${station[@]}"
 }
 
 _dpctl_profiles()
@@ -75,12 +92,12 @@ _dpctl()
         --profile) _dpctl_offer "$cur" < <(_dpctl_profiles); return ;;
         --as) mapfile -t COMPREPLY < <(compgen -W 'prm cfg diag' -- "$cur"); return ;;
         --station) _dpctl_offer "$cur" < <(_dpctl_stations); return ;;
-        --timeout | --wait | --tags | --for | --passes | --in | --out | --in-out | --ident | --max-tsdr | --description | --model) return ;;
+        --timeout | --wait | --every | --tags | --for | --passes | --in | --out | --in-out | --ident | --max-tsdr | --description | --model) return ;;
     esac
     for ((i = 1; i < COMP_CWORD; i++)); do
         word=${COMP_WORDS[i]}
         case $word in
-            --socket | --timeout | --wait | --write | --tags | --table | --for | --passes) i=$((i + 1)) ;;
+            --socket | --timeout | --wait | --write | --every | --station | --tags | --table | --for | --passes) i=$((i + 1)) ;;
             -*) ;;
             *)
                 case "$command" in
@@ -95,8 +112,10 @@ _dpctl()
         words=$(_dpctl_options "$command")
     else
         case $command in
-            '') words='status show io diag counters doctor bus metrics read write tec survey reload tune tag hex decode gsd version' ;;
-            status | show | io | diag | doctor | survey) _dpctl_offer "$cur" < <(_dpctl_stations); return ;;
+            '') words='status show io diag counters doctor bus events metrics read write tec survey log-level reload tune tag hex decode gsd version' ;;
+            read) _dpctl_offer "$cur" < <(_dpctl_tags); return ;;
+            log-level) words='debug info' ;;
+            status | show | io | events | diag | doctor | survey) _dpctl_offer "$cur" < <(_dpctl_stations); return ;;
             tec) words='set' ;;
             'tec set') words='TYPE ADDRESS EXT_DIAGNOSTIC INT_DIAG_SELECT RIDE_THROUGH UNUSED_1' ;;
             gsd) words='check show make import diff configure types' ;;

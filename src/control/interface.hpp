@@ -27,24 +27,13 @@ struct MethodEntry {
     Right right;
 };
 inline constexpr std::array kMethods = std::to_array<MethodEntry>({
-    {"GetVersion", Right::look},
-    {"GetStatus", Right::look},
-    {"ListStations", Right::look},
-    {"GetInfo", Right::look},
-    {"GetIo", Right::look},
-    {"GetDiagnosis", Right::look},
-    {"GetCounters", Right::look},
-    {"GetBus", Right::look},
-    {"GetLeds", Right::look},
-    {"GetTec", Right::look},
-    {"Watch", Right::look},
-    {"ReadTag", Right::look},
-    {"GetSurveyScope", Right::look},
-    {"Survey", Right::operate},
-    {"WriteTag", Right::operate},
-    {"ProbeDrive", Right::operate},
-    {"SetTec", Right::operate},
-    {"Reload", Right::operate},
+    {"GetVersion", Right::look},  {"GetStatus", Right::look},      {"ListStations", Right::look},
+    {"GetInfo", Right::look},     {"GetIo", Right::look},          {"GetDiagnosis", Right::look},
+    {"GetCounters", Right::look}, {"GetBus", Right::look},         {"GetLeds", Right::look},
+    {"GetTec", Right::look},      {"Watch", Right::look},          {"GetEvents", Right::look},
+    {"FindTags", Right::look},    {"ReadTag", Right::look},        {"GetSurveyScope", Right::look},
+    {"Survey", Right::operate},   {"WriteTag", Right::operate},    {"ProbeDrive", Right::operate},
+    {"SetTec", Right::operate},   {"SetLogLevel", Right::operate}, {"Reload", Right::operate},
 });
 
 inline constexpr std::string_view kInterface = "org.dpslaved.Control";

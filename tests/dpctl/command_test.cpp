@@ -65,7 +65,8 @@ TEST_F(DpctlProgram, PrintsWhatTheRenderersMakeWithoutColourIntoAPipe)
 
 TEST_F(DpctlProgram, EndsWith0WhenAllIsFine)
 {
-    for (const char* subcommand : {"status", "show", "io", "diag", "counters", "bus", "metrics", "version"}) {
+    for (const char* subcommand :
+         {"status", "show", "io", "diag", "counters", "bus", "events", "metrics", "version"}) {
         const Ran ran = run({subcommand});
         EXPECT_EQ(ran.exit, 0) << subcommand;
         EXPECT_EQ(ran.err, "") << subcommand;
@@ -87,8 +88,8 @@ std::string executed_in(std::string_view text)
 TEST(DpctlOfAHostileReply, PrintsNothingThatATerminalExecutesAndKeepsOtherText)
 {
     const FixtureDaemon daemon{" Z\u00FCrich\x1B[2J\u009B31m\u202E\r\n"};
-    for (const char* words : {"status", "show", "io", "diag", "counters", "bus", "metrics", "version",
-                              "doctor", "reload", "read 7", "read 1"}) {
+    for (const char* words : {"status", "show", "io", "diag", "counters", "bus", "events", "metrics",
+                              "version", "doctor", "reload", "read 7", "read 1"}) {
         std::string word;
         std::vector<std::string> arguments{"--socket", daemon.socket()};
         for (std::istringstream all{words}; all >> word;) arguments.push_back(word);
@@ -131,6 +132,7 @@ INSTANTIATE_TEST_SUITE_P(EachSubcommand, DpctlJson,
                          testing::Values(JsonRow{"GetStatus", {"status"}}, JsonRow{"GetIo", {"io"}},
                                          JsonRow{"GetDiagnosis", {"diag"}},
                                          JsonRow{"GetCounters", {"counters"}}, JsonRow{"GetBus", {"bus"}},
+                                         JsonRow{"GetEvents", {"events"}},
                                          JsonRow{"ReadTag", {"read", "7", "--station", "5"}},
                                          JsonRow{"WriteTag", {"write", "7", "50", "--station", "5"}},
                                          JsonRow{"SetTec", {"tec", "set", "TYPE", "2"}},

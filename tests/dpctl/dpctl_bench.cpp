@@ -58,7 +58,8 @@ Json FixtureDaemon::reply(const std::string& method) const
 FixtureDaemon::FixtureDaemon(std::string behind_each_text)
     : behind_each_text_(std::move(behind_each_text)),
       stop_(::eventfd(0, EFD_CLOEXEC)),
-      wake_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK))
+      wake_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
+      event_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK))
 {
     control::ServerSettings settings;
     settings.socket = socket_;
@@ -66,7 +67,8 @@ FixtureDaemon::FixtureDaemon(std::string behind_each_text)
     auto server = control::Server::open(settings, handlers());
     if (!server) throw std::runtime_error(server.error());
     thread_ = std::thread([this, own = *std::move(server)]() mutable {
-        std::array<pollfd, 3> ready{{{own.fd(), POLLIN, 0}, {stop_, POLLIN, 0}, {wake_, POLLIN, 0}}};
+        std::array<pollfd, 4> ready{
+            {{own.fd(), POLLIN, 0}, {stop_, POLLIN, 0}, {wake_, POLLIN, 0}, {event_, POLLIN, 0}}};
         while (::poll(ready.data(), ready.size(), -1) > 0 && ready[1].revents == 0) {
             own.on_ready();
             for (const auto& [token, reply] : std::exchange(answers_, {})) own.complete(token, reply);
@@ -76,6 +78,7 @@ FixtureDaemon::FixtureDaemon(std::string behind_each_text)
                 for (const std::uint64_t stream : own.streams()) own.push(stream, picture);
             }
             eventfd_t woken = 0;
+            if (::eventfd_read(event_, &woken) == 0) push_events(own);
             if (::eventfd_read(wake_, &woken) == 0) {
                 Json picture = reply("Watch");
                 picture["stations"][0]["state"] = "Wait_Prm";
@@ -92,6 +95,31 @@ FixtureDaemon::~FixtureDaemon()
     thread_.join();
     ::close(stop_);
     ::close(wake_);
+    ::close(event_);
+}
+
+void FixtureDaemon::something_happens()
+{
+    ::eventfd_write(event_, 1);
+}
+
+void FixtureDaemon::push_events(control::Server& server)
+{
+    const Json event = {{"number", 4},
+                        {"age_ms", 1.0},
+                        {"station", "unwinder"},
+                        {"kind", "drive"},
+                        {"text", "unwinder: the drive does not answer"},
+                        {"count", 1}};
+    for (const std::uint64_t stream : events_followed_)
+        server.push(stream, {{"events", Json::array({event})}, {"lost", 0}, {"newest", 4}});
+}
+
+bool FixtureDaemon::was_read(std::size_t times)
+{
+    std::unique_lock lock(mutex_);
+    return asked_.wait_for(lock, std::chrono::milliseconds{kDpctlPatience},
+                           [&] { return read_.size() >= times; });
 }
 
 void FixtureDaemon::set_state(const std::string& station, const std::string& state)
@@ -130,7 +158,27 @@ control::Handlers FixtureDaemon::handlers()
             return Error{"NoSuchStation", Json::object({{"station", station}, {"known", known}})};
         };
     }
-    all["ReadTag"] = [this](const Json& parameters, const control::Caller&) { return tag(parameters); };
+    all["ReadTag"] = [this](const Json& parameters, const control::Caller&) {
+        if (parameters.contains("station")) {
+            const std::lock_guard lock(mutex_);
+            read_.push_back(parameters.at("tag").get<int>());
+        }
+        asked_.notify_all();
+        return tag(parameters);
+    };
+    all["FindTags"] = [](const Json& parameters, const control::Caller&) { return find_tags(parameters); };
+    all["GetEvents"] = [this](const Json&, const control::Caller& caller) -> Reply {
+        if (!caller.more) return Done{reply("GetEvents")};
+        events_followed_.push_back(++last_number_);
+        return control::Stream{last_number_, reply("GetEvents")};
+    };
+    all["SetLogLevel"] = [this](const Json& parameters, const control::Caller&) -> Reply {
+        {
+            const std::lock_guard lock(mutex_);
+            written_ = parameters;
+        }
+        return Done{reply("SetLogLevel")};
+    };
     all["WriteTag"] = [this](const Json& parameters, const control::Caller&) {
         {
             const std::lock_guard lock(mutex_);
@@ -178,6 +226,21 @@ Reply FixtureDaemon::survey(const Json& parameters)
     if (found != texts.end() && !lost) reply["text"] = found->second;
     if (reply["outcome"] == "denied") reply["reason"] = "invalid tag";
     return Done{reply};
+}
+
+/// As the daemon does: a part of the name in any case, or the whole name alone.
+Reply FixtureDaemon::find_tags(const Json& parameters)
+{
+    const std::map<std::string, std::vector<int>> found{{"", {7, 8, 9}},
+                                                        {"SPEED FEEDBACK", {7}},
+                                                        {"speed feedback", {7}},
+                                                        {"feedback", {7}},
+                                                        {"speed", {7, 8}}};
+    const std::map<int, const char*> names{{7, "SPEED FEEDBACK"}, {8, "SPEED DEMAND"}, {9, "TORQUE"}};
+    Json tags = Json::array();
+    if (const auto one = found.find(parameters.value("name", "")); one != found.end())
+        for (const int number : one->second) tags.push_back({{"tag", number}, {"name", names.at(number)}});
+    return Done{{{"station", "unwinder"}, {"tags", std::move(tags)}}};
 }
 
 Reply FixtureDaemon::tag(const Json& parameters)

@@ -18,7 +18,8 @@ namespace dpslave::test {
 /// is read only, tag 2 never gets an answer. FAULT of
 /// TEC OPTION cannot be set. A survey of tags 1 to 5 and 9 finds 12.5, no such tag, silence, >1B0B, 30.
 /// and 7.; tag 5 is Busy and then lost before it answers. Watch gives a first picture at once and a second
-/// one, in which the unwinder has left Data_Exch, as soon as a client watches.
+/// one, in which the unwinder has left Data_Exch, as soon as a client watches. FindTags knows 7 SPEED
+/// FEEDBACK, 8 SPEED DEMAND and 9 TORQUE.
 class FixtureDaemon {
 public:
     /// `behind_each_text`: is added to each text of each reply.
@@ -34,7 +35,17 @@ public:
     bool was_asked(const std::string& method);
     /// All who watch get a picture in which the value of tag 7 is 51.00.
     void change_value();
-    /// The parameters of the last WriteTag or SetTec.
+    /// All who follow the events get a new one: the drive of the unwinder does not answer.
+    void something_happens();
+    /// The tags of each ReadTag, in their order.
+    std::vector<int> read() const
+    {
+        const std::lock_guard lock(mutex_);
+        return read_;
+    }
+    /// Waits until ReadTag was called so often. False: it was not for long.
+    bool was_read(std::size_t times);
+    /// The parameters of the last WriteTag, SetTec or SetLogLevel.
     Json written() const
     {
         const std::lock_guard lock(mutex_);
@@ -44,6 +55,8 @@ public:
 private:
     control::Handlers handlers();
     control::Reply tag(const Json& parameters);
+    static control::Reply find_tags(const Json& parameters);
+    void push_events(control::Server& server);
     Json reply(const std::string& method) const;
     control::Reply survey(const Json& parameters);
 
@@ -57,9 +70,11 @@ private:
     mutable std::mutex mutex_;
     std::condition_variable asked_;
     std::set<std::string> questions_;
-    std::map<std::string, std::string> states_; ///< by station
+    std::vector<int> read_;
+    std::vector<std::uint64_t> events_followed_; ///< streams; only the thread's
+    std::map<std::string, std::string> states_;  ///< by station
     Json written_;
-    int stop_, wake_;
+    int stop_, wake_, event_;
     std::thread thread_;
 };
 

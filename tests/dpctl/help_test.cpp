@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <string_view>
 #include <utility>
 
@@ -30,13 +31,14 @@ INSTANTIATE_TEST_SUITE_P(
         std::vector<std::string>{}, std::vector<std::string>{"explode"},
         std::vector<std::string>{"status", "--loud"}, std::vector<std::string>{"counters", "extra"},
         std::vector<std::string>{"status", "5", "6"}, std::vector<std::string>{"read"},
-        std::vector<std::string>{"read", "speed"}, std::vector<std::string>{"read", "-1"},
-        std::vector<std::string>{"read", "65536"}, std::vector<std::string>{"read", "7", "8"},
-        std::vector<std::string>{"write", "56"}, std::vector<std::string>{"write", "56", "1", "2"},
-        std::vector<std::string>{"tec"}, std::vector<std::string>{"tec", "set", "TYPE"},
-        std::vector<std::string>{"tec", "5"}, std::vector<std::string>{"hex"},
-        std::vector<std::string>{"status", "--quiet"}, std::vector<std::string>{"status", "--drive"},
-        std::vector<std::string>{"status", "--wait"}, std::vector<std::string>{"status", "--wait", "-1"},
+        std::vector<std::string>{"read", "-1"}, std::vector<std::string>{"read", "65536"},
+        std::vector<std::string>{"read", "--every", "1ms", "7"},
+        std::vector<std::string>{"read", "--every", "1s", "--list"}, std::vector<std::string>{"write", "56"},
+        std::vector<std::string>{"write", "56", "1", "2"}, std::vector<std::string>{"tec"},
+        std::vector<std::string>{"tec", "set", "TYPE"}, std::vector<std::string>{"tec", "5"},
+        std::vector<std::string>{"hex"}, std::vector<std::string>{"status", "--quiet"},
+        std::vector<std::string>{"status", "--drive"}, std::vector<std::string>{"status", "--wait"},
+        std::vector<std::string>{"status", "--wait", "-1"},
         std::vector<std::string>{"status", "--wait", "1", "--follow"}, std::vector<std::string>{"decode"},
         std::vector<std::string>{"tag", "7", "--table", "x.csv", "--profile", "590"},
         std::vector<std::string>{"status", "--timeout", "0"},
@@ -89,10 +91,11 @@ TEST(DpctlHelp, HasACommandOfEachKindUnderItsHeading)
     const std::string all = dpctl({"--help"}).out;
     std::size_t at = 0;
     for (const char* line :
-         {"\nLook:\n",   "\n  status ", "\n  show ",   "\n  io ",      "\n  diag ",    "\n  counters ",
-          "\n  doctor ", "\nWatch:\n",  "\n  bus ",    "\n  metrics ", "\nOperate:\n", "\n  read ",
-          "\n  write ",  "\n  tec ",    "\n  survey ", "\n  reload ",  "\n  tune ",    "\nOffline:\n",
-          "\n  tag ",    "\n  hex ",    "\n  decode ", "\n  gsd ",     "\nVersion:\n", "\n  version "}) {
+         {"\nLook:\n",    "\n  status ",  "\n  show ", "\n  io ",     "\n  diag ",      "\n  counters ",
+          "\n  doctor ",  "\nWatch:\n",   "\n  bus ",  "\n  events ", "\n  metrics ",   "\nOperate:\n",
+          "\n  read ",    "\n  write ",   "\n  tec ",  "\n  survey ", "\n  log-level ", "\n  reload ",
+          "\n  tune ",    "\nOffline:\n", "\n  tag ",  "\n  hex ",    "\n  decode ",    "\n  gsd ",
+          "\nVersion:\n", "\n  version "}) {
         const std::size_t found = all.find(line, at > 0 ? at - 1 : 0);
         ASSERT_NE(found, std::string::npos) << line;
         at = found + std::string_view{line}.size();
@@ -120,8 +123,13 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair{"status", "0 success, with --wait: in exchange; 1 refused or faulty, with --wait: not in "
                             "exchange;\n2 wrong usage or no such station; 3 no daemon."},
         std::pair{"show", kShows}, std::pair{"io", kShows}, std::pair{"diag", kShows},
-        std::pair{"counters", kShows}, std::pair{"bus", kShows}, std::pair{"read", kShows},
-        std::pair{"write", kShows}, std::pair{"tec", kShows},
+        std::pair{"counters", kShows}, std::pair{"bus", kShows}, std::pair{"write", kShows},
+        std::pair{"events", kShows},
+        std::pair{"read",
+                  "0 success, with --every: Ctrl-C; 1 refused or faulty; 2 wrong usage, no such station or "
+                  "no such tag; 3 no daemon."},
+        std::pair{"log-level", "0 success, 1 refused or faulty, 2 wrong usage, 3 no daemon."},
+        std::pair{"tec", kShows},
         std::pair{"doctor",
                   "0 all is well, 1 something was found, 2 wrong usage or no such station, 3 no daemon."},
         std::pair{
@@ -136,7 +144,11 @@ INSTANTIATE_TEST_SUITE_P(
                   "0 success, also without a daemon; 1 a faulty answer; 2 wrong usage; 3 this user may not "
                   "open the socket."},
         std::pair{"tag", kNeedsNone}, std::pair{"hex", kNeedsNone}, std::pair{"decode", kNeedsNone}),
-    [](const auto& row) { return std::string{row.param.first}; });
+    [](const auto& row) {
+        std::string name{row.param.first};
+        std::replace(name.begin(), name.end(), '-', '_');
+        return name;
+    });
 
 TEST(DpctlHelp, ShowsTheFormOfJsonAndExamplesWhereNoDaemonIsNeeded)
 {

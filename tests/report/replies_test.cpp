@@ -85,18 +85,19 @@ TEST(Replies, HaveAStructForEachTypeOfTheInterfaceWithItsFields)
 {
     EXPECT_EQ((described<Led, StationLeds, Drive, Ride, Station, Unanswered, Bus, Info, TecRow, Tec, Word,
                          Demand, StationIo, StationWords, DiagOctet, Refusal, Unscaled, RefusedTag, Diagnosis,
-                         Counter, CounterGroup, DistributionClass, Distribution, Refresh, TagSpan, Answering,
-                         LeavingStation, Member, Spacing>()),
+                         Counter, CounterGroup, DistributionClass, Distribution, Refresh, Log, Event,
+                         NamedTag, TagSpan, Answering, LeavingStation, Member, Spacing>()),
               test::control_varlink().types);
 }
 
 TEST(Replies, HaveAStructForEachMethodOfTheInterface)
 {
-    EXPECT_EQ((described<GetVersionReply, GetStatusReply, ListStationsReply, GetInfoReply, GetIoReply,
-                         GetDiagnosisReply, GetCountersReply, GetBusReply, GetLedsReply, GetTecReply,
-                         WatchReply, ReadTagReply, GetSurveyScopeReply, SurveyReply, WriteTagReply,
-                         ProbeDriveReply, SetTecReply, ReloadReply>("Reply")),
-              test::control_varlink().outputs);
+    EXPECT_EQ(
+        (described<GetVersionReply, GetStatusReply, ListStationsReply, GetInfoReply, GetIoReply,
+                   GetDiagnosisReply, GetCountersReply, GetBusReply, GetLedsReply, GetTecReply, WatchReply,
+                   GetEventsReply, FindTagsReply, ReadTagReply, GetSurveyScopeReply, SurveyReply,
+                   WriteTagReply, ProbeDriveReply, SetTecReply, SetLogLevelReply, ReloadReply>("Reply")),
+        test::control_varlink().outputs);
 }
 
 TEST(Replies, HaveAStructForEachErrorThatHasParameters)
@@ -106,7 +107,7 @@ TEST(Replies, HaveAStructForEachErrorThatHasParameters)
     ASSERT_EQ(errors.erase("ReadOnly"), 1U);
 
     EXPECT_EQ((described<NoSuchStation, StationRequired, NotPermitted, DriveRefused, BadValue, NoTecOption,
-                         BadTecValue, LineInUse, WouldSilence>()),
+                         BadTecValue, BadLogLevel, LineInUse, WouldSilence>()),
               errors);
 }
 

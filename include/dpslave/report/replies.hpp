@@ -227,6 +227,24 @@ struct Answering {
     std::string format{}, unit{};
     DPSLAVE_FIELDS(protocol, baud, format, unit)
 };
+struct Log {
+    std::string level{};
+    std::optional<double> ends_in_ms{};
+    DPSLAVE_FIELDS(level, ends_in_ms)
+};
+struct Event {
+    std::int64_t number = 0;
+    double age_ms = 0;
+    std::optional<std::string> station{};
+    std::string kind{}, text{};
+    std::int64_t count = 0;
+    DPSLAVE_FIELDS(number, age_ms, station, kind, text, count)
+};
+struct NamedTag {
+    std::int64_t tag = 0;
+    std::string name{};
+    DPSLAVE_FIELDS(tag, name)
+};
 struct LeavingStation {
     std::string station{}, reason{};
     DPSLAVE_FIELDS(station, reason)
@@ -242,7 +260,8 @@ struct GetStatusReply {
     Bus bus{};
     std::vector<Station> stations{};
     std::int64_t uptime_ms = 0, pid = 0;
-    DPSLAVE_FIELDS(bus, stations, uptime_ms, pid)
+    Log log{};
+    DPSLAVE_FIELDS(bus, stations, uptime_ms, pid, log)
 };
 struct ListStationsReply {
     std::vector<Station> stations{};
@@ -287,6 +306,20 @@ struct WatchReply {
     std::vector<Station> stations{};
     std::vector<StationWords> words{};
     DPSLAVE_FIELDS(bus, stations, words)
+};
+struct GetEventsReply {
+    std::vector<Event> events{};
+    std::int64_t lost = 0, newest = 0;
+    DPSLAVE_FIELDS(events, lost, newest)
+};
+struct FindTagsReply {
+    std::string station{};
+    std::vector<NamedTag> tags{};
+    DPSLAVE_FIELDS(station, tags)
+};
+struct SetLogLevelReply {
+    Log log{};
+    DPSLAVE_FIELDS(log)
 };
 struct ReadTagReply {
     std::string station{};
@@ -372,6 +405,10 @@ struct NoTecOption {
 struct BadTecValue {
     std::string parameter{}, value{}, reason{};
     DPSLAVE_FIELDS(parameter, value, reason)
+};
+struct BadLogLevel {
+    std::string level{}, reason{};
+    DPSLAVE_FIELDS(level, reason)
 };
 struct LineInUse {
     std::string line{};

@@ -4,7 +4,9 @@
 #include "probe_run.hpp"
 
 #include "dpslave/io/clock.hpp"
+#include "dpslave/report/words.hpp"
 
+#include <fmt/format.h>
 #include <poll.h>
 #include <spdlog/spdlog.h>
 
@@ -21,6 +23,26 @@ namespace {
 bool is_refusal(AccessError error)
 {
     return error != AccessError::none && error != AccessError::no_answer && error != AccessError::deferred;
+}
+
+/// At level debug each request to a drive is a line of the log.
+void log_transaction(const std::string& line, const LineUnit& unit, const drive::Transaction& transaction,
+                     const drive::Outcome& outcome)
+{
+    if (!spdlog::should_log(spdlog::level::debug)) return;
+    using Kind = drive::Transaction::Kind;
+    const char* const kind = transaction.kind == Kind::read    ? "read"
+                             : transaction.kind == Kind::write ? "write"
+                                                               : "look for the drive";
+    std::string what = transaction.tag == nullptr ? std::string{}
+                       : transaction.count == 1
+                           ? fmt::format(" tag {}", transaction.tag->number)
+                           : fmt::format(" {} tags from {}", transaction.count, transaction.tag->number);
+    const auto words = transaction.kind == Kind::write ? transaction.words : outcome.words;
+    if (outcome.error == AccessError::none || transaction.kind == Kind::write)
+        for (const std::uint16_t word : words) what += fmt::format(" {:04X}", word);
+    spdlog::debug("line {}, {}: {}{}: {}", line, unit.config->name, kind, what,
+                  outcome.error == AccessError::none ? "done" : report::text(outcome.error));
 }
 
 template <class Units>
@@ -95,6 +117,7 @@ void DriveThread::carry_out(const drive::Transaction& transaction)
     const drive::Outcome outcome = port_.open(line_)
                                        ? exchange_with(unit, transaction)
                                        : drive::Outcome{.error = AccessError::no_answer, .words = {}};
+    log_transaction(line_.name, unit, transaction, outcome);
     poller_.done(outcome, io::monotonic_now());
 }
 

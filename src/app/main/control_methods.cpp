@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control_methods.hpp"
 
+#include "app/watch/tag_names.hpp"
 #include "device_state.hpp"
 
 #include "dpslave/app/version.hpp"
@@ -30,9 +31,33 @@ std::string input_value(const DeviceState& device, const std::string& parameter)
     return {};
 }
 
+constexpr std::size_t kMostFoundTags = 2000;
+constexpr std::int64_t kUsualDebug_s = 600, kLongestDebug_s = 86'400;
+
+report::FindTagsReply found_tags(const Station& station, const std::string& name)
+{
+    report::FindTagsReply result{station.config->name, {}};
+    for (const drive::Tag* tag : tags_called(*station.config->tags, name))
+        if (result.tags.size() < kMostFoundTags) result.tags.push_back({tag->number, tag->name});
+    return result;
+}
+
 } // namespace
 
+/// At level debug each call is a line of the log.
 control::Handlers ControlMethods::handlers()
+{
+    control::Handlers all = all_handlers();
+    for (auto& [name, handler] : all)
+        handler = [name = name, inner = std::move(handler)](const Json& parameters, const Caller& caller) {
+            if (spdlog::should_log(spdlog::level::debug))
+                spdlog::debug("control socket: {} of {}", name, words_of(caller));
+            return inner(parameters, caller);
+        };
+    return all;
+}
+
+control::Handlers ControlMethods::all_handlers()
 {
     const auto with = [](auto method) {
         return [method](const Json&, const Caller&) -> Reply { return Done{json_of(method())}; };
@@ -77,6 +102,13 @@ control::Handlers ControlMethods::handlers()
         {"ProbeDrive", one([this](const Station& station, const Json& parameters, const Caller& caller) {
              return parts_.probes.start(station, parameters, caller);
          })},
+        {"GetEvents", [this](const Json& parameters,
+                             const Caller& caller) { return parts_.event_streams.add(parameters, caller); }},
+        {"FindTags", one([](const Station& station, const Json& parameters, const Caller&) -> Reply {
+             return Done{json_of(found_tags(station, parameters.value("name", std::string{})))};
+         })},
+        {"SetLogLevel",
+         [this](const Json& parameters, const Caller& caller) { return set_log_level(parameters, caller); }},
         {"ReadTag", one([this](const Station& station, const Json& parameters, const Caller& caller) {
              return parts_.accesses.read(station, parameters, caller);
          })},
@@ -104,7 +136,39 @@ report::GetStatusReply ControlMethods::status() const
     const Instant now = io::monotonic_now();
     const View& view = parts_.monitor.view();
     return {bus_report(view, now), stations_report(view, now),
-            std::chrono::duration_cast<std::chrono::milliseconds>(now - started_).count(), ::getpid()};
+            std::chrono::duration_cast<std::chrono::milliseconds>(now - started_).count(), ::getpid(),
+            log(now)};
+}
+
+report::Log ControlMethods::log(Instant now) const
+{
+    const auto ends = parts_.log_level.ends();
+    if (!ends) return {"info", std::nullopt};
+    return {"debug", std::chrono::duration<double, std::milli>(*ends - now).count()};
+}
+
+Reply ControlMethods::set_log_level(const Json& parameters, const Caller& caller)
+{
+    const auto level = parameters["level"].get<std::string>();
+    const std::int64_t seconds = parameters.value("seconds", kUsualDebug_s);
+    const auto refused = [&level](const char* reason) {
+        return Error{"BadLogLevel", {{"level", level}, {"reason", reason}}};
+    };
+    const bool is_debug = level == "debug";
+    if (!is_debug && level != "info") return refused("it is debug or info");
+    if (is_debug && (seconds < 1 || seconds > kLongestDebug_s)) return refused("for 1 s to 24 h");
+    const Instant now = io::monotonic_now();
+    if (is_debug)
+        parts_.log_level.set_debug(now + std::chrono::seconds{seconds});
+    else
+        parts_.log_level.set_info();
+    spdlog::default_logger()->set_level(is_debug ? spdlog::level::debug : spdlog::level::info);
+    const std::string text =
+        fmt::format("level of the log set to {}{} by {}", level,
+                    is_debug ? fmt::format(" for {} s", seconds) : std::string{}, words_of(caller));
+    spdlog::info("{}", text);
+    parts_.events.add(Happened::setting, {}, text, now);
+    return Done{json_of(report::SetLogLevelReply{log(now)})};
 }
 
 report::Info ControlMethods::info(const Station& station) const
@@ -169,8 +233,10 @@ Reply ControlMethods::set_tec(const Station& station, const Json& parameters, co
                       {"reason", fmt::format("FAULT would be {}", dpslave::text(*fault))}}};
     const std::string before = input_value(device, parameter);
     if (const auto reason = device.set(parameter, value)) return refused(*reason);
-    spdlog::info("{}: {} set to {} by {}, before {}", name, parameter, input_value(device, parameter),
-                 words_of(caller), before);
+    const std::string text = fmt::format("{}: {} set to {} by {}, before {}", name, parameter,
+                                         input_value(device, parameter), words_of(caller), before);
+    spdlog::info("{}", text);
+    parts_.events.add(Happened::setting, name, text, io::monotonic_now());
     parts_.monitor.update_device(station);
     return Done{json_of(report::SetTecReply{{tec_report(name, device)}})};
 }

@@ -2,6 +2,8 @@
 /// The methods of org.dpslaved.Control: which one is answered by what. Main thread only.
 #pragma once
 
+#include "app/watch/event_streams.hpp"
+#include "app/watch/log_level.hpp"
 #include "lamps.hpp"
 #include "pending_accesses.hpp"
 #include "pending_probes.hpp"
@@ -21,6 +23,9 @@ public:
         PendingProbes& probes;
         Watchers& watchers;
         Reload& reload;
+        EventHistory& events;
+        EventStreams& event_streams;
+        LogLevel& log_level;
     };
     /// `started`: of the program.
     ControlMethods(const Parts& parts, Instant started) : parts_(parts), started_(started) {}
@@ -32,6 +37,9 @@ private:
     report::GetStatusReply status() const;
     report::Info info(const Station& station) const;
     report::StationLeds leds(const Station& station) const;
+    control::Handlers all_handlers();
+    report::Log log(Instant now) const;
+    control::Reply set_log_level(const control::Json& parameters, const control::Caller& caller);
     control::Reply watch(const control::Json& parameters);
     control::Reply tec(const control::Json& parameters) const;
     control::Reply set_tec(const Station& station, const control::Json& parameters,

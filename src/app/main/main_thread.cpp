@@ -34,8 +34,11 @@ MainThread::MainThread(config::Config config, const std::filesystem::path& profi
       signals_(signals),
       monitor_(std::move(config), runtime, bus),
       file_(monitor_.config(), profiles, io::monotonic_now()),
-      methods_({monitor_, lamps_, file_, accesses_, probes_, watchers_, reload_}, io::monotonic_now())
+      methods_({monitor_, lamps_, file_, accesses_, probes_, watchers_, reload_, events_, event_streams_,
+                log_level_},
+               io::monotonic_now())
 {
+    events_.add(Happened::daemon, {}, fmt::format("dpslaved {} started", kVersion), io::monotonic_now());
     for (const std::string& warning : lamps_.exchange(monitor_.config())) spdlog::warn("{}", warning);
 }
 
@@ -132,6 +135,8 @@ void MainThread::tick(Instant now)
     accesses_.answer();
     probes_.answer();
     watchers_.push(now);
+    event_streams_.push(now);
+    let_log_level_end(now);
     file_.on_time(now);
     feed_watchdog(now);
     if (std::string line = status_line(monitor_.view()); line != status_sent_) {
@@ -160,9 +165,12 @@ void MainThread::log_news()
     for (const Station& station : runtime_.stations()) log_events(station);
     log_port_events();
     for (const Station& station : runtime_.stations())
-        for (const Sentence& news : station.device->take_news())
+        for (const Sentence& news : station.device->take_news()) {
             log_.say(news.is_warning ? LimitedLog::Level::warning : LimitedLog::Level::info, news.text,
                      io::monotonic_now());
+            events_.add(Happened::device, station.config->name, news.text, io::monotonic_now());
+        }
+    drive_news_.look(runtime_.stations(), events_, io::monotonic_now());
     log_.on_time(io::monotonic_now());
 }
 
@@ -177,8 +185,12 @@ void MainThread::log_events(const Station& station)
             fmt::format("{}/{}/{}/{}/{}/{}", station.number, static_cast<int>(event->kind),
                         static_cast<int>(event->state), static_cast<int>(event->reason), event->master,
                         static_cast<int>(event->refusal.why));
-        log_.say(is_warning ? LimitedLog::Level::warning : LimitedLog::Level::info, key,
-                 report::sentence(station.config->name, *event), io::monotonic_now());
+        const std::string text = report::sentence(station.config->name, *event);
+        log_.say(is_warning ? LimitedLog::Level::warning : LimitedLog::Level::info, key, text,
+                 io::monotonic_now());
+        const bool is_refusal = event->kind == Kind::refused || event->kind == Kind::foreign_set_prm;
+        events_.add(is_refusal ? Happened::refused : Happened::state, station.config->name, text, key,
+                    io::monotonic_now());
     }
 }
 
@@ -187,6 +199,7 @@ void MainThread::log_port_events()
     using Level = LimitedLog::Level;
     const std::string& port = monitor_.config().bus.port;
     const auto say = [&](Level level, std::string text) {
+        events_.add(Happened::port, {}, text, io::monotonic_now());
         log_.say(level, std::move(text), io::monotonic_now());
     };
     while (const auto news = bus_.port_events.pop()) {
@@ -217,6 +230,14 @@ void MainThread::log_port_events()
         say(Level::error, "the driver enable of " + port +
                               " was active for longer than any telegram takes, and was made inactive: the "
                               "bus thread was late; run `dpctl tune`");
+}
+
+void MainThread::let_log_level_end(Instant now)
+{
+    if (!log_level_.falls_back(now)) return;
+    spdlog::default_logger()->set_level(spdlog::level::info);
+    spdlog::info("level of the log: info again");
+    events_.add(Happened::setting, {}, "level of the log: info again", now);
 }
 
 void MainThread::feed_watchdog(Instant now)

@@ -5,6 +5,7 @@
 
 #include "app/bus/driver_guard.hpp"
 #include "app/limited_log.hpp"
+#include "app/watch/drive_news.hpp"
 #include "control_methods.hpp"
 
 #include "dpslave/io/epoll.hpp"
@@ -35,6 +36,7 @@ private:
     void log_news();
     void log_events(const Station& station);
     void log_port_events();
+    void let_log_level_end(Instant now);
     void feed_watchdog(Instant now);
     bool is_end_signalled();
 
@@ -50,10 +52,14 @@ private:
     Monitor monitor_;
     ConfigFile file_;
     Replies replies_; ///< its server uses methods_, and serves in run() only
-    PendingAccesses accesses_{monitor_, runtime_, replies_};
+    EventHistory events_;
+    EventStreams event_streams_{monitor_, events_, replies_};
+    DriveNews drive_news_;
+    LogLevel log_level_;
+    PendingAccesses accesses_{monitor_, runtime_, replies_, events_};
     PendingProbes probes_{monitor_, runtime_, replies_};
     Watchers watchers_{monitor_, replies_};
-    Reload reload_{{file_, monitor_, runtime_, bus_, lamps_, accesses_, replies_, notifier_}};
+    Reload reload_{{file_, monitor_, runtime_, bus_, lamps_, accesses_, replies_, notifier_, events_}};
     ControlMethods methods_;
 
     std::string status_sent_;        ///< to systemd

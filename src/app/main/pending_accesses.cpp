@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pending_accesses.hpp"
 
+#include "dpslave/io/clock.hpp"
 #include "dpslave/profile/survey.hpp"
 #include "dpslave/report/words.hpp"
 
@@ -185,14 +186,17 @@ Reply PendingAccesses::survey_scope(const Station& station) const
 }
 
 /// One line for each write: caller, value and outcome.
-void PendingAccesses::log_write(const Access& access, std::string_view outcome)
+void PendingAccesses::log_write(const Access& access, std::string_view outcome) const
 {
     const config::StationConfig& station = *access.config;
     const drive::Tag* row = station.tags->find(access.tag);
-    spdlog::info("{}: tag {}{}{} set to {} by {}, before {}: {}", station.name, access.tag,
-                 row != nullptr && !row->name.empty() ? " " : "", row != nullptr ? row->name : "",
-                 shown_value(*station.tags, access.tag, access.word), words_of(access.caller),
-                 access.before.value_or("not known"), outcome);
+    const std::string text =
+        fmt::format("{}: tag {}{}{} set to {} by {}, before {}: {}", station.name, access.tag,
+                    row != nullptr && !row->name.empty() ? " " : "", row != nullptr ? row->name : "",
+                    shown_value(*station.tags, access.tag, access.word), words_of(access.caller),
+                    access.before.value_or("not known"), outcome);
+    spdlog::info("{}", text);
+    events_.add(Happened::write, station.name, text, io::monotonic_now());
 }
 
 void PendingAccesses::log_unanswered() const

@@ -2,6 +2,7 @@
 /// Reads, writes and surveys of a tag that wait for the answer of a drive. Main thread only.
 #pragma once
 
+#include "app/watch/event_history.hpp"
 #include "monitor.hpp"
 #include "replies.hpp"
 
@@ -12,8 +13,8 @@ namespace dpslave::app {
 class PendingAccesses {
 public:
     /// All outlive this object.
-    PendingAccesses(const Monitor& monitor, const Runtime& runtime, Replies& replies)
-        : monitor_(monitor), runtime_(runtime), replies_(replies)
+    PendingAccesses(const Monitor& monitor, const Runtime& runtime, Replies& replies, EventHistory& events)
+        : monitor_(monitor), runtime_(runtime), replies_(replies), events_(events)
     {}
 
     // The methods ReadTag, WriteTag, GetSurveyScope and Survey.
@@ -50,11 +51,12 @@ private:
     bool has_place_for(const control::Caller& caller) const;
     control::Reply reply(const Access& access, const drive::OperateAnswer& answer) const;
     control::Reply survey_reply(const Access& access, const drive::OperateAnswer& answer) const;
-    static void log_write(const Access& access, std::string_view outcome);
+    void log_write(const Access& access, std::string_view outcome) const;
 
     const Monitor& monitor_;
     const Runtime& runtime_;
     Replies& replies_;
+    EventHistory& events_;
     std::map<std::uint32_t, Access> pending_; ///< by the number of the order
 };
 

@@ -81,7 +81,21 @@ void Reload::start()
     if (!outcome_.applied) spdlog::error("the new configuration is refused; the old one stays in use");
     if (outcome_.applied && outcome_.changes.empty() && outcome_.pending.empty())
         spdlog::info("nothing has changed");
+    record();
     if (step_ == Step::idle) answer();
+}
+
+/// What came of it, for `dpctl events`: one event for each change, or for each fault.
+void Reload::record() const
+{
+    const Instant now = io::monotonic_now();
+    const auto add = [&](const std::string& before, const std::vector<std::string>& sentences) {
+        for (const std::string& one : sentences) parts_.events.add(Happened::reload, {}, before + one, now);
+    };
+    if (!outcome_.applied) return add("reload refused: ", outcome_.faults);
+    add("reload: ", outcome_.changes);
+    add("reload, pending: ", outcome_.pending);
+    if (outcome_.changes.empty() && outcome_.pending.empty()) add("reload: ", {"nothing has changed"});
 }
 
 /// What the masters use now, as far as a value of it was ever on the bus or in the drive.

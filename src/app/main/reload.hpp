@@ -23,6 +23,7 @@ public:
         PendingAccesses& accesses;
         Replies& replies;
         io::Notifier& notifier;
+        EventHistory& events;
     };
     explicit Reload(const Parts& parts) : parts_(parts) {}
 
@@ -62,6 +63,7 @@ private:
     std::optional<std::string> apply(Plan plan);
     std::vector<InForce> in_force() const;
     bool bus_has_taken();
+    void record() const;
     void answer();
 
     Parts parts_;

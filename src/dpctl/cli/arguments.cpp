@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "arguments.hpp"
 
+#include "dpctl/live/tag_names.hpp"
+
 #include "dpslave/profile/survey.hpp"
 #include "dpslave/toml/wording.hpp"
 
@@ -27,6 +29,23 @@ void profile_options(CLI::App& app, Options& options, const char* what_profile_d
                    "Folder of the device profiles; the tag tables are in ../tags")
         ->type_name("DIR")
         ->capture_default_str();
+}
+
+/// Empty: `text` is a time as parse_duration() reads it.
+std::string duration_fault(const std::string& text)
+{
+    return profile::parse_duration(text)
+               ? std::string{}
+               : toml::in_quotes(text) + ": write a time up to 30 days, such as 90s, 10m or 2h";
+}
+
+/// Empty: `text` is the number of a tag, or may be a name.
+std::string tag_fault(const std::string& text)
+{
+    const bool is_number = text.find_first_not_of("0123456789") == std::string::npos;
+    const bool is_name = !is_number && !text.starts_with('-');
+    if (is_name || (is_number && !text.empty() && text.size() <= 5 && std::stoi(text) <= 65535)) return {};
+    return toml::in_quotes(text) + ": write a tag from 0 to 65535, or a name";
 }
 
 } // namespace
@@ -76,18 +95,42 @@ void io_arguments(CLI::App& app, Options& options)
     follow_flag(app, options);
 }
 
-void tag_argument(CLI::App& app, Options& options)
+void read_arguments(CLI::App& app, Options& options)
+{
+    app.add_option("TAG", options.words, "Tags of the drive: numbers (0 to 65535), or names or parts of them")
+        ->type_name("")
+        ->check(tag_fault);
+    auto* every =
+        app.add_option("--every", options.every, "Read again and again, until Ctrl-C: 500ms, 1s, 10m")
+            ->type_name("TIME")
+            ->check([](const std::string& text) {
+                return parse_interval(text)
+                           ? std::string{}
+                           : toml::in_quotes(text) + ": write a time from 100ms, such as 500ms, 1s or 10m";
+            });
+    app.add_flag("--list", options.list, "Print the tags and their names; with TAG only those that fit")
+        ->excludes(every);
+    station_option(app, options);
+}
+
+void log_level_arguments(CLI::App& app, Options& options)
+{
+    auto* level = app.add_option("LEVEL", options.level, "debug or info; without it: which one it is")
+                      ->type_name("")
+                      ->check(CLI::IsMember({"debug", "info"}).description(""));
+    app.add_option("TIME", options.duration, "With debug: until it is info again: 90s, 10m, 2h. Default: 10m")
+        ->type_name("")
+        ->needs(level)
+        ->check(duration_fault);
+}
+
+void tag_and_value_arguments(CLI::App& app, Options& options)
 {
     app.add_option("TAG", options.tag, "Tag of the drive, decimal, 0 to 65535")
         ->required()
         ->type_name("")
         ->check(CLI::Range(0, 65535).description(""));
     station_option(app, options);
-}
-
-void tag_and_value_arguments(CLI::App& app, Options& options)
-{
-    tag_argument(app, options);
     app.add_option("VALUE", options.value,
                    "As the drive shows it: -12.5, 0x00FF for a WORD, a name of an ENUM")
         ->required()
@@ -185,11 +228,7 @@ void survey_arguments(CLI::App& app, Options& options)
     auto* duration =
         app.add_option("--for", options.duration, "Repeat the passes for this time: 90s, 10m, 2h")
             ->type_name("TIME")
-            ->check([](const std::string& text) {
-                return profile::parse_duration(text)
-                           ? std::string{}
-                           : toml::in_quotes(text) + ": write a time up to 30 days, such as 90s, 10m or 2h";
-            });
+            ->check(duration_fault);
     app.add_option("--passes", options.passes, "Number of times to ask for each tag")
         ->type_name("N")
         ->check(CLI::Range(1, 1'000'000).description(""))

@@ -22,6 +22,9 @@ constexpr const char* kJudges =
     "0 all is well, 1 something was found, 2 wrong usage or no such station, 3 no daemon.";
 constexpr const char* kSurveys =
     "0 complete, 1 refused, faulty or not complete, 2 wrong usage or no such station, 3 no daemon.";
+constexpr const char* kReads = "0 success, with --every: Ctrl-C; 1 refused or faulty; 2 wrong usage, no such "
+                               "station or no such tag; 3 no daemon.";
+constexpr const char* kSetsLevel = "0 success, 1 refused or faulty, 2 wrong usage, 3 no daemon.";
 constexpr const char* kWritesFigures =
     "0 success, 1 a faulty answer or the file cannot be written, 2 wrong usage, 3 no daemon.";
 constexpr const char* kReloads = "0 applied, or can be; 1 refused or faulty; 2 wrong usage; 3 no daemon.";
@@ -55,12 +58,20 @@ constexpr std::array kCommands = std::to_array<Command>({
      doctor_arguments, do_doctor},
     {"bus", kWatch, "Shows who is on the bus: masters, slaves, cycles, retries, load", "GetBus", kShows,
      "dpctl bus            also addresses that a master asks and nobody answers", no_arguments, do_bus},
+    {"events", kWatch, "Shows what happened, with the time, the newest last",
+     "GetEvents, with --follow one reply a line", kShows, "dpctl events --follow unwinder", io_arguments,
+     do_events},
     {"metrics", kWatch, "Prints the figures for Prometheus, in its text format", kMetricsJson, kWritesFigures,
      "dpctl metrics | promtool check metrics\n"
      "dpctl metrics --write /var/lib/prometheus/node-exporter/dpslaved.prom",
      metrics_arguments, do_metrics},
-    {"read", kOperate, "Reads a tag from the drive now", "ReadTag", kShows,
-     "dpctl read 55 --station unwinder", tag_argument, do_read},
+    {"read", kOperate, "Reads tags from the drive now, by number or by name",
+     "ReadTag, with several tags or --every one a line; with --list that of FindTags", kReads,
+     "dpctl read 55 --station unwinder\n"
+     "dpctl read \"speed feedback\"         a name, or the part of one that fits no other tag\n"
+     "dpctl read --every 1s 55 56          until Ctrl-C\n"
+     "dpctl read --list speed              tags with this in their names",
+     read_arguments, do_read},
     {"write", kOperate, "Writes a tag of the drive now (root and the operator group)", "WriteTag", kShows,
      "dpctl write 56 -12.5 --station unwinder", tag_and_value_arguments, do_write},
     {"tec", kOperate,
@@ -79,6 +90,12 @@ constexpr std::array kCommands = std::to_array<Command>({
      "dpctl survey unwinder --resume                 continues after Ctrl-C\n"
      "dpctl survey unwinder --tags 1-600 --for 10m   the extremes of ten minutes",
      survey_arguments, do_survey},
+    {"log-level", kOperate,
+     "Shows the level of the log, or sets it to debug for a while (root and the operator group)",
+     "SetLogLevel", kSetsLevel,
+     "dpctl log-level debug 10m   each call and each request to a drive is a line of the log\n"
+     "dpctl log-level info        ends it now",
+     log_level_arguments, do_log_level},
     {"reload", kOperate,
      "Reads the configuration file again and applies it, or says why not (root and the operator group)",
      "Reload", kReloads,

@@ -89,6 +89,10 @@ std::string line_in_use(const report::LineInUse& p)
                        "requests for up to a minute; to do it anyway, add --yes",
                        p.line, joined(p.stations, ", "));
 }
+std::string bad_log_level(const report::BadLogLevel& p)
+{
+    return fmt::format("the log cannot be set to '{}': {}", p.level, p.reason);
+}
 std::string read_only(const Json&)
 {
     return "the daemon only shows: 'read_only' is set in [control] of its configuration; to write, remove it "
@@ -129,6 +133,7 @@ constexpr std::array kSentences = std::to_array<Row>({
     {"org.dpslaved.Control.BadTecValue", said<report::BadTecValue, bad_tec_value>},
     {"org.dpslaved.Control.WouldSilence", said<report::WouldSilence, would_silence>},
     {"org.dpslaved.Control.LineInUse", said<report::LineInUse, line_in_use>},
+    {"org.dpslaved.Control.BadLogLevel", said<report::BadLogLevel, bad_log_level>},
     {"org.dpslaved.Control.ReadOnly", read_only},
     {"org.dpslaved.Control.Busy", busy},
     {"org.varlink.service.InvalidParameter", said<InvalidParameter, invalid_parameter>},

@@ -23,6 +23,10 @@ std::string render_counters(const Json& reply, Look look);
 std::string render_tec(const report::Tec& tec, Look look);
 /// What a reload changes, or why it is refused; of a dry run also who would leave the bus.
 std::string render_reload(const report::ReloadReply& reply, bool is_dry_run);
+/// "info"; "debug, for 9 min more".
+std::string log_level_text(const report::Log& log);
+/// A line for each event, with the time of day. `now`: seconds since 1970, in which the ages count back.
+std::string render_events(const report::GetEventsReply& reply, double now);
 /// A tag read or written.
 std::string render_tag(const Json& reply, std::string_view verb);
 /// The whole picture of `status --follow` and `io --follow`, of a reply of Watch.

@@ -20,6 +20,8 @@ struct Options {
     std::string station;            ///< name or address; empty = not said
     bool station_is_option = false; ///< the command takes --station, else it is a word of its own
     int tag = 0;
+    std::string every;     ///< `read`: as parse_interval() reads it; empty = once
+    bool list = false;     ///< `read`: the names of the tags
     std::string parameter; ///< of the TEC OPTION function block
     std::string value;
     bool dry_run = false; ///< `reload`
@@ -31,6 +33,8 @@ struct Options {
     bool with_drive = false;      ///< status, with wait_s: the drive must answer, too
     bool quiet = false;           ///< status, with wait_s: the exit code says it
 
+    std::string level; ///< `log-level`; empty = which one is it
+
     // Of survey; `table` below is the file that it writes.
     std::string tags;         ///< as parse_tag_spans() reads them; empty = all
     std::string duration;     ///< as parse_duration() reads it; empty = not said
@@ -38,7 +42,7 @@ struct Options {
     bool resume = false;      ///< goes on with the record that is there
 
     // Of the subcommands that need no daemon.
-    std::vector<std::string> words; ///< query, numbers or octets
+    std::vector<std::string> words; ///< query, numbers or octets; `read`: tags
     std::string profiles =
         DPSLAVE_DATA_FOLDER "/profiles"; ///< the tag tables lie in ../tags (given by CMake)
     std::string profile;                 ///< empty = not said
@@ -76,11 +80,19 @@ int follow_io(const Options&, Terminal&);
 // status.cpp: status with --wait
 int wait_for_exchange(const Options&, Terminal&);
 
-// operate.cpp
+// read.cpp
 int do_read(const Options&, Terminal&);
+
+// log_level.cpp
+int do_log_level(const Options&, Terminal&);
+
+// operate.cpp
 int do_write(const Options&, Terminal&);
 int do_tec_set(const Options&, Terminal&);
 int do_reload(const Options&, Terminal&);
+
+// events.cpp
+int do_events(const Options&, Terminal&);
 
 // metrics.cpp
 int do_metrics(const Options&, Terminal&);

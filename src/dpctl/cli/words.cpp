@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <ctime>
+
 namespace dpslave::dpctl {
 
 std::string rate(std::int64_t baud)
@@ -29,6 +31,34 @@ std::string word(std::optional<std::int64_t> raw)
 {
     if (!raw) return "-";
     return fmt::format("{} (0x{:04X})", *raw, *raw);
+}
+
+namespace {
+
+std::tm local_time(std::chrono::system_clock::time_point when)
+{
+    const std::time_t seconds =
+        std::chrono::system_clock::to_time_t(std::chrono::floor<std::chrono::seconds>(when));
+    std::tm parts{};
+    ::localtime_r(&seconds, &parts);
+    return parts;
+}
+
+} // namespace
+
+std::string time_of_day(std::chrono::system_clock::time_point when)
+{
+    const std::tm parts = local_time(when);
+    const auto part = when - std::chrono::floor<std::chrono::seconds>(when);
+    return fmt::format("{:02}:{:02}:{:02}.{:03}", parts.tm_hour, parts.tm_min, parts.tm_sec,
+                       std::chrono::floor<std::chrono::milliseconds>(part).count());
+}
+
+std::string date_and_time(std::chrono::system_clock::time_point when)
+{
+    const std::tm parts = local_time(when);
+    return fmt::format("{:04}-{:02}-{:02} {}", parts.tm_year + 1900, parts.tm_mon + 1, parts.tm_mday,
+                       time_of_day(when));
 }
 
 std::string yes_no(bool yes)

@@ -6,14 +6,6 @@
 
 namespace dpslave::dpctl {
 
-int do_read(const Options& options, Terminal& terminal)
-{
-    Json parameters = station_parameter(options);
-    parameters["tag"] = options.tag;
-    return show(options, terminal, "ReadTag", parameters,
-                [](const Json& reply) { return render_tag(reply, "is"); });
-}
-
 int do_write(const Options& options, Terminal& terminal)
 {
     Json parameters = station_parameter(options);

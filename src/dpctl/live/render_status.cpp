@@ -106,7 +106,14 @@ std::string render_status(const Json& json, Look look)
     block.add("stations", fmt::format("{}, {} in Data_Exch", bus.stations, bus.exchanging));
     block.add("daemon", fmt::format("process {}, running for {}", reply.pid,
                                     age(static_cast<double>(reply.uptime_ms))));
+    if (reply.log.level == "debug") block.add("log", log_level_text(reply.log));
     return block.str(0, look) + '\n' + stations_text(reply.stations, look);
+}
+
+std::string log_level_text(const report::Log& log)
+{
+    if (log.level != "debug") return log.level;
+    return log.level + (log.ends_in_ms ? ", for " + age(log.ends_in_ms) + " more" : std::string{});
 }
 
 std::string render_followed_status(const Json& json, Look look)
