@@ -40,6 +40,19 @@ bool is_same(const Telegram& one, const Telegram& other)
 
 } // namespace
 
+std::string_view text(Unanswered::Why why) noexcept
+{
+    switch (why) {
+        case Unanswered::Why::overtaken: return "overtaken";
+        case Unanswered::Why::late: return "late";
+        case Unanswered::Why::own_address: return "own_address";
+        case Unanswered::Why::no_service: return "no_service";
+        case Unanswered::Why::searching: return "searching";
+        case Unanswered::Why::unsent: return "unsent";
+    }
+    return "?";
+}
+
 Layer2::Layer2(const Layer2Settings& settings)
     : settings_(settings), baud_(settings.baud), receiver_(settings.baud)
 {
@@ -65,7 +78,7 @@ void Layer2::detach(std::uint8_t address)
 void Layer2::on_bytes(Bytes bytes, Instant read_at, bool more_follows)
 {
     if (bytes.empty()) return;
-    cancel_reply();
+    cancel_reply(read_at);
     counters_.octets += bytes.size();
     receiver_.begin_read(bytes.size(), read_at);
     take_heard();
@@ -76,7 +89,7 @@ void Layer2::on_bytes(Bytes bytes, Instant read_at, bool more_follows)
 
 void Layer2::on_character_error(Instant read_at)
 {
-    cancel_reply();
+    cancel_reply(read_at);
     ++counters_.octets;
     receiver_.begin_read(1, read_at);
     take_heard();
@@ -89,6 +102,7 @@ void Layer2::on_time(Instant now)
 {
     while (receiver_.on_time(now)) take_heard();
     if (pending_ && now > pending_->not_after) { // the master has given up: a late reply would meet its retry
+        leave_unanswered(Unanswered::Why::late, pending_->address, now);
         pending_.reset();
         ++counters_.late;
     }
@@ -106,6 +120,7 @@ std::optional<Bytes> Layer2::take_transmit()
     const Bytes octets = pending_->octets;
     window_ended_ = pending_->not_after;
     sent_ = octets;
+    answered_address_ = pending_->address;
     pending_.reset();
     ++counters_.replies;
     return octets;
@@ -148,11 +163,19 @@ void Layer2::on_telegram(const Telegram& telegram, Instant read_at, bool newest)
         const bool silent = search_->state() == BaudState::baud_search;
         search_->on_telegram(ours, read_at);
         follow_search();
-        if (silent) return; // the telegram that ends the search is still heard in it
+        if (silent) { // the telegram that ends the search is still heard in it
+            if (ours && telegram.is_request())
+                leave_unanswered(Unanswered::Why::searching, telegram.da, read_at);
+            return;
+        }
     }
-    if (stations_.has(telegram.sa)) return on_own_address(telegram);
+    if (stations_.has(telegram.sa)) return on_own_address(telegram, read_at);
     const bool known_code = (telegram.fc & 0x80) == 0; // bit 7 is a second code table with nothing for us
-    if (!telegram.is_request() || !known_code) return;
+    if (!telegram.is_request()) return;
+    if (!known_code) {
+        if (ours) leave_unanswered(Unanswered::Why::no_service, telegram.da, read_at);
+        return;
+    }
 
     if (is_sdn(telegram)) {
         if (!ours && telegram.da != kBroadcast) return;
@@ -162,21 +185,30 @@ void Layer2::on_telegram(const Telegram& telegram, Instant read_at, bool newest)
     } else if (ours && is_answered(telegram.function())) {
         ++counters_.requests;
         sent_ = {};
-        if (newest)
+        if (newest) {
             on_request(telegram, read_at);
-        else
-            ++counters_.overtaken; // dropped whole, FCB included: the master's retry still looks new
+        } else { // dropped whole, FCB included: the master's retry still looks new
+            ++counters_.overtaken;
+            leave_unanswered(Unanswered::Why::overtaken, telegram.da, read_at);
+        }
+    } else if (ours) {
+        leave_unanswered(Unanswered::Why::no_service, telegram.da, read_at);
     }
 }
 
 /// Either another device has the address, or the transceiver hears what it sends. Then it is what was sent,
 /// and comes once.
-void Layer2::on_own_address(const Telegram& telegram)
+void Layer2::on_own_address(const Telegram& telegram, Instant at)
 {
     ++counters_.own_address;
-    if (sent_.empty()) return;
-    const auto sent = decode(std::exchange(sent_, {}));
-    if (sent && is_same(*sent, telegram)) ++counters_.came_back;
+    if (!sent_.empty()) {
+        const auto sent = decode(std::exchange(sent_, {}));
+        if (sent && is_same(*sent, telegram)) {
+            ++counters_.came_back;
+            return;
+        }
+    }
+    leave_unanswered(Unanswered::Why::own_address, telegram.sa, at);
 }
 
 void Layer2::on_request(const Telegram& request, Instant at)
@@ -191,11 +223,17 @@ void Layer2::on_request(const Telegram& request, Instant at)
 }
 
 /// The line is in use: the moment for the reply is over. What the request did and its stored reply stay.
-void Layer2::cancel_reply()
+void Layer2::cancel_reply(Instant at)
 {
     if (!pending_) return;
+    leave_unanswered(Unanswered::Why::overtaken, pending_->address, at);
     pending_.reset();
     ++counters_.overtaken;
+}
+
+void Layer2::leave_unanswered(Unanswered::Why why, std::uint8_t address, Instant at)
+{
+    static_cast<void>(unanswered_.push({.why = why, .address = address, .at = at}));
 }
 
 void Layer2::count(Flaw flaw)

@@ -87,6 +87,7 @@ void Receiver::on_character_error()
     const auto length = frame_length(Bytes{rx_}.first(used_));
     if (!length || *length == 0) {
         forget_all(); // no telegram has begun, or its end cannot be known any more
+        ++forgotten_;
         return;
     }
     rx_[used_++] = 0; // keeps the place of the octet, so that the end of the telegram is found
@@ -106,7 +107,11 @@ bool Receiver::on_time(Instant now)
 const Receiver::Heard* Receiver::next()
 {
     if (pending_flaw_) {
-        heard_ = {.telegram = Failure{*pending_flaw_}, .at = heard_at_, .newest = false};
+        heard_ = {.telegram = Failure{*pending_flaw_},
+                  .at = heard_at_,
+                  .begin = forgotten_,
+                  .end = forgotten_,
+                  .newest = false};
         pending_flaw_.reset();
         return &heard_;
     }
@@ -133,6 +138,7 @@ bool Receiver::next_in_buffer()
         const Bytes rest = Bytes{rx_}.first(used_).subspan(at_);
         const auto length = frame_length(rest);
         if (!length) {
+            heard_.begin = heard_.end = forgotten_ + at_;
             const bool is_new = begins_flaw();
             // Hunt on; silence is never waited for: a busy bus has none. What has failed is searched only
             // where something may have begun in it.
@@ -144,6 +150,8 @@ bool Receiver::next_in_buffer()
         }
         if (*length == 0 || rest.size() < *length) break;
         const std::size_t end = at_ + *length;
+        heard_.begin = forgotten_ + at_;
+        heard_.end = forgotten_ + end;
         const std::size_t boundary = boundary_within(at_, end);
         heard_.telegram = telegram_at(at_, *length, boundary != end);
         if (heard_.telegram) {
@@ -238,6 +246,7 @@ void Receiver::forget(std::size_t count)
 {
     std::memmove(rx_.data(), rx_.data() + count, used_ - count);
     used_ -= count;
+    forgotten_ += count;
     spoilt_ -= std::min(spoilt_, count);
     counted_ -= std::min(counted_, count);
     if (boundaries_.none()) return;
@@ -247,6 +256,7 @@ void Receiver::forget(std::size_t count)
 
 void Receiver::forget_all()
 {
+    forgotten_ += used_;
     used_ = spoilt_ = counted_ = 0;
     boundaries_.reset();
     gap_ends_ = hunt_at_ = kNever;
@@ -257,6 +267,7 @@ void Receiver::restart(Baud baud)
     baud_ = baud;
     forget_all();
     at_ = failed_ = 0;
+    forgotten_ += input_.size();
     input_ = {};
     reading_ = damaged_ = false;
     pending_flaw_.reset();

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "dpslave/base/process_image.hpp"
+#include "dpslave/base/queue.hpp"
 #include "dpslave/dp/personality.hpp"
-#include "dpslave/dp/queue.hpp"
 
 #include <array>
 #include <cstdint>

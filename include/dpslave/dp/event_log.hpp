@@ -2,7 +2,7 @@
 /// What happened to a slave, in order, for the log of the program.
 #pragma once
 
-#include "dpslave/dp/queue.hpp"
+#include "dpslave/base/queue.hpp"
 #include "dpslave/dp/refusal.hpp"
 #include "dpslave/dp/slave_diag.hpp"
 #include "dpslave/dp/state.hpp"

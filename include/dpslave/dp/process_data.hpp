@@ -5,11 +5,11 @@
 
 #include "dpslave/base/bytes.hpp"
 #include "dpslave/base/process_image.hpp"
+#include "dpslave/base/queue.hpp"
 #include "dpslave/base/units.hpp"
 #include "dpslave/dp/chk_cfg.hpp"
 #include "dpslave/dp/demand_data.hpp"
 #include "dpslave/dp/personality.hpp"
-#include "dpslave/dp/queue.hpp"
 
 #include <array>
 #include <cstdint>

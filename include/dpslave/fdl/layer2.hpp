@@ -4,6 +4,7 @@
 /// call, starts no thread and allocates nothing. Source: wire reference 1.5, 2, 3, 6.7.
 #pragma once
 
+#include "dpslave/base/queue.hpp"
 #include "dpslave/base/units.hpp"
 #include "dpslave/fdl/baud_search.hpp"
 #include "dpslave/fdl/receiver.hpp"
@@ -17,6 +18,7 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 namespace dpslave::fdl {
 
@@ -45,6 +47,23 @@ struct Counters {
     /// While the rate is searched: what is no telegram at a rate that is tried says nothing about the line.
     std::uint64_t search_flaws = 0;
 };
+
+/// A request to one of our addresses that gets no reply, and why.
+struct Unanswered {
+    enum class Why : std::uint8_t {
+        overtaken,   ///< something followed it on the line
+        late,        ///< its window was over before the reply could begin
+        own_address, ///< it carries one of our addresses as sender: an address conflict
+        no_service,  ///< its function code is one that no slave answers
+        searching,   ///< the rate is not confirmed yet
+        unsent,      ///< the port or the driver enable did not send the reply (said by who sends)
+    };
+    Why why{};
+    std::uint8_t address = 0; ///< of ours
+    Instant at{};
+};
+inline constexpr std::size_t kUnansweredReasons = 6;
+std::string_view text(Unanswered::Why why) noexcept;
 
 /// One thread owns it. After every call: take_transmit(), then next_deadline().
 class Layer2 {
@@ -78,9 +97,16 @@ public:
     /// is none any more.
     std::optional<Bytes> take_transmit();
 
+    /// Requests to our addresses that get no reply, in their order; for a trace. Those that are not taken in
+    /// time are dropped.
+    std::optional<Unanswered> take_unanswered() { return unanswered_.pop(); }
+
     /// The last moment at which the reply that take_transmit() gave last may still begin: a write that ends
     /// later was too late although it began in time.
     Instant window_ended() const { return window_ended_; }
+
+    /// Whose reply it was.
+    std::uint8_t answered_address() const { return answered_address_; }
 
     /// When on_time() is due next. kNever = only octets can wake it. A moment that has passed
     /// means: at once.
@@ -117,8 +143,9 @@ private:
     void take_heard();
     void on_telegram(const Telegram& telegram, Instant read_at, bool newest);
     void on_request(const Telegram& request, Instant at);
-    void cancel_reply();
-    void on_own_address(const Telegram& telegram);
+    void cancel_reply(Instant at);
+    void leave_unanswered(Unanswered::Why why, std::uint8_t address, Instant at);
+    void on_own_address(const Telegram& telegram, Instant at);
     void count(Flaw flaw);
     bool rate_is_kept(std::size_t good, std::size_t bad, Instant at);
     void report_supervision(Instant at);
@@ -137,7 +164,9 @@ private:
     std::optional<Pending> pending_;
     Instant window_ended_{}; // of the reply handed out last
     Bytes sent_;             // that reply, until the next request; empty: none, or its echo was heard
+    std::uint8_t answered_address_ = 0;
     Instant last_telegram_{};
+    Queue<Unanswered, 8> unanswered_;
     Counters counters_;
 };
 

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <bitset>
+#include <cstdint>
 #include <optional>
 
 namespace dpslave::fdl {
@@ -25,7 +26,9 @@ public:
 
     struct Heard {
         Result<Telegram, Flaw> telegram{Telegram{}};
-        Instant at{};        ///< when its last octet was read
+        Instant at{}; ///< when its last octet was read
+        /// Where it lies among all characters heard, bad ones included; of a flaw only where it begins.
+        std::uint64_t begin = 0, end = 0;
         bool newest = false; ///< nothing was heard behind this telegram
     };
 
@@ -47,6 +50,9 @@ public:
     /// the next call of the receiver.
     const Heard* next();
 
+    /// So many characters, of all heard, are judged: what is behind them may become a telegram.
+    std::uint64_t judged() const { return forgotten_; }
+
     /// What was heard until now is no telegram any more; the line goes on at `baud`.
     void restart(Baud baud);
 
@@ -66,7 +72,8 @@ private:
     Baud baud_;
     std::array<std::uint8_t, 2 * kMaxTelegram> rx_{}; // an unfinished telegram, and room for what comes next
     std::size_t used_ = 0;
-    std::size_t spoilt_ = 0; // octets of rx_ up to its last bad character
+    std::uint64_t forgotten_ = 0; // characters that came before rx_
+    std::size_t spoilt_ = 0;      // octets of rx_ up to its last bad character
     /// Where in rx_ a read began at least T_SYN after the one before: a new telegram may have begun there.
     std::bitset<2 * kMaxTelegram> boundaries_;
     Instant heard_at_{};        // when octets were read last

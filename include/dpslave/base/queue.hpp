@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <optional>
 
-namespace dpslave::dp {
+namespace dpslave {
 
 template <class T, std::size_t N>
 class Queue {
@@ -40,4 +40,4 @@ private:
     std::size_t size_ = 0;
 };
 
-} // namespace dpslave::dp
+} // namespace dpslave

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Who is answered with what, and what is met with silence (wire reference 2.2 to 2.5, 3).
-#include "bench.hpp"
+#include "fdl/bench.hpp"
 
 using namespace dpslave;
 using namespace test;
