@@ -17,6 +17,7 @@
 #include "dpslave/dp/snapshot.hpp"
 #include "dpslave/drive/poller.hpp"
 #include "dpslave/fdl/layer2.hpp"
+#include "dpslave/trace/ring.hpp"
 
 #include <array>
 #include <atomic>
@@ -120,6 +121,9 @@ struct BusSnapshot {
     bool valid = false;               ///< false: nothing was published yet
 };
 struct BusLink {
+    /// `trace_octets`: the size of the ring of the trace; 0: nothing is recorded.
+    explicit BusLink(std::size_t trace_octets = 0) : trace(trace_octets) {}
+
     Mailbox<BusSnapshot> snapshot;
     /// Who is on the bus, bus -> main; twice a second.
     Mailbox<dp::BusMembers::Table> members;
@@ -136,6 +140,9 @@ struct BusLink {
     std::atomic<bool> ended{false};     ///< the bus thread has ended
     /// Main -> bus: the memory is locked, if it is to be. The bus is served before.
     std::atomic<bool> memory_is_ready{true};
+    trace::Ring trace; ///< what was heard and sent, bus -> whoever looks
+    /// How long the port may keep a received character, bus -> main.
+    std::atomic<std::int64_t> hold_back_ns{0};
 };
 
 /// What a drive refused, in words; the newest few of a line.

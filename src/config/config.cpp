@@ -25,6 +25,15 @@ RealtimeConfig read_realtime(Table table)
     return config;
 }
 
+TraceConfig read_trace(Table table)
+{
+    constexpr std::uint32_t kMost = 1U << 20; // 1 GiB
+    TraceConfig config;
+    if (const auto kib = table.integer("bus_kib", 0, kMost))
+        config.bus_kib = static_cast<std::uint32_t>(*kib);
+    return config;
+}
+
 ControlConfig read_control(Table table)
 {
     ControlConfig config;
@@ -134,6 +143,7 @@ Result<Config, Faults> load_config(const std::filesystem::path& file, const std:
     if (const auto sysfs = root.table("leds").text("sysfs")) config.sysfs = *sysfs;
     config.control = read_control(root.table("control"));
     config.operator_group_place = root.table("control").place_of("operator_group");
+    config.trace = read_trace(root.table("trace"));
     const std::vector<ReadLine> lines = read_lines(document, config.bus);
     config.stations = read_stations(document, config.bus, config.sysfs, lines, shelf, config.warnings);
     for (const ReadLine& read : lines) config.lines.push_back(read.line);

@@ -245,6 +245,12 @@ bool Server::push(std::uint64_t stream, const Json& parameters)
     return taken;
 }
 
+std::size_t Server::unsent(std::uint64_t stream) const
+{
+    const auto found = impl_->streams.find(stream);
+    return found == impl_->streams.end() ? 0 : found->second->unsent();
+}
+
 bool Server::end_stream(std::uint64_t stream, const Error& why)
 {
     const auto found = impl_->streams.find(stream);

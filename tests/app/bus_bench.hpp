@@ -205,11 +205,19 @@ protected:
         const bool is_said = eventually([&] { return link.port_messages.take(words); });
         return is_said && !words->is_warning ? words->text : "";
     }
+    /// What was recorded and is still there, oldest first.
+    std::vector<trace::Record> records() const
+    {
+        std::vector<trace::Record> all;
+        trace::Ring::Reader reader{link.trace};
+        for (trace::Record one; reader.next(one);) all.push_back(one);
+        return all;
+    }
     virtual std::string port_path() { return pty.path(); }
 
     io::Pty pty;
     Master master;
-    app::BusLink link;
+    app::BusLink link{std::size_t{1} << 20}; ///< it records, as a daemon does
     std::map<std::uint8_t, std::shared_ptr<app::StationLink>> links;
     std::atomic<bool> is_realtime{false};
     std::atomic<int> tid{0}; ///< of the bus thread

@@ -58,7 +58,8 @@ TEST_F(BusThread, AllocatesNothingWhileItServes)
 
     EXPECT_EQ(allocations(), 0u);
     EXPECT_GT(snapshots, kTelegrams / 2);                  // it did hand on what it knows,
-    EXPECT_THAT(uart::edges().size(), Ge(2 * kTelegrams)); // and switch the driver
+    EXPECT_THAT(uart::edges().size(), Ge(2 * kTelegrams)); // switch the driver,
+    EXPECT_THAT(records().size(), Ge(2 * kTelegrams));     // and record requests and replies
 }
 
 TEST_F(BusThread, MeetsNoPageFaultWhileItServesWithLockedMemory)

@@ -42,6 +42,7 @@ TEST_F(ConfigFile, with_the_required_keys_only_has_the_defaults_of_the_sample)
     EXPECT_EQ(config.realtime.priority, 80);
     EXPECT_EQ(config.realtime.cpu, -1);
     EXPECT_TRUE(config.realtime.lock_memory);
+    EXPECT_EQ(config.trace.bus_kib, 4096U);
     EXPECT_EQ(config.sysfs, "/sys");
     EXPECT_EQ(config.control.socket, "/run/dpslaved/control.sock");
     EXPECT_EQ(config.control.operator_group, "dpslaved");
@@ -352,6 +353,7 @@ INSTANTIATE_TEST_SUITE_P(
                               "7:15: ", "true or false"},
                     BadChange{"[control]", "[realtime]\nprio = 1\n[control]",
                               "7:1: ", "unknown key 'prio' in [realtime]"},
+                    BadChange{"[control]", "[trace]\nbus_kib = -1\n[control]", "7:11: ", "from 0 to 1048576"},
                     BadChange{"[control]", "[leds]\nsysfs = \"\"\n[control]", "7:9: ", "is empty"},
                     BadChange{"[control]", "[contorl]\na = 1\n[control]", "6:2: ", "did you mean 'control'?"},
                     BadChange{"[control]",
@@ -880,6 +882,7 @@ TEST_F(ShippedSample, shows_every_key_with_its_default)
     EXPECT_EQ(shown.realtime.priority, left_out.realtime.priority);
     EXPECT_EQ(shown.realtime.cpu, left_out.realtime.cpu);
     EXPECT_EQ(shown.realtime.lock_memory, left_out.realtime.lock_memory);
+    EXPECT_EQ(shown.trace, left_out.trace);
     EXPECT_EQ(shown.sysfs, left_out.sysfs);
     EXPECT_EQ(shown.control.socket, left_out.control.socket);
     EXPECT_EQ(shown.control.operator_group, left_out.control.operator_group);

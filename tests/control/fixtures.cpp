@@ -131,6 +131,11 @@ std::map<std::string, json> all()
         {"Reload", json::parse(R"({"applied":true,"changes":["station rewinder removed"],
             "leaving":[{"station":"rewinder","reason":"removed"}],
             "pending":["station unwinder: address 7 takes effect at the next start"],"warnings":[],"faults":[]})")},
+        // Set_Prm of master 2 to station 5, its SC, a telegram with a wrong FCS, and a reply that was late.
+        {"Trace",
+         json::parse(
+             R"({"lost":3,"caught_up":true,"hold_back_ns":0,"now_ns":2000000000,"unix_ns":1700000002000000000,
+            "records":"EgAAAAQAAAAAAAAAAAAAAADKmjsAAAAAAAAAAAAAAABoDAxohYJtPT6AAAALBTMAshYBAAIABAAAAAEAAAAAAAAAKGScOwAAAACgUJw7AAAAAOUGAAAABAAAAAIAAAAAAAAAAPfLPAAAAAAAAAAAAAAAABAFAklRFgAAAwEEBQAAAwAAAAAAAACAjWQ9AAAAAAAAAAAAAAAA"})")},
         {"Watch", {{"bus", bus}, {"stations", stations}, {"words", watched_words}}},
         {"GetEvents", json::parse(R"({"lost":0,"newest":3,"events":[
             {"number":1,"age_ms":9000.0,"station":null,"kind":"daemon","text":"dpslaved 9.8.7 started","count":1},

@@ -96,7 +96,8 @@ TEST(Replies, HaveAStructForEachMethodOfTheInterface)
         (described<GetVersionReply, GetStatusReply, ListStationsReply, GetInfoReply, GetIoReply,
                    GetDiagnosisReply, GetCountersReply, GetBusReply, GetLedsReply, GetTecReply, WatchReply,
                    GetEventsReply, FindTagsReply, ReadTagReply, GetSurveyScopeReply, SurveyReply,
-                   WriteTagReply, ProbeDriveReply, SetTecReply, SetLogLevelReply, ReloadReply>("Reply")),
+                   WriteTagReply, ProbeDriveReply, SetTecReply, SetLogLevelReply, ReloadReply, TraceReply>(
+            "Reply")),
         test::control_varlink().outputs);
 }
 
@@ -105,6 +106,7 @@ TEST(Replies, HaveAStructForEachErrorThatHasParameters)
     Described errors = test::control_varlink().errors;
     ASSERT_EQ(errors.erase("Busy"), 1U);
     ASSERT_EQ(errors.erase("ReadOnly"), 1U);
+    ASSERT_EQ(errors.erase("TraceOff"), 1U);
 
     EXPECT_EQ((described<NoSuchStation, StationRequired, NotPermitted, DriveRefused, BadValue, NoTecOption,
                          BadTecValue, BadLogLevel, LineInUse, WouldSilence>()),

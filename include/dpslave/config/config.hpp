@@ -51,6 +51,12 @@ struct ControlConfig {
     friend bool operator==(const ControlConfig&, const ControlConfig&) = default;
 };
 
+/// Memory of the recorder, in KiB, which is locked as the rest is; 0 = nothing is recorded.
+struct TraceConfig {
+    std::uint32_t bus_kib = 4096;
+    friend bool operator==(const TraceConfig&, const TraceConfig&) = default;
+};
+
 /// Character format of a drive line.
 struct LineFormat {
     int data_bits = 7;
@@ -133,6 +139,7 @@ struct Config {
     std::filesystem::path sysfs = "/sys";
     ControlConfig control;
     toml::Place operator_group_place; ///< of the key
+    TraceConfig trace;
     std::vector<LineConfig> lines;
     std::vector<StationConfig> stations;
     std::vector<toml::Fault> warnings; ///< said in the log at start: address 0..2, RIDE THROUGH, tags without

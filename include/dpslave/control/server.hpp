@@ -109,6 +109,8 @@ public:
     bool complete(std::uint64_t token, const Reply& reply);
     /// Sends a further reply of a stream. False: that stream has ended; the application forgets it.
     bool push(std::uint64_t stream, const Json& parameters);
+    /// Octets of a stream that its caller has not fetched yet; 0 also when it has ended.
+    std::size_t unsent(std::uint64_t stream) const;
     /// The last reply of a stream: nothing further will come. False: that stream had ended already.
     bool end_stream(std::uint64_t stream, const Error& why);
     /// Open streams, by their numbers in ascending order.

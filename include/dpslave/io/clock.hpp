@@ -9,4 +9,7 @@ namespace dpslave::io {
 /// CLOCK_MONOTONIC: the time line of the bus.
 Instant monotonic_now() noexcept;
 
+/// CLOCK_REALTIME, since 1970: only to name a moment to people and files. It can jump.
+std::chrono::nanoseconds unix_now() noexcept;
+
 } // namespace dpslave::io

@@ -321,6 +321,13 @@ struct SetLogLevelReply {
     Log log{};
     DPSLAVE_FIELDS(log)
 };
+struct TraceReply {
+    std::string records{};
+    std::int64_t lost = 0;
+    bool caught_up = false;
+    std::int64_t hold_back_ns = 0, now_ns = 0, unix_ns = 0;
+    DPSLAVE_FIELDS(records, lost, caught_up, hold_back_ns, now_ns, unix_ns)
+};
 struct ReadTagReply {
     std::string station{};
     std::int64_t tag = 0;

@@ -30,7 +30,8 @@ BusPort::BusPort(io::Port port, io::DriverEnable& driver, fdl::EchoMode echo, io
       echo_(echo),
       epoll_(epoll),
       key_(key),
-      link_(link)
+      link_(link),
+      trace_(link.trace)
 {}
 
 BusPort::~BusPort()
@@ -58,13 +59,16 @@ fdl::Layer2Settings BusPort::layer2_settings(const config::BusConfig& config)
 /// costs more than the reply.
 void BusPort::watch()
 {
-    if (port_.is_open()) epoll_.add(port_.tty().fd(), EPOLLIN | EPOLLET, key_);
+    if (!port_.is_open()) return;
+    epoll_.add(port_.tty().fd(), EPOLLIN | EPOLLET, key_);
+    link_.hold_back_ns.store(port_.tty().hold_back().count(), std::memory_order_relaxed);
 }
 
 void BusPort::set_baud(Baud baud)
 {
     sender_.abort();
     link_.baud.store(baud, std::memory_order_relaxed);
+    trace_.rate(io::monotonic_now(), baud);
     if (const auto trouble = port_.set_baud(static_cast<std::uint32_t>(baud))) {
         report(PortEvent::lost);
         refuse(*trouble);
@@ -75,14 +79,15 @@ void BusPort::read(fdl::Layer2& layer2)
 {
     discard_what_is_stuck(); // the master goes on: what has not left by now would meet its telegrams
     while (port_.is_open()) {
+        trace_.commit(); // what was noted lies in the buffer
         const auto chunk = port_.tty().read(buffer_);
         if (!chunk) return lose();
         const Instant read_at = io::monotonic_now();
         const bool more = chunk->more || chunk->bad_character;
         if (!chunk->octets.empty()) hear(chunk->octets, read_at, more, layer2);
         if (chunk->bad_character) {
-            if (const Bytes withheld = echo_.on_character_error(read_at); !withheld.empty())
-                layer2.on_bytes(withheld, read_at, true);
+            hear_withheld(echo_.on_character_error(read_at), read_at, layer2);
+            trace_.bad_character(read_at, layer2.baud());
             layer2.on_character_error(read_at);
         }
         if (!chunk->more) return;
@@ -94,27 +99,50 @@ void BusPort::hear(Bytes octets, Instant read_at, bool more, fdl::Layer2& layer2
     const auto foreign = echo_.remove(octets, read_at);
     if (foreign.octets.empty()) return;
     heard_at_ = read_at;
-    if (!foreign.withheld.empty()) layer2.on_bytes(foreign.withheld, read_at, true);
+    hear_withheld(foreign.withheld, read_at, layer2);
+    trace_.heard(foreign.octets, read_at, more, layer2.baud());
     layer2.on_bytes(foreign.octets, read_at, more);
 }
 
-std::optional<Instant> BusPort::send(Bytes reply, Baud baud, Instant window_ended)
+/// They looked like an echo until now. The next call of echo_ reuses their place.
+void BusPort::hear_withheld(Bytes octets, Instant read_at, fdl::Layer2& layer2)
+{
+    if (octets.empty()) return;
+    trace_.heard(octets, read_at, true, layer2.baud());
+    trace_.commit();
+    layer2.on_bytes(octets, read_at, true);
+}
+
+void BusPort::commit_trace(fdl::Layer2& layer2)
+{
+    while (const auto request = layer2.take_unanswered()) trace_.unanswered(*request, layer2.baud());
+    trace_.commit();
+}
+
+std::optional<Instant> BusPort::send(const Reply& reply)
 {
     if (!port_.is_open()) {
         ++unsent_;
+        note_unsent(reply, fdl::Unanswered::Why::unsent);
         return std::nullopt;
     }
-    const auto written = sender_.send(reply, port_.tty(), baud, window_ended + driver_.edge_time());
+    const auto written =
+        sender_.send(reply.octets, port_.tty(), reply.baud, reply.window_ended + driver_.edge_time());
     if (!written) {
-        ++(written.error() == BusSender::Unsent::too_late ? late_ : unsent_);
+        const bool is_late = written.error() == BusSender::Unsent::too_late;
+        ++(is_late ? late_ : unsent_);
+        note_unsent(reply, is_late ? fdl::Unanswered::Why::late : fdl::Unanswered::Why::unsent);
         if (written.error() == BusSender::Unsent::port_gone) lose();
         return std::nullopt;
     }
-    const Tbit length{static_cast<std::uint32_t>(reply.size()) * kCharacter.count};
-    const Instant over = *written + duration_of(length, baud);
+    trace_.sent(reply.octets, reply.begins, *written, reply.baud);
+    const Tbit length{static_cast<std::uint32_t>(reply.octets.size()) * kCharacter.count};
+    const Instant over = *written + duration_of(length, reply.baud);
     // The FIFO of the UART and the kernel's own workers delay an echo as they do the rest of a telegram.
-    leaves_by_ = over + fdl::silence_limit(baud);
-    echo_.sent(reply, over + duration_of(fdl::kTsyn, baud), leaves_by_);
+    leaves_by_ = over + fdl::silence_limit(reply.baud);
+    left_ = reply;
+    left_.octets = {};
+    echo_.sent(reply.octets, over + duration_of(fdl::kTsyn, reply.baud), leaves_by_);
     return *written;
 }
 
@@ -126,6 +154,13 @@ void BusPort::discard_what_is_stuck()
     if (!port_.tty().discard_unsent()) return;
     ++unsent_;
     ++stuck_;
+    left_.begins = io::monotonic_now();
+    note_unsent(left_, fdl::Unanswered::Why::unsent);
+}
+
+void BusPort::note_unsent(const Reply& reply, fdl::Unanswered::Why why)
+{
+    trace_.unanswered({.why = why, .address = reply.address, .at = reply.begins}, reply.baud);
 }
 
 void BusPort::finish_sending()

@@ -5,6 +5,7 @@
 
 #include "app/links.hpp"
 #include "bus_sender.hpp"
+#include "bus_trace.hpp"
 
 #include "dpslave/config/config.hpp"
 #include "dpslave/fdl/echo.hpp"
@@ -46,9 +47,18 @@ public:
     /// When the newest octets were read that are no echo.
     Instant heard_at() const { return heard_at_; }
 
-    /// The reply leaves now. `window_ended`: as Layer2 has it, which leaves room for the edge of the driver
-    /// enable. Gives the moment after the write; nothing: it was not sent, and is counted.
-    std::optional<Instant> send(Bytes reply, Baud baud, Instant window_ended);
+    struct Reply {
+        Bytes octets;
+        std::uint8_t address = 0; ///< of the station that answers
+        Baud baud = Baud::k9_6;
+        Instant begins{};       ///< now
+        Instant window_ended{}; ///< as Layer2 has it, which leaves room for the edge of the driver enable
+    };
+    /// The reply leaves now. Gives the moment after the write; nothing: it was not sent, and is counted.
+    std::optional<Instant> send(const Reply& reply);
+    /// What was read and sent since the last call, and what `layer2` has left unanswered, goes into the
+    /// trace.
+    void commit_trace(fdl::Layer2& layer2);
     bool is_sending() const { return sender_.is_sending(); }
     Instant sending_ends() const { return sender_.next_deadline(); } ///< as BusSender::next_deadline()
     void finish_sending();
@@ -61,6 +71,8 @@ public:
 
 private:
     void hear(Bytes octets, Instant read_at, bool more, fdl::Layer2& layer2);
+    void hear_withheld(Bytes octets, Instant read_at, fdl::Layer2& layer2);
+    void note_unsent(const Reply& reply, fdl::Unanswered::Why why);
     void lose();
     void refuse(const std::string& why);
     void detach();
@@ -81,9 +93,11 @@ private:
     io::Epoll& epoll_;
     std::uint64_t key_;
     BusLink& link_;
+    BusTrace trace_;
     std::array<std::uint8_t, 512> buffer_{};
     Instant heard_at_{};
     Instant leaves_by_ = kNever; ///< when the last reply must have left the kernel; kNever: it has
+    Reply left_{};               ///< that reply without its octets; `begins`: any
     std::uint64_t unsent_ = 0;
     std::uint64_t stuck_ = 0; ///< of these, taken by the port and not sent
     std::uint64_t late_ = 0;

@@ -43,6 +43,7 @@ void BusThread::run(const std::stop_token& stop, io::EventFd& wake)
         port_.finish_sending(); // a short reply is over before anything else could be done
         if (reply) hear_ourselves(*reply);
         stations_.forward();
+        port_.commit_trace(layer2_);
         port_.finish_sending();
         follow_rate();
         const Instant now = io::monotonic_now();
@@ -99,7 +100,8 @@ bool BusThread::octets_before(Instant when)
 void BusThread::process(bool octets)
 {
     if (octets) port_.read(layer2_);
-    layer2_.on_time(io::monotonic_now());
+    processed_at_ = io::monotonic_now();
+    layer2_.on_time(processed_at_);
 }
 
 /// The window of a reply opens in a moment. The wait is used to pass on what this telegram brought, for
@@ -108,6 +110,7 @@ void BusThread::wait_for_window()
 {
     const Instant opens = layer2_.next_deadline();
     stations_.forward();
+    port_.commit_trace(layer2_);
     while (io::monotonic_now() < opens - kLastLook) {
     }
     const bool octets = octets_before(opens);
@@ -122,7 +125,12 @@ std::optional<Bytes> BusThread::send()
     const auto reply = layer2_.take_transmit();
     if (!reply) return std::nullopt;
     const Baud baud = layer2_.baud();
-    const auto written = port_.send(*reply, baud, layer2_.window_ended());
+    const BusPort::Reply outgoing{.octets = *reply,
+                                  .address = layer2_.answered_address(),
+                                  .baud = baud,
+                                  .begins = processed_at_,
+                                  .window_ended = layer2_.window_ended()};
+    const auto written = port_.send(outgoing);
     if (!written) return std::nullopt;
     count_turnaround(*written, baud);
     return reply;

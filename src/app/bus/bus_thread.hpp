@@ -68,6 +68,7 @@ private:
     Histogram turnaround_us_;
     Histogram turnaround_tbit_;
     std::uint64_t too_late_ = 0;
+    Instant processed_at_{}; ///< when layer 2 had the time last: right before a reply
     Instant next_bus_snapshot_{}, next_members_{};
     bool memory_is_ready_ = false;
     Instant published_until_{}; ///< what was due by then was looked at, one station at a time

@@ -124,6 +124,8 @@ control::Handlers ControlMethods::all_handlers()
         {"SetTec", one([this](const Station& station, const Json& parameters, const Caller& caller) {
              return set_tec(station, parameters, caller);
          })},
+        {"Trace", [this](const Json& parameters,
+                         const Caller& caller) { return parts_.traces.add(parameters, caller); }},
         {"Reload",
          [this](const Json& parameters, const Caller&) {
              return parts_.reload.request(parameters.value("dry_run", false));

@@ -8,6 +8,7 @@
 #include "pending_accesses.hpp"
 #include "pending_probes.hpp"
 #include "reload.hpp"
+#include "traces.hpp"
 #include "watchers.hpp"
 
 namespace dpslave::app {
@@ -22,6 +23,7 @@ public:
         PendingAccesses& accesses;
         PendingProbes& probes;
         Watchers& watchers;
+        Traces& traces;
         Reload& reload;
         EventHistory& events;
         EventStreams& event_streams;

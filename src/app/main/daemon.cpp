@@ -112,7 +112,7 @@ ExitStatus run_daemon(const config::Config& config, const std::filesystem::path&
     if (!port) return ExitStatus::device_not_opened;
     if (const auto trouble = keep({config.bus.driver_enable, config.bus.port}, runtime_folder()))
         spdlog::warn("{}", *trouble);
-    BusLink link;
+    BusLink link{std::size_t{config.trace.bus_kib} * 1024};
     Runtime runtime{link.failed, passes_self_test()};
     const auto give_up = [&driver] {
         driver->detach(); // the port goes before it

@@ -34,8 +34,9 @@ MainThread::MainThread(config::Config config, const std::filesystem::path& profi
       signals_(signals),
       monitor_(std::move(config), runtime, bus),
       file_(monitor_.config(), profiles, io::monotonic_now()),
-      methods_({monitor_, lamps_, file_, accesses_, probes_, watchers_, reload_, events_, event_streams_,
-                log_level_},
+      traces_(bus, replies_),
+      methods_({monitor_, lamps_, file_, accesses_, probes_, watchers_, traces_, reload_, events_,
+                event_streams_, log_level_},
                io::monotonic_now())
 {
     events_.add(Happened::daemon, {}, fmt::format("dpslaved {} started", kVersion), io::monotonic_now());
@@ -115,6 +116,7 @@ bool MainThread::run()
 std::chrono::milliseconds MainThread::tick_length() const
 {
     if (!accesses_.empty() || !reload_.is_idle()) return kTickWhilePending;
+    if (!traces_.empty()) return kTickWithDiagnosis;
     const auto& stations = runtime_.stations();
     const bool has_diagnosis = std::any_of(stations.begin(), stations.end(), [](const Station& station) {
         return station.config->profile->diagnosis != profile::DiagForm::none;
@@ -136,6 +138,7 @@ void MainThread::tick(Instant now)
     probes_.answer();
     watchers_.push(now);
     event_streams_.push(now);
+    traces_.push();
     let_log_level_end(now);
     file_.on_time(now);
     feed_watchdog(now);

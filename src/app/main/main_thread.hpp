@@ -59,6 +59,7 @@ private:
     PendingAccesses accesses_{monitor_, runtime_, replies_, events_};
     PendingProbes probes_{monitor_, runtime_, replies_};
     Watchers watchers_{monitor_, replies_};
+    Traces traces_;
     Reload reload_{{file_, monitor_, runtime_, bus_, lamps_, accesses_, replies_, notifier_, events_}};
     ControlMethods methods_;
 

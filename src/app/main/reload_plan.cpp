@@ -95,6 +95,7 @@ void refuse_what_needs_a_restart(const config::Config& present, Plan& plan)
     };
     refuse("[bus]", bus_differences(present.bus, plan.config.bus));
     refuse("[realtime]", realtime_differences(present.realtime, plan.config.realtime));
+    refuse("[trace]", present.trace.bus_kib == plan.config.trace.bus_kib ? "" : "bus_kib");
     refuse("[control]", present.control.socket == plan.config.control.socket ? "" : "socket");
 }
 

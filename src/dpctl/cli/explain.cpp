@@ -99,6 +99,10 @@ std::string read_only(const Json&)
            "and "
            "reload";
 }
+std::string trace_off(const Json&)
+{
+    return "the daemon records nothing: set bus_kib in [trace] of its configuration, and restart it";
+}
 std::string busy(const Json&)
 {
     return "the daemon has too many connections or requests at once; try again";
@@ -135,6 +139,7 @@ constexpr std::array kSentences = std::to_array<Row>({
     {"org.dpslaved.Control.LineInUse", said<report::LineInUse, line_in_use>},
     {"org.dpslaved.Control.BadLogLevel", said<report::BadLogLevel, bad_log_level>},
     {"org.dpslaved.Control.ReadOnly", read_only},
+    {"org.dpslaved.Control.TraceOff", trace_off},
     {"org.dpslaved.Control.Busy", busy},
     {"org.varlink.service.InvalidParameter", said<InvalidParameter, invalid_parameter>},
     {"org.varlink.service.MethodNotFound", said<MethodNotFound, method_not_found>},

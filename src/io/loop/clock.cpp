@@ -4,12 +4,25 @@
 #include <ctime>
 
 namespace dpslave::io {
+namespace {
+
+std::chrono::nanoseconds read(clockid_t clock) noexcept
+{
+    timespec now{};
+    ::clock_gettime(clock, &now); // cannot fail: the clock exists and the address is valid
+    return std::chrono::seconds{now.tv_sec} + std::chrono::nanoseconds{now.tv_nsec};
+}
+
+} // namespace
 
 Instant monotonic_now() noexcept
 {
-    timespec now{};
-    ::clock_gettime(CLOCK_MONOTONIC, &now); // cannot fail: the clock exists and the address is valid
-    return Instant{std::chrono::seconds{now.tv_sec} + std::chrono::nanoseconds{now.tv_nsec}};
+    return Instant{read(CLOCK_MONOTONIC)};
+}
+
+std::chrono::nanoseconds unix_now() noexcept
+{
+    return read(CLOCK_REALTIME);
 }
 
 } // namespace dpslave::io
