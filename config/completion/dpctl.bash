@@ -11,6 +11,7 @@ _dpctl_options()
         doctor) echo "$_dpctl_common --all --probe --yes" ;;
         status) echo "$_dpctl_common --follow --wait --drive --quiet" ;;
         io | events) echo "$_dpctl_common --follow" ;;
+        trace) echo "$_dpctl_common --follow --station --service --bad --write --linktype" ;;
         'tec set') echo "$_dpctl_common --station --yes" ;;
         read) echo "$_dpctl_common --every --list --station" ;;
         write) echo "$_dpctl_common --station" ;;
@@ -90,14 +91,15 @@ _dpctl()
         --profiles | --output) compopt -o filenames 2>/dev/null
             mapfile -t COMPREPLY < <(compgen -f -- "$cur"); return ;;
         --profile) _dpctl_offer "$cur" < <(_dpctl_profiles); return ;;
+        --linktype) mapfile -t COMPREPLY < <(compgen -W 'profibus user0' -- "$cur"); return ;;
         --as) mapfile -t COMPREPLY < <(compgen -W 'prm cfg diag' -- "$cur"); return ;;
         --station) _dpctl_offer "$cur" < <(_dpctl_stations); return ;;
-        --timeout | --wait | --every | --tags | --for | --passes | --in | --out | --in-out | --ident | --max-tsdr | --description | --model) return ;;
+        --timeout | --wait | --every | --service | --tags | --for | --passes | --in | --out | --in-out | --ident | --max-tsdr | --description | --model) return ;;
     esac
     for ((i = 1; i < COMP_CWORD; i++)); do
         word=${COMP_WORDS[i]}
         case $word in
-            --socket | --timeout | --wait | --write | --every | --station | --tags | --table | --for | --passes) i=$((i + 1)) ;;
+            --socket | --timeout | --wait | --service | --write | --linktype | --every | --station | --tags | --table | --for | --passes) i=$((i + 1)) ;;
             -*) ;;
             *)
                 case "$command" in
@@ -112,7 +114,7 @@ _dpctl()
         words=$(_dpctl_options "$command")
     else
         case $command in
-            '') words='status show io diag counters doctor bus events metrics read write tec survey log-level reload tune tag hex decode gsd version' ;;
+            '') words='status show io diag counters doctor trace bus events metrics read write tec survey log-level reload tune tag hex decode gsd version' ;;
             read) _dpctl_offer "$cur" < <(_dpctl_tags); return ;;
             log-level) words='debug info' ;;
             status | show | io | events | diag | doctor | survey) _dpctl_offer "$cur" < <(_dpctl_stations); return ;;

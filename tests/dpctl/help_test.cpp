@@ -91,11 +91,11 @@ TEST(DpctlHelp, HasACommandOfEachKindUnderItsHeading)
     const std::string all = dpctl({"--help"}).out;
     std::size_t at = 0;
     for (const char* line :
-         {"\nLook:\n",    "\n  status ",  "\n  show ", "\n  io ",     "\n  diag ",      "\n  counters ",
-          "\n  doctor ",  "\nWatch:\n",   "\n  bus ",  "\n  events ", "\n  metrics ",   "\nOperate:\n",
-          "\n  read ",    "\n  write ",   "\n  tec ",  "\n  survey ", "\n  log-level ", "\n  reload ",
-          "\n  tune ",    "\nOffline:\n", "\n  tag ",  "\n  hex ",    "\n  decode ",    "\n  gsd ",
-          "\nVersion:\n", "\n  version "}) {
+         {"\nLook:\n",    "\n  status ",  "\n  show ",    "\n  io ",  "\n  diag ",   "\n  counters ",
+          "\n  doctor ",  "\nWatch:\n",   "\n  trace ",   "\n  bus ", "\n  events ", "\n  metrics ",
+          "\nOperate:\n", "\n  read ",    "\n  write ",   "\n  tec ", "\n  survey ", "\n  log-level ",
+          "\n  reload ",  "\n  tune ",    "\nOffline:\n", "\n  tag ", "\n  hex ",    "\n  decode ",
+          "\n  gsd ",     "\nVersion:\n", "\n  version "}) {
         const std::size_t found = all.find(line, at > 0 ? at - 1 : 0);
         ASSERT_NE(found, std::string::npos) << line;
         at = found + std::string_view{line}.size();

@@ -237,4 +237,22 @@ void survey_arguments(CLI::App& app, Options& options)
     app.add_flag("--resume", options.resume, "Continue where the last survey ended");
 }
 
+void trace_arguments(CLI::App& app, Options& options)
+{
+    app.add_flag("--follow", options.follow, "Show what comes from now on, until Ctrl-C");
+    app.add_option("--station", options.station, "Only telegrams from or to this name or address")
+        ->type_name("STATION");
+    app.add_option("--service", options.service, "Only services whose name has this part, as in \"diag\"")
+        ->type_name("NAME");
+    app.add_flag("--bad", options.bad, "Only what is no telegram, and requests without a reply");
+    auto* const file =
+        app.add_option("--write", options.file, "Write a capture (pcapng) in place of the text")
+            ->type_name("FILE");
+    app.add_option("--linktype", options.link_type,
+                   "Of the capture: profibus (257, default), or user0 (147) for programs that do not know it")
+        ->type_name("TYPE")
+        ->check(CLI::IsMember({"profibus", "user0"}).description(""))
+        ->needs(file);
+}
+
 } // namespace dpslave::dpctl

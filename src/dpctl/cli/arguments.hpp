@@ -28,5 +28,6 @@ void reload_arguments(CLI::App& app, Options& options);
 void octet_arguments(CLI::App& app, Options& options);
 void metrics_arguments(CLI::App& app, Options& options);
 void survey_arguments(CLI::App& app, Options& options);
+void trace_arguments(CLI::App& app, Options& options);
 
 } // namespace dpslave::dpctl

@@ -56,6 +56,11 @@ constexpr std::array kCommands = std::to_array<Command>({
      "dpctl doctor --probe    searches for a drive that never answered (root and the operator group)\n"
      "dpctl doctor --all      all rules, for lamps and symptoms that you see",
      doctor_arguments, do_doctor},
+    {"trace", kWatch, "Shows the telegrams of the bus (root and the operator group)", kTraceJson, kShows,
+     "dpctl trace --bad                      what was no telegram, and requests without a reply\n"
+     "dpctl trace --follow --station 5       from now on, only from and to address 5\n"
+     "dpctl trace --write bus.pcapng         into a capture for Wireshark",
+     trace_arguments, do_trace},
     {"bus", kWatch, "Shows who is on the bus: masters, slaves, cycles, retries, load", "GetBus", kShows,
      "dpctl bus            also addresses that a master asks and nobody answers", no_arguments, do_bus},
     {"events", kWatch, "Shows what happened, with the time, the newest last",

@@ -15,6 +15,11 @@ EARLIER = {"station": null or name, "what", "count", "age_ms"};
 LINE = {"baud", "cable_a_m", "cable_b_m": null or metres};
 with --all {"rules": [RULE], "lines": [LINE]}, where RULE is FINDING with "note", without "station" and "evidence")";
 
+inline constexpr const char* kTraceJson =
+    R"({"what": "telegram", "piece", "reply", "unanswered", "rate" or "lost", "at_ns", "first_ns", "last_ns": since 1970,
+"uncertainty_ns", "baud", "from", "to": null or address, "service", "octets": hexadecimal, "bad_characters",
+"flaw": null or code, "lost": records}, one a line)";
+
 inline constexpr const char* kSurveyJson =
     R"({"station", "table", "record": files, "complete": true or false, "tags": how many there are to ask,
 "asked", "answering", "denied": [{"reason", "tags": [number]}], "silent": [number], "added": [number],

@@ -41,6 +41,12 @@ struct Options {
     std::uint32_t passes = 1; ///< how often each tag is asked
     bool resume = false;      ///< goes on with the record that is there
 
+    // Of trace.
+    std::string file;      ///< a capture that is written; empty = text
+    std::string link_type; ///< of it: "profibus" or "user0"
+    std::string service;   ///< a part of its name; empty = all
+    bool bad = false;      ///< only what is no telegram or was not answered
+
     // Of the subcommands that need no daemon.
     std::vector<std::string> words; ///< query, numbers or octets; `read`: tags
     std::string profiles =
@@ -76,6 +82,9 @@ int do_show(const Options&, Terminal&);
 // follow.cpp: status and io with --follow
 int follow_status(const Options&, Terminal&);
 int follow_io(const Options&, Terminal&);
+
+// trace.cpp
+int do_trace(const Options&, Terminal&);
 
 // status.cpp: status with --wait
 int wait_for_exchange(const Options&, Terminal&);

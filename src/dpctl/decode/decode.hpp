@@ -67,6 +67,9 @@ void decode_extended(Bytes blocks, std::size_t at, const DecodeContext& context,
 /// True: whole blocks from the first octet to the last.
 bool are_blocks(Bytes octets);
 
+/// "Set_Prm", "Slave_Diag, reply", "Data_Exchange", "request, FDL status". Precondition: telegram.has_fc().
+std::string service_name(const fdl::Telegram& telegram);
+
 /// "1, 8" of Group_Ident or Group_Select; empty for 0.
 std::string group_list(std::uint8_t octet);
 

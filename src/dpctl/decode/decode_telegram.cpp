@@ -122,24 +122,6 @@ std::optional<std::uint8_t> service_sap(const Telegram& telegram)
     return telegram.is_request() ? telegram.dsap : telegram.ssap;
 }
 
-std::string service_name(const Telegram& telegram)
-{
-    const bool asks_data =
-        telegram.function() == fdl::Function::srd_low || telegram.function() == fdl::Function::srd_high;
-    if (telegram.is_request() && !asks_data && !telegram.dsap)
-        return fmt::format("request, {}", kRequests[telegram.fc & 0x0FU]);
-    const auto sap = service_sap(telegram);
-    const std::string_view side = telegram.is_request() ? "" : ", reply";
-    if (!sap) {
-        if (telegram.delimiter == fdl::kSD1)
-            return telegram.is_request() ? "Data_Exchange without data" : "acknowledgement without data";
-        return fmt::format("Data_Exchange{}", side);
-    }
-    for (const Sap& row : kSaps)
-        if (row.number == *sap) return fmt::format("{}{}", row.name, side);
-    return fmt::format("SAP {}{}", *sap, side);
-}
-
 void add_octet(Decoded& into, std::size_t octet, std::uint8_t value, std::string meaning)
 {
     into.octets.push_back({octet, value, std::move(meaning)});
@@ -332,6 +314,24 @@ std::string flaw_words(Flaw flaw, Bytes frame)
 }
 
 } // namespace
+
+std::string service_name(const Telegram& telegram)
+{
+    const bool asks_data =
+        telegram.function() == fdl::Function::srd_low || telegram.function() == fdl::Function::srd_high;
+    if (telegram.is_request() && !asks_data && !telegram.dsap)
+        return fmt::format("request, {}", kRequests[telegram.fc & 0x0FU]);
+    const auto sap = service_sap(telegram);
+    const std::string_view side = telegram.is_request() ? "" : ", reply";
+    if (!sap) {
+        if (telegram.delimiter == fdl::kSD1)
+            return telegram.is_request() ? "Data_Exchange without data" : "acknowledgement without data";
+        return fmt::format("Data_Exchange{}", side);
+    }
+    for (const Sap& row : kSaps)
+        if (row.number == *sap) return fmt::format("{}{}", row.name, side);
+    return fmt::format("SAP {}{}", *sap, side);
+}
 
 Decoded decode_telegram(Bytes frame, DecodeContext& context)
 {

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Entries of a trace as lines of text, as JSON and as packets of a capture. Pure, but for the time zone.
+#pragma once
+
+#include "dpctl/cli/fields.hpp"
+
+#include "dpslave/pcapng/pcapng.hpp"
+#include "dpslave/trace/telegrams.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace dpslave::dpctl {
+
+/// Which entries are shown.
+struct TraceFilter {
+    std::optional<std::uint8_t> address; ///< as sender or receiver
+    std::string service;                 ///< a part of its name, in any case; empty = all
+    bool bad = false;                    ///< only what is no telegram, unanswered or lost
+};
+
+/// What an entry is, in the words of the field.
+struct TraceWords {
+    std::optional<std::uint8_t> from, to; ///< none: the telegram does not say (SC), or it is none
+    std::string service;                  ///< "Set_Prm", "Data_Exchange, reply", "no telegram: checksum"
+};
+TraceWords words_of(const trace::Entry& entry);
+bool passes(const TraceFilter& filter, const trace::Entry& entry, const TraceWords& words);
+
+/// From the clock of the records to CLOCK_REALTIME.
+using UnixOffset = std::chrono::nanoseconds;
+
+/// One line: time, seconds since the entry before, sender > receiver, service, octets. `before`: the last
+/// character of the entry before.
+std::string line_of(const trace::Entry& entry, const TraceWords& words, UnixOffset offset,
+                    std::optional<Instant> before);
+Json json_of(const trace::Entry& entry, const TraceWords& words, UnixOffset offset);
+
+/// Nothing: it is no packet (a change of the rate, a gap in the records).
+std::optional<pcapng::Packet> packet_of(const trace::Entry& entry, const TraceWords& words,
+                                        UnixOffset offset);
+
+} // namespace dpslave::dpctl

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// What dpctl trace shows is what was on the wire.
+#include "system/gateway.hpp"
+
+#include "dpslave/pcapng/pcapng.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+namespace dpslave::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::vector<Json> entries_of(const Gateway& gateway, Arguments more = {})
+{
+    Arguments arguments{"--json", "trace"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    std::istringstream lines{gateway.dpctl(arguments).out};
+    std::vector<Json> entries;
+    for (std::string line; std::getline(lines, line);) entries.push_back(Json::parse(line));
+    return entries;
+}
+
+std::size_t count(const std::vector<Json>& entries, const char* key, const Json& value)
+{
+    return static_cast<std::size_t>(
+        std::count_if(entries.begin(), entries.end(), [&](const Json& one) { return one.at(key) == value; }));
+}
+
+TEST(Trace, ShowsTheStartUpOfAStationWithItsReplies)
+{
+    Gateway gateway;
+    Master master{gateway, {"--tags", "55,56w"}};
+    ASSERT_TRUE(master.does("start 30s"));
+
+    const std::vector<Json> entries = entries_of(gateway);
+
+    const auto set_prm = std::find_if(entries.begin(), entries.end(),
+                                      [](const Json& one) { return one.at("service") == "Set_Prm"; });
+    ASSERT_NE(set_prm, entries.end());
+    EXPECT_EQ(set_prm->at("from"), 2);
+    EXPECT_EQ(set_prm->at("to"), 5);
+    EXPECT_EQ(set_prm->at("what"), "telegram");
+    ASSERT_NE(set_prm + 1, entries.end());
+    EXPECT_EQ(set_prm[1].at("what"), "reply");
+    EXPECT_EQ(set_prm[1].at("octets"), "E5");
+    EXPECT_LE(set_prm->at("last_ns"), set_prm[1].at("first_ns"));
+    EXPECT_GT(count(entries, "service", "Data_Exchange"), 0U);
+    EXPECT_EQ(count(entries, "what", "piece"), 0U);
+    EXPECT_EQ(count(entries, "what", "lost"), 0U);
+}
+
+TEST(Trace, CountsTheRepliesThatTheDaemonCounts)
+{
+    Gateway gateway;
+    Master master{gateway, {"--tags", "55,56w"}};
+    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.leaves());
+    std::uint64_t replies = 0;
+    ASSERT_TRUE(eventually([&] { // what is counted may be a moment old
+        const auto before = std::exchange(replies, gateway.counter("bus", "replies"));
+        return replies != 0 && replies == before;
+    }));
+
+    const std::vector<Json> entries = entries_of(gateway);
+
+    EXPECT_EQ(count(entries, "what", "reply"), replies);
+}
+
+TEST(Trace, NamesWhatIsNoTelegramAndFiltersByAddressAndService)
+{
+    Gateway gateway;
+    Master master{gateway, {"--tags", "55,56w"}};
+    ASSERT_TRUE(master.does("start 30s"));
+    master.send_line("send 10 05 02 49 51 16");
+    EXPECT_TRUE(eventually([&] { return gateway.flaws() > 0; }));
+
+    const auto bad = entries_of(gateway, {"--bad"});
+    ASSERT_EQ(bad.size(), 1U);
+    EXPECT_EQ(bad[0].at("flaw"), "checksum");
+    EXPECT_EQ(bad[0].at("octets"), "10 05 02 49 51 16");
+
+    for (const Json& one : entries_of(gateway, {"--service", "chk_cfg"}))
+        EXPECT_EQ(one.at("service"), "Chk_Cfg");
+    EXPECT_TRUE(entries_of(gateway, {"--station", "99"}).empty());
+    EXPECT_FALSE(entries_of(gateway, {"--station", "unwinder"}).empty());
+    EXPECT_EQ(gateway.dpctl({"trace", "--station", "nothing"}).status, 2);
+}
+
+TEST(Trace, FollowsFromNowOnUntilCtrlC)
+{
+    Gateway gateway;
+    Process follower{gateway.dpctl_command({"trace", "--follow", "--service", "Set_Prm"})};
+    Master master{gateway, {"--tags", "55,56w"}};
+
+    ASSERT_TRUE(master.does("start 30s"));
+
+    EXPECT_TRUE(follower.says("  2 > 5   Set_Prm  ["));
+}
+
+TEST(Trace, WritesACaptureWithTheDirectionOfEachTelegram)
+{
+    Gateway gateway;
+    Master master{gateway, {"--tags", "55,56w"}};
+    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.leaves());
+    const std::string path = gateway.folder("bus.pcapng").string();
+
+    const Outcome outcome = gateway.dpctl({"trace", "--write", path});
+
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_THAT(outcome.out, HasSubstr(" packets in " + path));
+    std::ifstream file{path, std::ios::binary};
+    const std::vector<std::uint8_t> octets{std::istreambuf_iterator<char>{file}, {}};
+    const auto capture = pcapng::read(octets);
+    ASSERT_TRUE(capture) << capture.error();
+    EXPECT_EQ(capture->interfaces.at(0).link_type, 257);
+    const auto sent = std::count_if(capture->packets.begin(), capture->packets.end(), [](const auto& one) {
+        return one.direction == pcapng::Direction::outbound;
+    });
+    EXPECT_EQ(static_cast<std::size_t>(sent), count(entries_of(gateway), "what", "reply"));
+    EXPECT_EQ(capture->statistics.at(0).received, capture->packets.size());
+    EXPECT_EQ(capture->statistics.at(0).dropped, 0U);
+}
+
+TEST(Trace, OfARecorderThatIsOffSaysHowToSwitchItOn)
+{
+    Gateway gateway{{.started = false}};
+    write_file(gateway.config(), gateway.config_text() + "\n[trace]\nbus_kib = 0\n");
+    gateway.start_daemon();
+
+    const Outcome outcome = gateway.dpctl({"trace"});
+
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_THAT(outcome.err, HasSubstr("bus_kib"));
+}
+
+} // namespace
+} // namespace dpslave::test
