@@ -175,6 +175,12 @@ std::vector<drive::TagTable> tables_of(const SimulatedLine& line)
 
 std::unique_ptr<drive::Backend> ei_client(EiLine& line, const Conditions& conditions)
 {
+    return ei_client_on(line, line, conditions);
+}
+
+std::unique_ptr<drive::Backend> ei_client_on(drive::SerialLine& port, const EiLine& line,
+                                             const Conditions& conditions)
+{
     std::vector<drive::EiUnit> units;
     for (const SimulatedDrive& drive : line.drives)
         units.push_back({{0, drive.unit}, drive::MnemonicRule::none});
@@ -183,7 +189,7 @@ std::unique_ptr<drive::Backend> ei_client(EiLine& line, const Conditions& condit
     timing.timeout = std::chrono::duration_cast<std::chrono::milliseconds>(conditions.line.timeout);
     timing.rules.hold_back = conditions.line.port_holds;
     timing.rules.echo = conditions.echo;
-    return std::make_unique<drive::EiAsciiClient>(line, timing, units);
+    return std::make_unique<drive::EiAsciiClient>(port, timing, units);
 }
 
 std::unique_ptr<drive::Backend> modbus_client(ModbusFrames& line, const Conditions& conditions)

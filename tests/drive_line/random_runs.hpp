@@ -47,6 +47,9 @@ using MakeModbusBackend = std::function<std::unique_ptr<drive::Backend>(ModbusFr
 
 /// The clients of the program.
 std::unique_ptr<drive::Backend> ei_client(EiLine& line, const Conditions& conditions);
+/// The same where something lies between it and the drives of `line`.
+std::unique_ptr<drive::Backend> ei_client_on(drive::SerialLine& port, const EiLine& line,
+                                             const Conditions& conditions);
 std::unique_ptr<drive::Backend> modbus_client(ModbusFrames& line, const Conditions& conditions);
 
 struct RunOptions {

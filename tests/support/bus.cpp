@@ -84,6 +84,30 @@ void Bus::arrives_with_bad_character(const Octets& telegram, std::size_t bad)
     ended({at + 1, telegram.end()});
 }
 
+void Bus::arrives_as(const Octets& telegram, const std::vector<Character>& received)
+{
+    settle();
+    wait_for_syn();
+    speak(telegram);
+    Octets good; // since the last bad one
+    const auto hand_over = [&] {
+        deliver(good);
+        asked_.insert(asked_.end(), good.begin(), good.end());
+        good.clear();
+    };
+    for (const Character& one : received) {
+        if (one.good) {
+            good.push_back(one.octet);
+            continue;
+        }
+        hand_over();
+        deliver_bad();
+        asked_.clear();
+    }
+    hand_over();
+    ended({});
+}
+
 void Bus::master_sends_after(duration pause, const Octets& telegram)
 {
     if (pause < bits(33)) ADD_FAILURE() << "the master asks before T_SYN: " << show(telegram);

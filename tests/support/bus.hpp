@@ -11,6 +11,7 @@
 ///   - the station's next_deadline() does not move on.
 #pragma once
 
+#include "bit_line.hpp"
 #include "master.hpp"
 #include "print.hpp"
 #include "wire.hpp"
@@ -57,6 +58,8 @@ public:
     void arrives_in_one_read(const std::vector<Octets>& telegrams);
     /// One telegram whose octet number `bad` (from 0) arrives with a parity or framing error.
     void arrives_with_bad_character(const Octets& telegram, std::size_t bad);
+    /// A telegram of which these characters are received, at its end.
+    void arrives_as(const Octets& telegram, const std::vector<Character>& received);
     /// A telegram `pause` after the last octet on the line, whatever the station is about to do. With a pause
     /// below T_SYN the test fails; see breaks_in_after().
     void master_sends_after(duration pause, const Octets& telegram);

@@ -9,6 +9,7 @@ ATTACK is "all" (all habits at once, 200 connections), or one of
   connects   1000 connections that say nothing
   slow       7 connections, each sends calls without end and takes no reply
   garbage    7 connections, each sends octets that are no call; ends after 64 MiB
+  bad-json   7 connections, each sends messages that are no JSON, or no call
 A connection that the daemon has ended is made again.
 """
 import itertools
@@ -26,6 +27,8 @@ MANY = 200
 # What a connection sends, again and again or once, and whether it takes what is answered.
 SILENT = (b"", "once", False)
 GARBAGE = (b"x" * 65536, "again", False)
+NO_JSON = (b'{"method":}\0[]\0null\0{"method":7}\0\xff\xfe\0{"method":"org.dpslaved.Control.GetStatus","parameters":"x"}\0',
+           "again", True)
 HABITS = [
     (call(OWN + "GetStatus") * MANY, "again", True),
     (call(OWN + "GetCounters") * MANY, "again", False),
@@ -44,6 +47,7 @@ ATTACKS = {
     "connects": ([SILENT], 1000),
     "slow": (HABITS[1:2], 7),
     "garbage": ([GARBAGE], 7),
+    "bad-json": ([NO_JSON], 7),
 }
 MOST_GARBAGE = 64 << 20
 

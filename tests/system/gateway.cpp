@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -16,7 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kStationNames[] = {"unwinder", "rewinder", "dancer", "printer", "cutter", "stacker"};
+std::string station_name(std::size_t index)
+{
+    constexpr std::array kNames{"unwinder", "rewinder", "dancer", "printer", "cutter", "stacker"};
+    return index < kNames.size() ? kNames.at(index) : fmt::format("drive{:02}", index);
+}
+
 const fs::path kConfigFolder = fs::path{DPSLAVE_SOURCE_DIR} / "config";
 
 /// The simulated masters wait 20 ms beyond the slot time; the daemon may take three quarters of that.
@@ -139,27 +145,27 @@ Gateway::~Gateway()
 
 std::string Gateway::config_text() const
 {
-    std::string text =
-        fmt::format("[bus]\n"
-                    "port = \"{}\"\n"
-                    "baud = {}\n"
-                    "direction = \"none\"\n"
-                    "max_tsdr = {}\n"
-                    "[leds]\n"
-                    "sysfs = \"{}\"\n"
-                    "[control]\n"
-                    "socket = \"{}\"\n"
-                    "operator_group = \"{}\"\n"
-                    "{}"
-                    "[[line]]\n"
-                    "name = \"p3\"\n"
-                    "port = \"{}\"\n"
-                    "protocol = \"{}\"\n"
-                    "baud = {}\n",
-                    wiring_.bus_port.empty() ? (folder_ / "bus-gateway").string() : wiring_.bus_port,
-                    wiring_.bus_baud, wiring_.max_tsdr.value_or(patient_max_tsdr(wiring_.bus_baud)),
-                    lamp_folder().string(), socket().string(), own_group(), wiring_.control_keys,
-                    (folder_ / "drive-gateway").string(), wiring_.protocol, wiring_.drive_baud);
+    std::string text = fmt::format(
+        "[bus]\n"
+        "port = \"{}\"\n"
+        "baud = {}\n"
+        "{}"
+        "max_tsdr = {}\n"
+        "[leds]\n"
+        "sysfs = \"{}\"\n"
+        "[control]\n"
+        "socket = \"{}\"\n"
+        "operator_group = \"{}\"\n"
+        "{}"
+        "[[line]]\n"
+        "name = \"p3\"\n"
+        "port = \"{}\"\n"
+        "protocol = \"{}\"\n"
+        "baud = {}\n",
+        wiring_.bus_port.empty() ? (folder_ / "bus-gateway").string() : wiring_.bus_port, wiring_.bus_baud,
+        wiring_.direction, wiring_.max_tsdr.value_or(patient_max_tsdr(wiring_.bus_baud)),
+        lamp_folder().string(), socket().string(), own_group(), wiring_.control_keys,
+        (folder_ / "drive-gateway").string(), wiring_.protocol, wiring_.drive_baud);
     text += wiring_.line_keys;
     for (std::size_t i = 0; i < wiring_.units.size(); ++i) {
         text +=
@@ -170,7 +176,7 @@ std::string Gateway::config_text() const
                         "line = \"p3\"\n"
                         "unit = \"{}\"\n"
                         "output_refresh_s = {}\n",
-                        kStationNames[i], 5 + i, wiring_.profile, wiring_.units[i], wiring_.output_refresh_s);
+                        station_name(i), 5 + i, wiring_.profile, wiring_.units[i], wiring_.output_refresh_s);
         if (!wiring_.table.empty())
             text += "tags = \"tags.csv\"\n";
         else if (wiring_.protocol == "ei-ascii")
@@ -193,8 +199,14 @@ Arguments Gateway::daemon_command(Arguments more) const
 
 void Gateway::start_daemon()
 {
-    daemon_ = std::make_unique<Process>(daemon_command(), wiring_.environment);
-    must(daemon_->says("station(s) on")); // all is open; a call is answered now
+    Arguments command = daemon_command();
+    if (!wiring_.log_to.empty())
+        command.insert(command.begin(), {"/bin/sh", "-c", R"(exec "$@" 2>"$0")", wiring_.log_to});
+    daemon_ = std::make_unique<Process>(std::move(command), wiring_.environment);
+    if (wiring_.log_to.empty())
+        must(daemon_->says("station(s) on")); // all is open; a call is answered now
+    else
+        must(eventually([&] { return dpctl({"status", "--quiet"}).status != 3; }));
 }
 
 void Gateway::plug_bus()

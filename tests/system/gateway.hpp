@@ -55,11 +55,13 @@ struct Wiring {
     std::string profiles{};     ///< folder of the profiles; empty: those that are shipped
     std::string line_keys{};    ///< more lines of the drive line
     std::string control_keys{}; ///< more lines of [control]
-    std::string keys{};         ///< more lines of each station, its tables last
-    bool simulated = true;      ///< false: the test brings a drive of its own to drive_end()
-    bool lamps = false;         ///< red on GPIO 23, green on the LED class, both in lamp_folder()
-    Environment environment{};  ///< of the daemon
-    bool started = true;        ///< false: the test starts the daemon by itself, or sees it refuse
+    std::string direction = "direction = \"none\"\n"; ///< the lines of [bus] for it
+    std::string keys{};                               ///< more lines of each station, its tables last
+    bool simulated = true;     ///< false: the test brings a drive of its own to drive_end()
+    bool lamps = false;        ///< red on GPIO 23, green on the LED class, both in lamp_folder()
+    Environment environment{}; ///< of the daemon
+    std::string log_to{};      ///< a file for its standard error; empty: its transcript
+    bool started = true;       ///< false: the test starts the daemon by itself, or sees it refuse
 };
 
 class Gateway {
@@ -73,6 +75,7 @@ public:
     Process& bus() { return *bus_; }         ///< dpsim line of the PROFIBUS
     Process& drive_line() { return *line_; } ///< dpsim line between the gateway and the drive
     Process& drive() { return *drive_; }
+    const Process& drive() const { return *drive_; }
     Process& daemon() { return *daemon_; }
     void start_daemon(); ///< and waits until it serves
     void unplug_bus();   ///< as a USB adapter that is pulled: the tty vanishes

@@ -4,6 +4,7 @@
 
 #include "chip_file.hpp"
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 
@@ -31,6 +32,7 @@ public:
     void occupy(unsigned line, const std::string& consumer);
     void remove();    ///< the chip is pulled: what was taken is dead
     void come_back(); ///< another chip of this name is there, its lines low
+    void takes(std::chrono::microseconds edge) { chip_->edge_us = static_cast<std::uint32_t>(edge.count()); }
     /// What is written to `port` from now on is judged by this line.
     void watch(unsigned line, const std::filesystem::path& port, unsigned baud);
     const Watch& watched() const { return chip_->watch; }

@@ -56,6 +56,7 @@ struct Chip {
     Number lines;
     Number gone;       ///< the chip is not there
     Number generation; ///< how often it went: a line taken before that is dead
+    Number edge_us;    ///< how long an edge takes
     std::array<Line, kMostLines> line;
     Watch watch;
 };

@@ -142,6 +142,7 @@ bool Handle::pin(unsigned line, bool high) noexcept
         errno = ENODEV;
         return false;
     }
+    if (chip_->edge_us != 0) ::usleep(chip_->edge_us);
     Line& one = chip_->line[line];
     const bool was = one.level.high != 0;
     const std::uint32_t level[3]{high ? 1U : 0U, one.level.rises + (high && !was ? 1U : 0U),

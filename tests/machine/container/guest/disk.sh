@@ -25,7 +25,7 @@ serves_with_full_disk() {
     eventually restarted_since "$before"
     eventually exchanging
 }
-prove "given a full disk and a full journal, when the service serves and is killed, then nothing is lost but log lines" \
+prove "F25: given a full disk and a full journal, when the service serves and is killed, then nothing is lost but log lines" \
     serves_with_full_disk
 rm -f /var/tmp/filler* /run/filler*
 mount -o remount,size=20% /run
@@ -38,7 +38,7 @@ serves_with_read_only_root() {
     expect_status 0 systemctl restart dpslaved
     eventually exchanging
 }
-prove "given a read-only root, when the service serves and is restarted, then it is back in Data_Exchange" \
+prove "F26: given a read-only root, when the service serves and is restarted, then it is back in Data_Exchange" \
     serves_with_read_only_root
 mount -o remount,bind,rw /
 journalctl --flush

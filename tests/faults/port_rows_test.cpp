@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Serial adapters that are pulled and come back, also under another name.
+#include "fault_row.hpp"
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <cstdlib>
+
+namespace dpslave::test {
+namespace {
+
+/// Keeps a terminal open, so that its number is not given to what is plugged next.
+class KeptOpen {
+public:
+    explicit KeptOpen(const std::filesystem::path& terminal)
+        : fd_(::open(terminal.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC))
+    {
+        EXPECT_GE(fd_, 0);
+    }
+    ~KeptOpen() { ::close(fd_); }
+    KeptOpen(const KeptOpen&) = delete;
+    KeptOpen& operator=(const KeptOpen&) = delete;
+
+private:
+    int fd_;
+};
+
+class RowOfAPort : public FaultRow {
+protected:
+    std::filesystem::path terminal_of(const char* end) const
+    {
+        return std::filesystem::read_symlink(gateway->folder(end));
+    }
+    /// The adapter of the bus is pulled, and comes back; the master with it.
+    void bus_comes_back()
+    {
+        gateway->plug_bus();
+        fault_ends();
+        EXPECT_TRUE(gateway->daemon().says("bus-gateway is back"));
+        master.emplace(*gateway, master_of("ei-ascii"));
+        ASSERT_TRUE(master->does("start 30s"));
+        ASSERT_TRUE(master_wants(9));
+        EXPECT_TRUE(drive_takes(9));
+        recovered();
+        EXPECT_TRUE(doctor_names("bus.gone", false));
+    }
+    void drive_line_comes_back()
+    {
+        gateway->plug_drive();
+        fault_ends();
+        drive_shows(9);
+        EXPECT_TRUE(drive_takes(5)) << "what the master wanted meanwhile";
+        EXPECT_TRUE(master_sees(9));
+        recovered();
+        EXPECT_TRUE(never_an_older_one(taken()));
+        EXPECT_TRUE(never_an_older_one(seen()));
+        EXPECT_TRUE(doctor_names("drive.gone", false));
+        EXPECT_TRUE(master_stays_in_data_exchange());
+    }
+};
+
+TEST_F(RowOfAPort, F22_OfTheBusThatHangsUpIsOpenedAgainAndTheWatchdogWorksMeanwhile)
+{
+    begins(wiring_of("ei-ascii"), master_of("ei-ascii", {"--watchdog", "500"}));
+    gateway->unplug_bus();
+    EXPECT_TRUE(gateway->daemon().says("bus-gateway is missing"));
+    EXPECT_TRUE(drive_takes(0)) << "the watchdog works without a port as well";
+    EXPECT_TRUE(doctor_names("bus.gone"));
+    bus_comes_back();
+}
+
+TEST_F(RowOfAPort, F23_OfADriveLineThatHangsUpIsOpenedAgain)
+{
+    begins();
+    gateway->unplug_drive();
+    EXPECT_TRUE(master_wants(5));
+    EXPECT_TRUE(gateway->daemon().says("drive-gateway is missing"));
+    EXPECT_TRUE(doctor_names("drive.gone"));
+    EXPECT_TRUE(master_still_sees(1));
+    drive_line_comes_back();
+}
+
+TEST_F(RowOfAPort, F24_ThatComesBackAsAnotherTerminalBehindTheSameLinkIsOpenedAgain)
+{
+    begins(wiring_of("ei-ascii"), master_of("ei-ascii", {"--watchdog", "500"}));
+    const auto bus_before = terminal_of("bus-gateway"), drive_before = terminal_of("drive-gateway");
+    const KeptOpen old_bus{bus_before}, old_drive_line{drive_before};
+    gateway->unplug_drive();
+    gateway->unplug_bus();
+    EXPECT_TRUE(gateway->daemon().says("bus-gateway is missing"));
+    EXPECT_TRUE(doctor_names("bus.gone"));
+    gateway->plug_drive();
+    bus_comes_back();
+    EXPECT_NE(terminal_of("bus-gateway"), bus_before);
+    EXPECT_NE(terminal_of("drive-gateway"), drive_before);
+}
+
+} // namespace
+} // namespace dpslave::test
