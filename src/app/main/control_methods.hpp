@@ -4,11 +4,11 @@
 
 #include "app/watch/event_streams.hpp"
 #include "app/watch/log_level.hpp"
+#include "app/watch/traces.hpp"
 #include "lamps.hpp"
 #include "pending_accesses.hpp"
 #include "pending_probes.hpp"
 #include "reload.hpp"
-#include "traces.hpp"
 #include "watchers.hpp"
 
 namespace dpslave::app {

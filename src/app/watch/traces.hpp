@@ -3,7 +3,7 @@
 #pragma once
 
 #include "app/links.hpp"
-#include "replies.hpp"
+#include "app/main/replies.hpp"
 
 #include "dpslave/report/replies.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Who is on the bus, as a slave hears it: masters, other slaves, and addresses that nobody has.
-#include "bench.hpp"
+#include "dp/bench.hpp"
 
 #include "dpslave/dp/bus_members.hpp"
 
