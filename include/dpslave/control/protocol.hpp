@@ -19,7 +19,7 @@ namespace dpslave::control {
 using Json = nlohmann::json;
 
 /// Longest call that is taken, in octets without its NUL. Every call of our interfaces fits 1 KiB.
-inline constexpr std::size_t kMaxCall = 64 * 1024;
+inline constexpr std::size_t kMaxCall = 16 * 1024;
 /// Longest reply that is sent or taken: 125 stations with 12 words each need some 300 KiB.
 inline constexpr std::size_t kMaxReply = 1024 * 1024;
 /// Deepest nesting of objects and arrays; our deepest reply has 6.
