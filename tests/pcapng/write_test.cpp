@@ -49,8 +49,9 @@ TEST(PcapngFile, FlagsNameDirectionAndFaults)
 {
     const auto flags_of = [](Packet packet) {
         const Octets octets = block(packet);
-        return octets[octets.size() - 12] | octets[octets.size() - 11] << 8 |
-               octets[octets.size() - 10] << 16 | static_cast<std::uint32_t>(octets[octets.size() - 9]) << 24;
+        std::uint32_t flags = 0;
+        for (std::size_t i = 9; i <= 12; ++i) flags = flags << 8 | octets[octets.size() - i];
+        return flags;
     };
 
     EXPECT_EQ(flags_of({.direction = Direction::outbound}), 0x00000002U);
