@@ -137,7 +137,7 @@ private:
     {
         if (body.octets.size() < 20) return "a packet block is too short";
         Packet found;
-        if (const auto why = place(body.u32(0), found.interface)) return why;
+        if (auto why = place(body.u32(0), found.interface)) return why;
         const std::uint64_t units = std::uint64_t{body.u32(4)} << 32 | body.u32(8);
         found.unix_ns = clocks_[found.interface].unix_ns(units);
         const std::size_t length = body.u32(12);
@@ -159,7 +159,7 @@ private:
     {
         if (body.octets.size() < 4) return "a packet block is too short";
         Packet found;
-        if (const auto why = place(0, found.interface)) return why;
+        if (auto why = place(0, found.interface)) return why;
         const std::size_t length = std::min<std::size_t>(body.u32(0), body.octets.size() - 4);
         const Bytes octets = body.octets.subspan(4, length);
         found.octets.assign(octets.begin(), octets.end());
@@ -171,7 +171,7 @@ private:
     {
         if (body.octets.size() < 12) return "a statistics block is too short";
         Statistics found;
-        if (const auto why = place(body.u32(0), found.interface)) return why;
+        if (auto why = place(body.u32(0), found.interface)) return why;
         found.unix_ns = clocks_[found.interface].unix_ns(std::uint64_t{body.u32(4)} << 32 | body.u32(8));
         for (const OptionValue& option : options(body.from(12))) {
             if (option.value.octets.size() != 8) continue;
