@@ -49,6 +49,13 @@ Arguments master_of(const std::string& protocol, Arguments more)
 
 FaultRow::FaultRow() = default;
 
+void FaultRow::master_leaves_the_bus()
+{
+    ASSERT_TRUE(master->does("stop"));
+    ASSERT_TRUE(master->leaves());
+    master.reset();
+}
+
 void FaultRow::installs(Wiring wiring)
 {
     wiring.environment.emplace("LD_PRELOAD", REPLY_WATCH_LIBRARY);

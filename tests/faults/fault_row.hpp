@@ -45,6 +45,10 @@ protected:
     /// Only the installation, timed.
     void installs(Wiring wiring);
 
+    /// The master says nothing more and frees the line: two of them on one pty would take each other's
+    /// answers.
+    void master_leaves_the_bus();
+
     // --- What the three of them have.
 
     void drive_shows(int value); ///< in tag 55

@@ -23,13 +23,6 @@ protected:
         ASSERT_TRUE(drive_takes(7));
         master->end(SIGKILL);
     }
-    /// It says nothing more and frees the line: two masters on one pty would take each other's answers.
-    void leaves_the_bus()
-    {
-        ASSERT_TRUE(master->does("stop"));
-        ASSERT_TRUE(master->leaves());
-        master.reset();
-    }
     /// It comes back, from the beginning, and wants 8.
     void returns_and_wants_eight()
     {
@@ -119,7 +112,7 @@ TEST_F(RowOfTheMaster, F13_IsNotDisturbedByASecondMasterThatWantsTheSlave)
 TEST_F(RowOfTheMaster, F14_KeepsItsSlaveAgainstTheSetPrmOfAnother)
 {
     begins(wiring_of("ei-ascii"), master_of("ei-ascii", {"--no-watchdog"}));
-    leaves_the_bus();
+    master_leaves_the_bus();
     {
         Master foreign{*gateway, master_of("ei-ascii", {"--master", "3"})};
         for (int i = 0; i < 3; ++i)
@@ -139,7 +132,7 @@ TEST_F(RowOfTheMaster, F14_KeepsItsSlaveAgainstTheSetPrmOfAnother)
 TEST_F(RowOfTheMaster, F15_AndItsDriveKeepTheirValuesWhileAnotherSlaveHasOurAddressAndIsQuicker)
 {
     begins(wiring_of("ei-ascii"), master_of("ei-ascii", {"--no-watchdog"}));
-    leaves_the_bus();
+    master_leaves_the_bus();
     const std::uint64_t before = replies.replies();
     const std::uint64_t dropped = gateway->counter("bus", "overtaken");
     {
@@ -162,7 +155,7 @@ TEST_F(RowOfTheMaster, F15_AndItsDriveKeepTheirValuesWhileAnotherSlaveHasOurAddr
 TEST_F(RowOfTheMaster, F15_AndItsDriveKeepTheirValuesWhileAnotherMasterHasOurAddress)
 {
     begins(wiring_of("ei-ascii"), master_of("ei-ascii", {"--no-watchdog"}));
-    leaves_the_bus();
+    master_leaves_the_bus();
     {
         Master other{*gateway, {"--master", "5", "--tags", "55", "--slot-ms", "50"}, 9};
         other.send_line("start 100s"); // its telegrams have our address as sender
