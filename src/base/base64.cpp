@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpslave/base/base64.hpp"
 
+#include <algorithm>
+
 namespace dpslave {
 namespace {
 

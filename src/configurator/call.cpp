@@ -4,6 +4,7 @@
 #include "facts.hpp"
 #include "mapping.hpp"
 
+#include "dpslave/base/base64.hpp"
 #include "dpslave/configurator/configurator.hpp"
 
 #include <algorithm>
@@ -64,7 +65,9 @@ private:
     {
         const std::string octets = text(key);
         if (!request_.contains(key) || octets.size() > kMostBase64) return std::nullopt;
-        return octets_of_base64(octets);
+        const auto file = from_base64(octets);
+        if (!file) return std::nullopt;
+        return std::string{file->begin(), file->end()};
     }
 
     Outcome no_file(const std::string& key) const
@@ -246,7 +249,7 @@ std::string reply_of(const Outcome& outcome)
                {"lines", outcome.lines},
                {"messages", outcome.messages},
                {"refusals", outcome.refusals}};
-    if (!outcome.octets.empty()) reply["octets"] = base64(outcome.octets);
+    if (!outcome.octets.empty()) reply["octets"] = to_base64(bytes_of(outcome.octets));
     reply.update(Json::parse(outcome.facts, nullptr, false));
     return text_of(reply);
 }

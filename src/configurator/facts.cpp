@@ -8,8 +8,6 @@
 namespace dpslave::configurator {
 namespace {
 
-constexpr std::string_view kSixBits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-
 Json list_of(const std::vector<profile::Parameter>& parameters)
 {
     Json list = Json::array();
@@ -157,40 +155,6 @@ std::string utf8_of_latin1(std::string_view octets)
         const auto octet = static_cast<std::uint8_t>(c);
         if (octet >= 0x80) out += static_cast<char>(0xC0U | octet >> 6U);
         out += static_cast<char>(octet >= 0x80 ? 0x80U | (octet & 0x3FU) : octet);
-    }
-    return out;
-}
-
-std::string base64(std::string_view octets)
-{
-    std::string out;
-    for (std::size_t at = 0; at < octets.size(); at += 3) {
-        const std::string_view three = octets.substr(at, 3);
-        std::uint32_t bits = 0;
-        for (std::size_t i = 0; i < 3; ++i)
-            bits = bits << 8U | (i < three.size() ? static_cast<std::uint8_t>(three[i]) : 0U);
-        for (std::size_t i = 0; i < 4; ++i)
-            out += i <= three.size() ? kSixBits[bits >> (18U - 6U * i) & 63U] : '=';
-    }
-    return out;
-}
-
-std::optional<std::string> octets_of_base64(std::string_view text)
-{
-    if (text.size() % 4 != 0) return std::nullopt;
-    while (text.ends_with('=') && text.size() % 4 != 1) text.remove_suffix(1);
-    if (text.size() % 4 == 1) return std::nullopt;
-    std::string out;
-    std::uint32_t bits = 0;
-    unsigned held = 0;
-    for (const char c : text) {
-        const auto value = kSixBits.find(c);
-        if (value == std::string_view::npos) return std::nullopt;
-        bits = (bits << 6U | static_cast<std::uint32_t>(value)) & 0xFFFFU;
-        held += 6;
-        if (held < 8) continue;
-        held -= 8;
-        out += static_cast<char>(bits >> held & 0xFFU);
     }
     return out;
 }

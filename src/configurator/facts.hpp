@@ -47,8 +47,4 @@ std::string hex_of(std::uint32_t word); ///< "0x0533"
 /// Each octet one character, whatever else it might be read as: what was read is written again.
 std::string utf8_of_latin1(std::string_view octets);
 
-std::string base64(std::string_view octets);
-/// Nothing: the text is no base64.
-std::optional<std::string> octets_of_base64(std::string_view text);
-
 } // namespace dpslave::configurator

@@ -3,6 +3,7 @@
 
 #include "facts.hpp"
 
+#include "dpslave/base/letters.hpp"
 #include "dpslave/base/printable.hpp"
 
 #include <algorithm>
@@ -13,13 +14,6 @@
 namespace dpslave::configurator {
 namespace {
 
-std::string lower(std::string text)
-{
-    for (char& c : text)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return text;
-}
-
 /// 0x1F and 31 are the same.
 std::string number_or_word(const std::string& word)
 {
@@ -27,7 +21,7 @@ std::string number_or_word(const std::string& word)
     std::uint32_t value = 0;
     const char* const end = word.data() + word.size();
     const auto [stop, error] = std::from_chars(word.data() + (hex ? 2 : 0), end, value, hex ? 16 : 10);
-    return error == std::errc{} && stop == end ? std::to_string(value) : lower(word);
+    return error == std::errc{} && stop == end ? std::to_string(value) : to_lower(word);
 }
 
 /// A value without what does not matter: blanks, the form of numbers, the case of words. Texts stay as they
@@ -84,7 +78,7 @@ public:
 
     const Said* find(const std::string& what) const
     {
-        const auto found = places_.find(lower(what));
+        const auto found = places_.find(to_lower(what));
         return found == places_.end() ? nullptr : &all_[found->second];
     }
 
@@ -93,7 +87,7 @@ private:
     {
         static constexpr std::array<std::string_view, 4> kOfSetPrm{
             "user_prm_data", "user_prm_data_len", "max_user_prm_data_len", "ext_user_prm_data_const"};
-        return std::find(kOfSetPrm.begin(), kOfSetPrm.end(), lower(keyword)) != kOfSetPrm.end();
+        return std::find(kOfSetPrm.begin(), kOfSetPrm.end(), to_lower(keyword)) != kOfSetPrm.end();
     }
 
     static std::string name_of(const gsd::Entry& entry)
@@ -131,7 +125,7 @@ private:
     void add(std::string what, const std::string& value, unsigned line)
     {
         Said said{what, utf8_of_latin1(value), normal(value), line};
-        const auto [place, is_new] = places_.emplace(lower(std::move(what)), all_.size());
+        const auto [place, is_new] = places_.emplace(to_lower(what), all_.size());
         if (is_new)
             all_.push_back(std::move(said));
         else

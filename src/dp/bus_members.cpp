@@ -48,11 +48,6 @@ Member::State state_of(Bytes diagnosis)
     return (diagnosis[0] & 0x02) != 0 ? Member::State::not_ready : Member::State::ready;
 }
 
-std::uint16_t word(Bytes octets, std::size_t at)
-{
-    return static_cast<std::uint16_t>(octets[at] << 8 | octets[at + 1]);
-}
-
 } // namespace
 
 void Recurrence::roll(Instant at)
@@ -147,7 +142,7 @@ void BusMembers::on_request(const Telegram& request, Instant at)
     }
     ++member.asked;
     if (is_exchange) member.recurrence.event(at);
-    if (request.dsap == sap::kSetPrm && request.data.size() >= 7) member.ident = word(request.data, 4);
+    if (request.dsap == sap::kSetPrm && request.data.size() >= 7) member.ident = be16(request.data, 4);
 }
 
 /// An SC says only that it was an answer.
@@ -160,7 +155,7 @@ void BusMembers::on_answer(Member& member, const Telegram& answer, Instant at)
     member.recurrence.octets(octets_of(answer), at);
     last_fc_[static_cast<std::size_t>(&member - members_.data())] = 0;
     if (answer.ssap != sap::kSlaveDiag || answer.data.size() < kStandardDiagnosis) return;
-    member.ident = word(answer.data, 4);
+    member.ident = be16(answer.data, 4);
     member.state = state_of(answer.data);
 }
 

@@ -33,11 +33,6 @@ bool is_noise(char octet)
     return octet == '\0' || octet == '\x7F' || octet == '\xFF';
 }
 
-Bytes bytes_of(const std::string& text)
-{
-    return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
-
 std::chrono::nanoseconds settle_of(const EiTiming& timing)
 {
     const auto settle = timing.rules.settle;

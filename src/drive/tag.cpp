@@ -3,6 +3,8 @@
 
 #include "digits.hpp"
 
+#include "dpslave/base/letters.hpp"
+
 #include <algorithm>
 #include <cstddef>
 
@@ -11,23 +13,6 @@ namespace {
 
 constexpr std::string_view kHexDigits = "0123456789ABCDEF";
 constexpr std::string_view kTagDigits = "0123456789abcdefghijklmnopqrstuvwxyz";
-
-char lower(char c)
-{
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
-bool same_any_case(std::string_view a, std::string_view b)
-{
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](char x, char y) { return lower(x) == lower(y); });
-}
-
-bool contains_any_case(std::string_view text, std::string_view part)
-{
-    return std::search(text.begin(), text.end(), part.begin(), part.end(),
-                       [](char x, char y) { return lower(x) == lower(y); }) != text.end();
-}
 
 std::int32_t counts_of(const Tag& tag, std::uint16_t word)
 {

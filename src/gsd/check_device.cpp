@@ -95,7 +95,7 @@ void check_lengths(Judge& judge)
     }
     const auto diag = document.number("Max_Diag_Data_Len");
     for (const Entry& entry : document.keywords) {
-        if (!same(entry.keyword, "Unit_Diag_Bit") || !entry.index || !diag) continue;
+        if (!same_any_case(entry.keyword, "Unit_Diag_Bit") || !entry.index || !diag) continue;
         const std::uint64_t needed =
             6 + 1 + std::uint64_t{*entry.index} / 8 + 1; // header of the block before bit 0
         if (needed > *diag)
@@ -143,7 +143,7 @@ void check_file_name(Judge& judge, std::string_view file_name)
     const auto dot = file_name.rfind('.');
     const std::string_view stem = file_name.substr(0, dot);
     const std::string_view extension = dot == std::string_view::npos ? "" : file_name.substr(dot + 1);
-    if (extension.size() != 3 || !same(extension.substr(0, 2), "gs"))
+    if (extension.size() != 3 || !same_any_case(extension.substr(0, 2), "gs"))
         judge.say(0, Weight::warning,
                   "the file's name " + in_quotes(file_name) +
                       " does not end in .GSD: tools do not offer it.");
@@ -154,7 +154,7 @@ void check_file_name(Judge& judge, std::string_view file_name)
                 " is not of the form VVVVIIII.GSD (four characters for the vendor, the Ident_Number in four "
                 "hexadecimal digits): old tools do not find it.");
     const auto ident = judge.document.number("Ident_Number");
-    if (ident && stem.size() == 8 && !same(stem.substr(4), hex_word(*ident).substr(2)))
+    if (ident && stem.size() == 8 && !same_any_case(stem.substr(4), hex_word(*ident).substr(2)))
         judge.say(judge.line_of("Ident_Number"), Weight::warning,
                   "the file's name " + in_quotes(file_name) + " does not end in " +
                       hex_word(*ident).substr(2) +

@@ -101,8 +101,8 @@ void check_one(Judge& judge, const Entry& entry, Section section, Seen& seen)
                       std::string{keyword->name} + "(0) and the like.");
     check_value(judge, entry, *keyword);
     const auto [first, is_first] =
-        seen.try_emplace({lower(entry.keyword), entry.index.value_or(0)}, entry.line);
-    const bool may_repeat = same(keyword->name, "Ext_User_Prm_Data_Ref"); // bits of one octet
+        seen.try_emplace({to_lower(entry.keyword), entry.index.value_or(0)}, entry.line);
+    const bool may_repeat = same_any_case(keyword->name, "Ext_User_Prm_Data_Ref"); // bits of one octet
     if (!is_first && !may_repeat)
         judge.say(entry.line, Weight::warning,
                   std::string{keyword->name} + " is here a second time (first in line " +

@@ -40,7 +40,8 @@ public:
             if (block.kind == "Module") {
                 std::optional<std::uint32_t> length;
                 for (const Entry& entry : block.body)
-                    if (same(entry.keyword, "Ext_Module_Prm_Data_Len")) length = parse_number(entry.value);
+                    if (same_any_case(entry.keyword, "Ext_Module_Prm_Data_Len"))
+                        length = parse_number(entry.value);
                 area(block.body, length, "Ext_Module_Prm_Data_Len");
             }
         area(judge_.document.keywords, judge_.document.number("Max_User_Prm_Data_Len"),
@@ -69,7 +70,7 @@ private:
         found.line = block.line;
         for (const Entry& entry : block.body) {
             if (entry.keyword.empty() && found.octets == 0) found = type_line(entry, block.line);
-            if (same(entry.keyword, "Prm_Text_Ref") &&
+            if (same_any_case(entry.keyword, "Prm_Text_Ref") &&
                 !texts_.contains(parse_number(entry.value).value_or(0)))
                 error(entry.line,
                       "there is no PrmText " + entry.value + " before this line: define it above.");
@@ -101,7 +102,7 @@ private:
 
         std::int64_t min = 0, max = 0;
         for (const Type& type : kTypes)
-            if (same(type.name, name)) {
+            if (same_any_case(type.name, name)) {
                 found.octets = type.octets;
                 min = type.min;
                 max = type.max;
@@ -125,8 +126,8 @@ private:
         const auto open = name.find('(');
         if (open == name.npos || name.back() != ')') return std::nullopt;
         const std::string_view inside = name.substr(open + 1, name.size() - open - 2);
-        const bool area = same(name.substr(0, open), "BitArea");
-        if (!area && !same(name.substr(0, open), "Bit")) return std::nullopt;
+        const bool area = same_any_case(name.substr(0, open), "BitArea");
+        if (!area && !same_any_case(name.substr(0, open), "Bit")) return std::nullopt;
         const auto dash = area ? inside.find('-') : inside.npos;
         const auto first = parse_number(trimmed(inside.substr(0, dash)));
         const auto last = dash == inside.npos ? first : parse_number(trimmed(inside.substr(dash + 1)));
@@ -154,8 +155,9 @@ private:
     {
         std::map<std::uint64_t, std::uint8_t> taken; ///< offset: bits
         for (const Entry& entry : entries) {
-            const bool constants = same(entry.keyword, "Ext_User_Prm_Data_Const");
-            if ((!constants && !same(entry.keyword, "Ext_User_Prm_Data_Ref")) || !entry.index) continue;
+            const bool constants = same_any_case(entry.keyword, "Ext_User_Prm_Data_Const");
+            if ((!constants && !same_any_case(entry.keyword, "Ext_User_Prm_Data_Ref")) || !entry.index)
+                continue;
             std::size_t octets = 0;
             if (constants) {
                 octets = parse_octets(entry.value).value_or(std::vector<std::uint8_t>{}).size();

@@ -44,7 +44,7 @@ public:
     {
         const std::vector<LogicalLine> lines = logical_lines(content, document_.remarks);
         auto line = lines.begin();
-        for (; line != lines.end() && !same(line->text, kSection); ++line) before_section(*line);
+        for (; line != lines.end() && !same_any_case(line->text, kSection); ++line) before_section(*line);
         if (line == lines.end()) {
             remark(0, Weight::error,
                    "there is no line #Profibus_DP: this is no GSD file, or its first line is spelt wrongly.");
@@ -157,11 +157,12 @@ private:
                    "the module's identifiers " + in_quotes(octets) +
                        " are no octets: write them as 0x50 or 80, with commas between.");
         for (const Entry& entry : block.body) {
-            if (same(entry.keyword, "Preset")) module.preset = entry.value == "1";
+            if (same_any_case(entry.keyword, "Preset")) module.preset = entry.value == "1";
             if (!entry.keyword.empty()) continue;
             if (!module.reference && parse_number(entry.value))
                 module.reference = parse_number(entry.value);
-            else if (!same(entry.value, "Data_Area_Beg") && !same(entry.value, "Data_Area_End"))
+            else if (!same_any_case(entry.value, "Data_Area_Beg") &&
+                     !same_any_case(entry.value, "Data_Area_End"))
                 remark(entry.line, Weight::error,
                        in_quotes(entry.value) +
                            " is neither the module's reference number nor Keyword = value: remove "
@@ -178,8 +179,9 @@ private:
 
 const Entry* Document::find(std::string_view keyword) const
 {
-    const auto found = std::find_if(keywords.rbegin(), keywords.rend(),
-                                    [&](const Entry& entry) { return same(entry.keyword, keyword); });
+    const auto found = std::find_if(keywords.rbegin(), keywords.rend(), [&](const Entry& entry) {
+        return same_any_case(entry.keyword, keyword);
+    });
     return found == keywords.rend() ? nullptr : &*found;
 }
 
@@ -211,7 +213,7 @@ std::vector<std::uint8_t> Document::user_prm_data() const
     if (const auto length = number("Max_User_Prm_Data_Len")) {
         std::vector<std::uint8_t> out(std::min(*length, kLongest));
         for (const Entry& entry : keywords) {
-            if (!same(entry.keyword, "Ext_User_Prm_Data_Const") || !entry.index) continue;
+            if (!same_any_case(entry.keyword, "Ext_User_Prm_Data_Const") || !entry.index) continue;
             const auto constants = parse_octets(entry.value).value_or(std::vector<std::uint8_t>{});
             for (std::size_t i = 0; i < constants.size() && *entry.index + i < out.size(); ++i)
                 out[*entry.index + i] = constants[i];

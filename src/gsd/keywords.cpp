@@ -177,22 +177,23 @@ constexpr std::array kBlocks = std::to_array<BlockKind>({
 
 const Keyword* find_keyword(std::string_view name)
 {
-    const auto found = std::find_if(kKeywords.begin(), kKeywords.end(),
-                                    [&](const Keyword& keyword) { return same(keyword.name, name); });
+    const auto found = std::find_if(kKeywords.begin(), kKeywords.end(), [&](const Keyword& keyword) {
+        return same_any_case(keyword.name, name);
+    });
     return found == kKeywords.end() ? nullptr : &*found;
 }
 
 const BlockKind* find_opening(std::string_view word)
 {
     const auto found = std::find_if(kBlocks.begin(), kBlocks.end(),
-                                    [&](const BlockKind& kind) { return same(kind.opens, word); });
+                                    [&](const BlockKind& kind) { return same_any_case(kind.opens, word); });
     return found == kBlocks.end() ? nullptr : &*found;
 }
 
 const BlockKind* find_closing(std::string_view word)
 {
     const auto found = std::find_if(kBlocks.begin(), kBlocks.end(),
-                                    [&](const BlockKind& kind) { return same(kind.closes, word); });
+                                    [&](const BlockKind& kind) { return same_any_case(kind.closes, word); });
     return found == kBlocks.end() ? nullptr : &*found;
 }
 
@@ -201,11 +202,11 @@ std::string_view nearest_keyword(std::string_view name)
     constexpr std::size_t kLongest = 64; // longer ones are no slip of the pen
     constexpr std::size_t kApart = 2;
     if (name.size() < 4 || name.size() > kLongest) return {};
-    const std::string wanted = lower(name);
+    const std::string wanted = to_lower(name);
     std::string_view nearest;
     std::size_t best = kApart + 1;
     for (const Keyword& keyword : kKeywords) {
-        const std::size_t apart = edit_distance(wanted, lower(keyword.name), kApart);
+        const std::size_t apart = edit_distance(wanted, to_lower(keyword.name), kApart);
         if (apart < best) {
             best = apart;
             nearest = keyword.name;

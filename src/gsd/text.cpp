@@ -14,28 +14,6 @@ std::string_view trimmed(std::string_view text)
     return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-namespace {
-
-char lower_letter(char c)
-{
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
-} // namespace
-
-std::string lower(std::string_view text)
-{
-    std::string out{text};
-    for (char& c : out) c = lower_letter(c);
-    return out;
-}
-
-bool same(std::string_view a, std::string_view b)
-{
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](char x, char y) { return lower_letter(x) == lower_letter(y); });
-}
-
 std::optional<std::uint32_t> parse_number(std::string_view text)
 {
     int base = 10;

@@ -2,6 +2,8 @@
 /// The small grammar of a GSD's values (wire reference 9.1).
 #pragma once
 
+#include "dpslave/base/letters.hpp"
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -11,8 +13,6 @@
 namespace dpslave::gsd {
 
 std::string_view trimmed(std::string_view text);
-std::string lower(std::string_view text);          ///< ASCII letters only
-bool same(std::string_view a, std::string_view b); ///< any case
 
 /// Decimal or 0x1AF, nothing before or behind; up to 32 bits.
 std::optional<std::uint32_t> parse_number(std::string_view text);

@@ -56,8 +56,7 @@ public:
     }
     void option(std::uint16_t code, std::string_view text)
     {
-        if (!text.empty())
-            option(code, Bytes{reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+        if (!text.empty()) option(code, bytes_of(text));
     }
     void option64(std::uint16_t code, std::uint64_t value)
     {

@@ -8,11 +8,6 @@ using testing::ElementsAre;
 
 namespace {
 
-Bytes bytes_of(std::string_view text)
-{
-    return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
-
 TEST(Base64, HasTheValuesOfTheStandard)
 {
     for (const auto& [plain, coded] :

@@ -130,6 +130,20 @@ TEST_F(DpctlTrace, OfARunningDaemonHasOneDocumentALine)
     EXPECT_THAT(what, ElementsAre("lost", "telegram", "reply", "piece", "unanswered"));
 }
 
+TEST_F(DpctlTrace, WhoseRecordsCannotBeReadSaysSoAndWhatToCompare)
+{
+    // No base64; and three octets that are no record behind the last one.
+    for (const char* behind_the_records : {"!", "AAAA"}) {
+        const FixtureDaemon daemon{behind_the_records};
+
+        const Ran ran = dpctl({"--socket", daemon.socket(), "trace"});
+
+        EXPECT_EQ(ran.exit, 1);
+        EXPECT_THAT(ran.err, HasSubstr("records of the daemon cannot be read"));
+        EXPECT_THAT(ran.err, HasSubstr("dpctl version"));
+    }
+}
+
 TEST_F(DpctlTrace, ThatCannotCreateItsFileSaysWhich)
 {
     const FixtureDaemon daemon;

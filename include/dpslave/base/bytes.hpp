@@ -9,10 +9,17 @@
 #include <cstring>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace dpslave {
 
 using Bytes = std::span<const std::uint8_t>;
+
+/// A text as octets; it outlives them.
+inline Bytes bytes_of(std::string_view text)
+{
+    return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
 
 /// The word at `offset`, high octet first. Precondition: offset + 2 <= bytes.size().
 constexpr std::uint16_t be16(Bytes bytes, std::size_t offset)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tag_names.hpp"
 
+#include "dpslave/base/letters.hpp"
+
 #include <algorithm>
 #include <string>
 
@@ -10,11 +12,9 @@ namespace {
 /// In one case, with blanks for `_` and `-`.
 std::string comparable(std::string_view name)
 {
-    std::string out{name};
-    for (char& c : out) {
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-        if (c == '_' || c == '-') c = ' ';
-    }
+    std::string out = to_lower(name);
+    std::replace_if(
+        out.begin(), out.end(), [](char c) { return c == '_' || c == '-'; }, ' ');
     return out;
 }
 

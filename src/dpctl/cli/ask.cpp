@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ask.hpp"
 
+#include "end_signals.hpp"
 #include "explain.hpp"
 #include "words.hpp"
 
@@ -59,6 +60,29 @@ int show(const Options& options, Terminal& terminal, std::string_view method, co
     if (!reply) return reply.error();
     terminal.out << (options.json ? json_text(*reply) + '\n' : render(*reply)) << std::flush;
     return kFine;
+}
+
+int print_gone(const control::ClientError& error, Terminal& terminal)
+{
+    const int code = print_error(error, terminal);
+    return error.kind == control::ClientError::Kind::ended ? kNoDaemon : code;
+}
+
+int follow_replies(const Options& options, Terminal& terminal, std::string_view method,
+                   const Json& parameters, const std::function<bool(const control::ReplyMessage&)>& take)
+{
+    const EndSignals end;
+    auto client = control::Client::connect(options.socket, options.timeout());
+    if (!client) return print_error(client.error(), terminal);
+    if (const auto failed = client->start(method, parameters)) return print_error(*failed, terminal);
+    while (terminal.out) {
+        const auto reply = client->next(end.fd());
+        if (!reply) return print_gone(reply.error(), terminal);
+        if (!*reply) return kFine; // Ctrl-C
+        if (!(*reply)->error.empty()) return print_error(**reply, options, terminal);
+        if (take(**reply) || !(*reply)->continues) return kFine;
+    }
+    return kNo; // what we print is not taken any more
 }
 
 Json station_parameter(const Options& options)

@@ -23,8 +23,15 @@ Result<Json, int> ask(const Options& options, Terminal& terminal, std::string_vi
 int show(const Options& options, Terminal& terminal, std::string_view method, const Json& parameters,
          const std::function<std::string(const Json&)>& render);
 
+/// Calls with "more", and hands on each reply until Ctrl-C, the last reply, or `take` is content (true).
+/// Gives the exit code.
+int follow_replies(const Options& options, Terminal& terminal, std::string_view method,
+                   const Json& parameters, const std::function<bool(const control::ReplyMessage&)>& take);
+
 /// Prints a failure to reach the daemon, with what to do. Returns the exit code.
 int print_error(const control::ClientError& error, Terminal& terminal);
+/// The same of a daemon that had answered before: its end is that of the daemon.
+int print_gone(const control::ClientError& error, Terminal& terminal);
 /// Prints an error reply; as JSON too when wanted. Returns the exit code.
 int print_error(const control::ReplyMessage& error, const Options& options, Terminal& terminal);
 

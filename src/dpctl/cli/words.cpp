@@ -46,12 +46,14 @@ std::tm local_time(std::chrono::system_clock::time_point when)
 
 } // namespace
 
-std::string time_of_day(std::chrono::system_clock::time_point when)
+std::string time_of_day(std::chrono::system_clock::time_point when, std::size_t digits)
 {
     const std::tm parts = local_time(when);
     const auto part = when - std::chrono::floor<std::chrono::seconds>(when);
-    return fmt::format("{:02}:{:02}:{:02}.{:03}", parts.tm_hour, parts.tm_min, parts.tm_sec,
-                       std::chrono::floor<std::chrono::milliseconds>(part).count());
+    const std::string fraction =
+        fmt::format("{:06}", std::chrono::floor<std::chrono::microseconds>(part).count());
+    return fmt::format("{:02}:{:02}:{:02}.{}", parts.tm_hour, parts.tm_min, parts.tm_sec,
+                       fraction.substr(0, digits));
 }
 
 std::string date_and_time(std::chrono::system_clock::time_point when)

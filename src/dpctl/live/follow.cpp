@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpctl/cli/ask.hpp"
-#include "dpctl/cli/end_signals.hpp"
 #include "dpctl/cli/render.hpp"
 #include "dpctl/cli/subcommands.hpp"
 #include "dpctl/cli/words.hpp"
@@ -52,33 +51,17 @@ void show_one(const Followed& followed, const Json& before, const Json& now, con
     terminal.out << std::flush;
 }
 
-/// The daemon was there and has gone.
-int print_gone(const control::ClientError& error, Terminal& terminal)
-{
-    const int code = print_error(error, terminal);
-    return error.kind == control::ClientError::Kind::ended ? kNoDaemon : code;
-}
-
 int follow(const Followed& followed, const Options& options, Terminal& terminal)
 {
-    const EndSignals end;
-    auto client = control::Client::connect(options.socket, options.timeout());
-    if (!client) return print_error(client.error(), terminal);
-    if (const auto failed = client->start("Watch", station_parameter(options)))
-        return print_error(*failed, terminal);
-    if (terminal.tty && !options.json) terminal.out << "\033[2J";
     Json before = Json::object();
-    while (terminal.out) {
-        auto reply = client->next(end.fd());
-        if (!reply) return print_gone(reply.error(), terminal);
-        if (!*reply) return kFine; // Ctrl-C
-        if (!(*reply)->error.empty()) return print_error(**reply, options, terminal);
-        if (!options.json) (*reply)->parameters = printable_texts(std::move((*reply)->parameters));
-        show_one(followed, before, (*reply)->parameters, options, terminal);
-        if (!(*reply)->continues) return kFine;
-        before = std::move((*reply)->parameters);
-    }
-    return kNo; // what we print is not taken any more
+    return follow_replies(options, terminal, "Watch", station_parameter(options),
+                          [&](const control::ReplyMessage& reply) {
+                              if (before.empty() && terminal.tty && !options.json) terminal.out << "\033[2J";
+                              Json now = options.json ? reply.parameters : printable_texts(reply.parameters);
+                              show_one(followed, before, now, options, terminal);
+                              before = std::move(now);
+                              return false;
+                          });
 }
 
 } // namespace

@@ -75,9 +75,9 @@ private:
         for (const std::int64_t tag : tags_) {
             Json parameters = station_parameter(options_);
             parameters["tag"] = tag;
-            if (const auto gone = client.start("ReadTag", parameters)) return print_gone(*gone);
+            if (const auto gone = client.start("ReadTag", parameters)) return print_gone(*gone, terminal_);
             const auto reply = client.next(end_.fd());
-            if (!reply) return print_gone(reply.error());
+            if (!reply) return print_gone(reply.error(), terminal_);
             if (!*reply) return kFine; // Ctrl-C
             if (!(*reply)->error.empty() && !passes(**reply))
                 return print_error(**reply, options_, terminal_);
@@ -85,12 +85,6 @@ private:
             print(**reply, is_repeated, options_, terminal_);
         }
         return std::nullopt;
-    }
-
-    int print_gone(const control::ClientError& error)
-    {
-        const int code = print_error(error, terminal_);
-        return error.kind == control::ClientError::Kind::ended ? kNoDaemon : code;
     }
 
     const EndSignals end_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tag_search.hpp"
 
+#include "dpslave/base/letters.hpp"
 #include "dpslave/io/file.hpp"
 
 #include <algorithm>
@@ -33,7 +34,7 @@ Words words_of(std::string_view text)
     for (const char c : text) {
         if (is_alphanumeric(c)) {
             if (!inside) words.emplace_back();
-            words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+            words.back() += to_lower(c);
         }
         inside = is_alphanumeric(c);
     }

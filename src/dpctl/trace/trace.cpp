@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpctl/cli/ask.hpp"
-#include "dpctl/cli/end_signals.hpp"
 #include "dpctl/cli/subcommands.hpp"
 #include "trace_file.hpp"
 
@@ -57,46 +56,42 @@ private:
     std::optional<Instant> before_;
 };
 
-/// What one reply brings.
-void take(const report::TraceReply& reply, trace::Telegrams& telegrams, Printer& printer)
+/// What one reply brings. False: its records cannot be read.
+bool take(const report::TraceReply& reply, trace::Telegrams& telegrams, Printer& printer)
 {
     const UnixOffset offset{reply.unix_ns - reply.now_ns};
     const Instant now{std::chrono::nanoseconds{reply.now_ns}};
-    const std::vector<std::uint8_t> octets = from_base64(reply.records).value_or(std::vector<std::uint8_t>{});
-    Bytes rest = octets;
+    const auto octets = from_base64(reply.records);
+    if (!octets) return false;
+    Bytes rest = *octets;
     auto record = trace::take_record(rest);
     if (reply.lost > 0)
         telegrams.lost(static_cast<std::uint64_t>(reply.lost), record ? record->head.at : now);
     for (; record; record = trace::take_record(rest)) telegrams.add(*record);
     if (reply.caught_up) telegrams.pass_time(now);
     while (const auto entry = telegrams.take()) printer.print(*entry, offset);
+    return rest.empty();
 }
 
 /// Until all is printed, without an end with --follow. Gives the exit code.
 int run(const Options& options, Printer& printer, std::int64_t& ended_at, Terminal& terminal)
 {
-    const EndSignals end;
-    auto client = control::Client::connect(options.socket, options.timeout());
-    if (!client) return print_error(client.error(), terminal);
     const Json from = options.follow ? Json{{"from", "newest"}} : Json::object();
-    if (const auto failed = client->start("Trace", from)) return print_error(*failed, terminal);
     std::optional<trace::Telegrams> telegrams;
-    while (terminal.out) {
-        const auto reply = client->next(end.fd());
-        if (!reply) {
-            const int code = print_error(reply.error(), terminal);
-            return reply.error().kind == control::ClientError::Kind::ended ? kNoDaemon : code;
-        }
-        if (!*reply) return kFine; // Ctrl-C
-        if (!(*reply)->error.empty()) return print_error(**reply, options, terminal);
-        const auto part = report::read<report::TraceReply>((*reply)->parameters);
-        if (!telegrams) telegrams.emplace(std::chrono::nanoseconds{part.hold_back_ns});
-        take(part, *telegrams, printer);
-        ended_at = part.unix_ns;
-        terminal.out << std::flush;
-        if (!(*reply)->continues || (!options.follow && part.caught_up)) return kFine;
-    }
-    return kNo; // what we print is not taken any more
+    bool is_read = true;
+    const int code =
+        follow_replies(options, terminal, "Trace", from, [&](const control::ReplyMessage& reply) {
+            const auto part = report::read<report::TraceReply>(reply.parameters);
+            if (!telegrams) telegrams.emplace(std::chrono::nanoseconds{part.hold_back_ns});
+            is_read = take(part, *telegrams, printer);
+            ended_at = part.unix_ns;
+            terminal.out << std::flush;
+            return !is_read || (!options.follow && part.caught_up);
+        });
+    if (is_read) return code;
+    terminal.err << "dpctl: the records of the daemon cannot be read. Is dpctl of the same version? Compare: "
+                    "dpctl version\n";
+    return kNo;
 }
 
 } // namespace

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trace_text.hpp"
 
+#include "dpctl/cli/words.hpp"
 #include "dpctl/decode/decode.hpp"
+
+#include "dpslave/base/letters.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <ctime>
 
 namespace dpslave::dpctl {
 namespace {
@@ -21,25 +22,16 @@ std::int64_t unix_ns(Instant at, UnixOffset offset)
 }
 
 /// Local time of day to the microsecond.
-std::string time_of_day(std::int64_t ns)
+std::string time_of(Instant at, UnixOffset offset)
 {
-    const auto seconds = static_cast<std::time_t>(ns / 1'000'000'000);
-    std::tm local{};
-    ::localtime_r(&seconds, &local);
-    return fmt::format("{:02}:{:02}:{:02}.{:06}", local.tm_hour, local.tm_min, local.tm_sec,
-                       ns % 1'000'000'000 / 1000);
+    using Clock = std::chrono::system_clock;
+    return time_of_day(
+        Clock::time_point{std::chrono::duration_cast<Clock::duration>(at.time_since_epoch() + offset)}, 6);
 }
 
 std::string address_text(std::optional<std::uint8_t> address)
 {
     return address ? std::to_string(*address) : std::string{"-"};
-}
-
-std::string lower(std::string text)
-{
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
 }
 
 std::string_view name_of(What what)
@@ -107,7 +99,7 @@ bool passes(const TraceFilter& filter, const Entry& entry, const TraceWords& wor
     if (entry.what == What::lost || entry.what == What::rate) return true;
     if (filter.bad && entry.what != What::piece && entry.what != What::unanswered) return false;
     if (filter.address && words.from != filter.address && words.to != filter.address) return false;
-    return filter.service.empty() || lower(words.service).find(lower(filter.service)) != std::string::npos;
+    return contains_any_case(words.service, filter.service);
 }
 
 std::string line_of(const Entry& entry, const TraceWords& words, UnixOffset offset,
@@ -115,9 +107,8 @@ std::string line_of(const Entry& entry, const TraceWords& words, UnixOffset offs
 {
     const double since =
         before ? std::chrono::duration<double>(std::max(entry.first - *before, {})).count() : 0.0;
-    std::string line =
-        fmt::format("{} {:>+10.6f} {:>3} > {:<3} {}", time_of_day(unix_ns(entry.first, offset)), since,
-                    address_text(words.from), address_text(words.to), words.service);
+    std::string line = fmt::format("{} {:>+10.6f} {:>3} > {:<3} {}", time_of(entry.first, offset), since,
+                                   address_text(words.from), address_text(words.to), words.service);
     if (!entry.octets.empty()) line += fmt::format("  [{}] {}", entry.octets.size(), hex(entry.octets));
     return line;
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpctl/cli/ask.hpp"
-#include "dpctl/cli/end_signals.hpp"
 #include "dpctl/cli/render.hpp"
 #include "dpctl/cli/words.hpp"
 
@@ -35,27 +34,6 @@ void print(const Json& reply, const Options& options, Terminal& terminal)
     terminal.out << std::flush;
 }
 
-int follow_events(const Options& options, Terminal& terminal)
-{
-    const EndSignals end;
-    auto client = control::Client::connect(options.socket, options.timeout());
-    if (!client) return print_error(client.error(), terminal);
-    if (const auto failed = client->start("GetEvents", station_parameter(options)))
-        return print_error(*failed, terminal);
-    while (terminal.out) {
-        const auto reply = client->next(end.fd());
-        if (!reply) {
-            const int code = print_error(reply.error(), terminal);
-            return reply.error().kind == control::ClientError::Kind::ended ? kNoDaemon : code;
-        }
-        if (!*reply) return kFine; // Ctrl-C
-        if (!(*reply)->error.empty()) return print_error(**reply, options, terminal);
-        print((*reply)->parameters, options, terminal);
-        if (!(*reply)->continues) return kFine;
-    }
-    return kNo; // what we print is not taken any more
-}
-
 } // namespace
 
 std::string render_events(const report::GetEventsReply& reply, double now)
@@ -73,7 +51,12 @@ std::string render_events(const report::GetEventsReply& reply, double now)
 
 int do_events(const Options& options, Terminal& terminal)
 {
-    if (options.follow) return follow_events(options, terminal);
+    if (options.follow)
+        return follow_replies(options, terminal, "GetEvents", station_parameter(options),
+                              [&](const control::ReplyMessage& reply) {
+                                  print(reply.parameters, options, terminal);
+                                  return false;
+                              });
     return show(options, terminal, "GetEvents", station_parameter(options), [](const Json& json) {
         const auto reply = report::read<report::GetEventsReply>(json);
         return reply.events.empty() ? std::string{"nothing has happened\n"}
