@@ -24,8 +24,8 @@ protected:
         wiring.environment = {{"NOTIFY_SOCKET", folder / "notify"}, {"WATCHDOG_USEC", "1000000"}};
         begins(std::move(wiring), master_of("ei-ascii"));
         std::filesystem::permissions(gateway->socket().parent_path(), std::filesystem::perms{0755});
-        Process attacker{{"/usr/bin/python3", DPSLAVE_SOURCE_DIR "/tests/system/attacker.py",
-                          gateway->socket(), std::to_string(kStranger), attack}};
+        const std::string program = std::string{DPSLAVE_SOURCE_DIR} + "/tests/system/attacker.py";
+        Process attacker{{"/usr/bin/python3", program, gateway->socket(), std::to_string(kStranger), attack}};
         ASSERT_TRUE(attacker.says("attacking"));
         for (int value = 2; value <= 5; ++value) {
             EXPECT_TRUE(master_wants(value));

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <csignal>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -95,12 +96,17 @@ TEST(Trace, NamesWhatIsNoTelegramAndFiltersByAddressAndService)
 TEST(Trace, FollowsFromNowOnUntilCtrlC)
 {
     Gateway gateway;
-    Process follower{gateway.dpctl_command({"trace", "--follow", "--service", "Set_Prm"})};
     Master master{gateway, {"--tags", "55,56w"}};
-
     ASSERT_TRUE(master.does("start 30s"));
 
+    Process follower{gateway.dpctl_command({"trace", "--follow"})};
+    EXPECT_TRUE(follower.says("  2 > 5   Data_Exchange  ["));
+    EXPECT_FALSE(follower.ever_said("Set_Prm")) << "that was before";
+    ASSERT_TRUE(master.does("unlock"));
     EXPECT_TRUE(follower.says("  2 > 5   Set_Prm  ["));
+
+    follower.send(SIGINT);
+    EXPECT_EQ(follower.wait(), 0);
 }
 
 TEST(Trace, WritesACaptureWithTheDirectionOfEachTelegram)
