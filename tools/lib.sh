@@ -18,8 +18,8 @@ build_packages=(
     libspdlog-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libsystemd-dev libmodbus-dev
     libgpiod-dev scdoc
 )
-# What the tests need beside that. prometheus has promtool, which judges the figures.
-test_packages=(libgtest-dev libgmock-dev prometheus systemd udev binutils python3 python3-pymodbus python3-serial python3-serial-asyncio)
+# What the tests need beside that. prometheus has promtool, which judges the figures. tshark judges captures.
+test_packages=(libgtest-dev libgmock-dev prometheus tshark systemd udev binutils python3 python3-pymodbus python3-serial python3-serial-asyncio)
 
 # What the page of the GSD configurator needs beside that.
 page_packages=(clang lld wasi-libc libc++-dev-wasm32 libclang-rt-dev-wasm32 esbuild python3)
