@@ -235,10 +235,12 @@ Result<Capture, std::string> read(Bytes file, bool* cut)
             return Failure{"the block at octet " + std::to_string(at) + ": " + why};
         };
         if (length < 12 || length % 4 != 0) return here("its length is none");
+        if (head.u32(length - 4) != length) return here("its two lengths differ");
         const std::uint32_t type = head.u32(0);
         const View body{rest.subspan(8, length - 12), swapped};
         if (type == kSectionBlock) {
             if (body.octets.size() < 16) return here("a section header is too short");
+            if (byte_order(rest) == 0) return here("a section header without a known byte order");
             reader.begin_section(body);
         } else if (const auto why = reader.take(type, body)) {
             return here(*why);

@@ -3,6 +3,7 @@
 """seeds.py ROOT TARGET FOLDER: the inputs that a fuzz target begins with, from golden files and gsd/."""
 import pathlib
 import re
+import struct
 import sys
 
 root, target, folder = pathlib.Path(sys.argv[1]), sys.argv[2], pathlib.Path(sys.argv[3])
@@ -100,6 +101,24 @@ def tag_table():
         lines = octets.splitlines()
         for first in range(1, min(len(lines), 80), 8):
             yield b"\n".join(lines[:1] + lines[first : first + 8]) + b"\n"
+
+
+def pcapng():
+    """The beginnings of the captures of tests/captures, a small one in both byte orders, and packets to be written."""
+    for octets in files("tests/captures/foreign/*.pcapng"):
+        yield b"\x01" + octets[:1500]
+    for order in "<>":
+        def block(kind, body):
+            return struct.pack(order + "II", kind, len(body) + 12) + body + struct.pack(order + "I", len(body) + 12)
+
+        section = block(0x0A0D0D0A, struct.pack(order + "IHHq", 0x1A2B3C4D, 1, 0, -1))
+        interface = block(1, struct.pack(order + "HHIHHB3xI", 257, 0, 0, 9, 1, 9, 0))  # times in nanoseconds
+        flags, dropped = struct.pack(order + "HHI", 2, 4, 0x81000002), struct.pack(order + "HHQ", 4, 8, 7)
+        packet = block(6, struct.pack(order + "IIIII", 0, 1, 2, 1, 1) + b"\xE5\0\0\0" + flags + dropped)
+        statistics = block(5, struct.pack(order + "IIIHHQ", 0, 1, 2, 4, 8, 3))
+        simple_packet = block(3, struct.pack(order + "I", 1) + b"\x10\0\0\0")
+        yield b"\x01" + section + interface + packet + statistics + simple_packet
+    yield bytes([0, 3, 5]) + b"bus" + bytes([6, 0x10, 5, 2, 0x49, 0x50, 0x16, 3, 2, 0x41, 0x42]) + bytes(range(40))
 
 
 for number, octets in enumerate(globals()[target]()):

@@ -129,6 +129,11 @@ TEST(PcapngReader, RefusesWhatIsNoFileOfThisFormOrContradictsItself)
                 HasSubstr("longer than its block"));
     EXPECT_THAT(why(File{}.section().w({1, 12, 12}).octets), HasSubstr("octet 28"));
     EXPECT_THAT(why(File{}.section().w({6, 13, 0, 0}).octets), HasSubstr("length"));
+    EXPECT_THAT(why(File{}.section().w({0x0BAD, 16, 0, 20}).octets),
+                HasSubstr("octet 28: its two lengths differ"));
+    EXPECT_THAT(why(File{}.section().w({0x0A0D0D0A, 28, 0x11223344, 1, 0, 0, 28}).octets),
+                HasSubstr("byte order"));
+    EXPECT_THAT(why(File{}.section().w({0x0A0D0D0A, 16, 0x1A2B3C4D, 16}).octets), HasSubstr("too short"));
 }
 
 } // namespace
