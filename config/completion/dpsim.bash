@@ -6,7 +6,7 @@ _dpsim()
     local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]} words=''
     [ "$COMP_CWORD" -gt 1 ] || command=''
     case $prev in
-        --a | --b | --port | --table | --script) compopt -o filenames 2>/dev/null
+        --a | --b | --port | --table | --script | --drive) compopt -o filenames 2>/dev/null
             mapfile -t COMPREPLY < <(compgen -f -- "$cur"); return ;;
         --profile) words='590 584s 620 590plus 584sv 605 690plus 2408f 2404f' ;;
         --family) words='option-board technology-box controller' ;;
@@ -15,12 +15,15 @@ _dpsim()
         --programs) words='0 1 4' ;;
         *)
             case $command in
-                '') words='line drive master --help --version' ;;
+                '') words='line drive master replay --help --version' ;;
                 line) words='--baud --bits --a --b --any-rate --errors --delay --seed --help' ;;
                 drive) words='--profile --port --baud --unit --table --turnaround --programs --parity --fault --log --help' ;;
                 master) words='--port --baud --master --slave --family --ident --prm --tags --prm-length --cfg --no-demand
                                --watchdog --no-watchdog --min-tsdr --group --no-sync-freeze --cycle --slot-ms --retries
                                --sd3 --script --help' ;;
+                replay) words='--port --baud --drive --drive-baud --fast --retries --slot-ms --help'
+                    [ "${cur:0:1}" = - ] || { compopt -o filenames 2>/dev/null
+                        mapfile -t COMPREPLY < <(compgen -f -- "$cur"); return; } ;;
             esac
             ;;
     esac

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// dpsim: a paced serial line, an EI-ASCII drive or a Modbus instrument, and a DP master, for users without
-/// hardware and for the tests.
+/// dpsim: a paced serial line, an EI-ASCII drive or a Modbus instrument, a DP master, and the replay of a
+/// capture, for users without hardware and for the tests.
 #include "dpsim/common/programs.hpp"
 #include "dpsim/drive/drive_commands.hpp"
 #include "dpsim/instrument/instrument_commands.hpp"
@@ -157,13 +157,45 @@ void add_master(CLI::App& app, MasterOptions& o, MasterTexts& t)
         "  wait 60s for demand reg 4 & 0x1000 = 0");
 }
 
+void add_replay(CLI::App& app, ReplayOptions& o)
+{
+    CLI::App& replay =
+        *app.add_subcommand("replay", "Sends the master's side of a capture again, and compares the answers");
+    replay.add_option("FILE", o.file, "capture (pcapng), as dpctl trace --write makes it")->required();
+    replay.add_option("--port", o.port, "tty or end of a simulated line")->required();
+    replay.add_option("--baud", o.baud, "9600, 19200, 45450, 93750, 187500, 500000 or 1500000")->required();
+    auto* const drive = replay.add_option(
+        "--drive", o.drive, "end of the gateway's drive line: the drive frames of the capture answer there");
+    replay.add_option("--drive-baud", o.drive_baud, "bit/s of that line")
+        ->capture_default_str()
+        ->needs(drive)
+        ->check(CLI::Range(50, 12'000'000));
+    replay.add_flag("--fast", o.fast, "without the pauses of the capture");
+    replay.add_option("--retries", o.retries, "repetitions of a request that is not answered")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 15));
+    replay.add_option("--slot-ms", o.slot_ms, "how long to wait for an answer after the slot time")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 60'000));
+    replay.footer(
+        "What the capture has as received is sent, with its pauses. What it has as sent is the answer\n"
+        "that the gateway has to give. The gateway needs the configuration of the capture: address,\n"
+        "profile, ident, tags.\n"
+        "Without --drive what comes from the drive is not compared: inputs, Stat_Diag, the extended\n"
+        "diagnosis. With it an input word must be one that the capture has in this place. When a drive\n"
+        "answers is never the same: Stat_Diag, and whether a diagnosis waits (DH), are not compared.\n"
+        "Exit status: 0 no difference, 1 there are differences, 2 wrong usage or no such capture,\n"
+        "3 a port cannot be opened.\n"
+        "Example: dpsim replay bus.pcapng --port /tmp/bus-master --baud 187500");
+}
+
 } // namespace
 
 int main(int argc, char** argv)
 {
-    CLI::App app{"Simulators for dpslaved: a serial line, a drive or instrument, and a PROFIBUS-DP master, "
-                 "all without "
-                 "hardware"};
+    CLI::App app{
+        "Simulators for dpslaved: a serial line, a drive or instrument, a PROFIBUS-DP master and the "
+        "replay of a capture, all without hardware"};
     app.require_subcommand(1);
     app.set_version_flag("--version", "dpsim " DPSLAVE_VERSION);
     app.footer(
@@ -179,9 +211,11 @@ int main(int argc, char** argv)
     DriveOptions drive;
     MasterOptions master;
     MasterTexts texts;
+    ReplayOptions replay;
     add_line(app, line);
     add_drive(app, drive);
     add_master(app, master, texts);
+    add_replay(app, replay);
     for (CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; }))
         command->set_version_flag("--version", "dpsim " DPSLAVE_VERSION)->group(""); // in the help once
     try {
@@ -191,6 +225,7 @@ int main(int argc, char** argv)
     }
     if (app.got_subcommand("line")) return run_line(line);
     if (app.got_subcommand("drive")) return run_drive(drive);
+    if (app.got_subcommand("replay")) return run_replay(replay);
     if (const std::string wrong = complete(master.settings, texts); !wrong.empty()) {
         fmt::print(stderr, "dpsim: {}\n", wrong);
         return kUsage;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The three programs of dpsim, after their options were read. Each returns its exit status.
+/// The programs of dpsim, after their options were read. Each returns its exit status.
 #pragma once
 
 #include "dpsim/master/master.hpp"
@@ -42,5 +42,16 @@ struct MasterOptions {
     std::string script; ///< empty: commands are typed; "-": a script from standard input
 };
 int run_master(const MasterOptions& options);
+
+struct ReplayOptions {
+    std::string file, port;
+    std::uint32_t baud = 187'500; ///< of PROFIBUS
+    std::string drive;            ///< where the gateway's drive line ends; empty: its drive is another one
+    std::uint32_t drive_baud = 9600;
+    bool fast = false; ///< without the pauses of the capture
+    unsigned retries = 3;
+    unsigned slot_ms = 20;
+};
+int run_replay(const ReplayOptions& options);
 
 } // namespace dpslave::sim

@@ -1,36 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "requester.hpp"
 
+#include "dpsim/common/bus_times.hpp"
+
 #include <fmt/format.h>
 
 namespace dpslave::sim {
 namespace {
 
-constexpr Tbit kTid1{37}; ///< pause after an answer: T_SYN 33 and the safety margin 4 (wire reference 1.3)
-constexpr Tbit kTsyn{33};
 /// Of a station that never stops sending no more octets are kept.
 constexpr std::size_t kMostOctets = 1024;
 
 constexpr std::uint8_t kFcFdlStatus = 0x49, kFcSdnHigh = 0x46, kFcSrdHigh = 0x4D, kFcb = 0x20, kFcv = 0x10;
-
-/// Default slot time (wire reference 1.3).
-Tbit slot_time(Baud baud)
-{
-    if (baud == Baud::k1500) return Tbit{300};
-    return baud == Baud::k500 ? Tbit{200} : Tbit{100};
-}
-
-/// Pause after a request that is not answered: the largest T_SDR of the class.
-Tbit pause_after_sdn(Baud baud)
-{
-    if (baud == Baud::k1500) return Tbit{150};
-    return baud == Baud::k500 ? Tbit{100} : Tbit{60};
-}
-
-Tbit characters(std::size_t count)
-{
-    return Tbit{static_cast<std::uint32_t>(count) * kCharacter.count};
-}
 
 } // namespace
 

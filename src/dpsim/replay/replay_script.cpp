@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "replay_script.hpp"
+
+#include <algorithm>
+
+namespace dpslave::sim {
+namespace {
+
+using std::chrono::nanoseconds;
+
+constexpr nanoseconds kLongestPause = std::chrono::hours{1}, kLongestCapture = std::chrono::hours{24 * 365};
+
+bool is_bus(std::uint16_t link_type)
+{
+    return link_type == static_cast<std::uint16_t>(pcapng::LinkType::profibus_dl) ||
+           link_type == static_cast<std::uint16_t>(pcapng::LinkType::user0);
+}
+
+bool is_drive(std::uint16_t link_type)
+{
+    return link_type == kEiAsciiLink || link_type == kModbusLink;
+}
+
+/// Times of the packets since the first one, in their order. A file may have any times.
+class Clock {
+public:
+    nanoseconds at(std::int64_t unix_ns)
+    {
+        if (!before_) before_ = unix_ns;
+        if (unix_ns > *before_) {
+            const std::uint64_t passed =
+                static_cast<std::uint64_t>(unix_ns) - static_cast<std::uint64_t>(*before_);
+            const auto most = static_cast<std::uint64_t>(kLongestPause.count());
+            at_ += nanoseconds{static_cast<std::int64_t>(std::min(passed, most))};
+            at_ = std::min(at_, kLongestCapture);
+        }
+        before_ = unix_ns;
+        return at_;
+    }
+
+private:
+    std::optional<std::int64_t> before_;
+    nanoseconds at_{};
+};
+
+class Builder {
+public:
+    void bus(const pcapng::Packet& packet, std::size_t number, nanoseconds at)
+    {
+        const nanoseconds pause = bus_at_ ? at - *bus_at_ : nanoseconds{0};
+        bus_at_ = at;
+        if (packet.direction == pcapng::Direction::outbound)
+            answer(packet, number);
+        else
+            script.steps.push_back({.octets = packet.octets, .packet = number, .at = at, .pause = pause});
+    }
+
+    void drive(const pcapng::Packet& packet, std::uint16_t link_type, nanoseconds at)
+    {
+        script.is_modbus = link_type == kModbusLink;
+        script.drive.push_back(
+            {.octets = packet.octets, .to_drive = packet.direction == pcapng::Direction::outbound, .at = at});
+    }
+
+    ReplayScript script;
+    bool has_direction = false;
+
+private:
+    /// A capture may begin behind a request: then there is none that this answers.
+    void answer(const pcapng::Packet& packet, std::size_t number)
+    {
+        has_direction = true;
+        if (script.steps.empty() || script.steps.back().answer) return;
+        script.steps.back().answer = packet.octets;
+        script.steps.back().answer_packet = number;
+    }
+
+    std::optional<nanoseconds> bus_at_;
+};
+
+} // namespace
+
+Result<ReplayScript, std::string> script_of(const pcapng::Capture& capture)
+{
+    Builder builder;
+    Clock clock;
+    std::optional<std::uint32_t> bus;
+    for (std::size_t i = 0; i < capture.packets.size(); ++i) {
+        const pcapng::Packet& packet = capture.packets[i];
+        const std::uint16_t link_type = capture.interfaces.at(packet.interface).link_type;
+        const nanoseconds at = clock.at(packet.unix_ns);
+        if (packet.octets.empty()) continue; // only a comment
+        if (is_drive(link_type)) builder.drive(packet, link_type, at);
+        if (!is_bus(link_type)) continue;
+        if (bus && *bus != packet.interface)
+            return Failure{std::string{"it has two buses: keep the packets of one of them"}};
+        bus = packet.interface;
+        builder.bus(packet, i + 1, at);
+    }
+    if (!bus) return Failure{std::string{"it has no packets of PROFIBUS (link type 257 or 147)"}};
+    if (!builder.has_direction)
+        return Failure{std::string{"no packet of the bus is marked as sent: nothing says which telegrams are "
+                                   "answers of the gateway"}};
+    if (builder.script.steps.empty())
+        return Failure{std::string{"it has no telegram that the gateway heard"}};
+    return std::move(builder.script);
+}
+
+} // namespace dpslave::sim

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A capture as what is to be done again: the telegrams that the gateway heard, what it answered, and the
+/// frames of its drive line. Pure.
+#pragma once
+
+#include "dpsim/common/telegram.hpp"
+
+#include "dpslave/pcapng/pcapng.hpp"
+
+#include <chrono>
+
+namespace dpslave::sim {
+
+/// One packet that the gateway heard: a telegram, or what was heard in its place.
+struct ReplayStep {
+    Octets octets{};
+    std::size_t packet = 0;           ///< its number in the file, from 1
+    std::chrono::nanoseconds at{};    ///< since the first packet of the file
+    std::chrono::nanoseconds pause{}; ///< since the packet of the bus before it
+    std::optional<Octets> answer{};   ///< of the gateway
+    std::size_t answer_packet = 0;    ///< 0: none
+};
+
+struct DriveFrame {
+    Octets octets{};
+    bool to_drive = false; ///< sent by the gateway
+    std::chrono::nanoseconds at{};
+};
+
+struct ReplayScript {
+    std::vector<ReplayStep> steps{};
+    std::vector<DriveFrame> drive{};
+    bool is_modbus = false; ///< the drive frames are Modbus RTU, else EI-ASCII
+};
+
+/// Link types, besides those of pcapng::LinkType.
+inline constexpr std::uint16_t kEiAsciiLink = 148, kModbusLink = 149; ///< USER1, USER2
+
+/// The directions of the packets say which of them the gateway sent. The failure is a sentence: what the
+/// capture lacks. A pause is an hour at most, the whole a year, and a time that goes back is no pause.
+Result<ReplayScript, std::string> script_of(const pcapng::Capture& capture);
+
+} // namespace dpslave::sim
