@@ -13,6 +13,7 @@ _dpctl_options()
         io | events) echo "$_dpctl_common --follow" ;;
         trace) echo "$_dpctl_common --follow --station --service --bad --write --linktype" ;;
         'tec set') echo "$_dpctl_common --station --yes" ;;
+        top) echo "$_dpctl_common --every" ;;
         read) echo "$_dpctl_common --every --list --station" ;;
         write) echo "$_dpctl_common --station" ;;
         metrics) echo "$_dpctl_common --write" ;;
@@ -114,10 +115,10 @@ _dpctl()
         words=$(_dpctl_options "$command")
     else
         case $command in
-            '') words='status show io diag counters doctor trace bus events metrics read write tec survey log-level reload tune tag hex decode gsd version' ;;
+            '') words='status show io diag counters doctor trace bus top events metrics read write tec survey log-level reload tune tag hex decode gsd version' ;;
             read) _dpctl_offer "$cur" < <(_dpctl_tags); return ;;
             log-level) words='debug info' ;;
-            status | show | io | events | diag | doctor | survey) _dpctl_offer "$cur" < <(_dpctl_stations); return ;;
+            status | show | io | top | events | diag | doctor | survey) _dpctl_offer "$cur" < <(_dpctl_stations); return ;;
             tec) words='set' ;;
             'tec set') words='TYPE ADDRESS EXT_DIAGNOSTIC INT_DIAG_SELECT RIDE_THROUGH UNUSED_1' ;;
             gsd) words='check show make import diff configure types' ;;

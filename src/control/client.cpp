@@ -126,6 +126,12 @@ Result<ReplyMessage, ClientError> Client::call(std::string_view method, const Js
     return **std::move(reply);
 }
 
+std::optional<ClientError> Client::start_one(std::string_view method, const Json& parameters)
+{
+    impl_->first = true;
+    return impl_->send(encode_call(method, parameters));
+}
+
 std::optional<ClientError> Client::start(std::string_view method, const Json& parameters)
 {
     impl_->first = true;

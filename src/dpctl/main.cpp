@@ -25,6 +25,22 @@ bool takes_colours()
     return environment("NO_COLOR").empty() && environment("TERM") != "dumb";
 }
 
+bool has_cursor()
+{
+    return !environment("TERM").empty() && environment("TERM") != "dumb";
+}
+
+/// The first of them that is set counts. Source: POSIX, 8.2 Internationalization Variables.
+bool is_utf8()
+{
+    for (const char* name : {"LC_ALL", "LC_CTYPE", "LANG"}) {
+        const std::string_view value = environment(name);
+        if (value.empty()) continue;
+        return value.find("UTF-8") != value.npos || value.find("utf8") != value.npos;
+    }
+    return false;
+}
+
 constexpr std::size_t kUsualWidth = 80;
 constexpr std::size_t kWidest = 1000;
 
@@ -43,6 +59,8 @@ std::size_t width_of_terminal()
 int main(int argc, char** argv)
 {
     const bool tty = ::isatty(STDOUT_FILENO) == 1;
-    dpslave::dpctl::Terminal terminal{std::cout, std::cerr, tty, tty && takes_colours(), width_of_terminal()};
+    dpslave::dpctl::Terminal terminal{
+        std::cout,           std::cerr,           tty,      tty && takes_colours(),
+        width_of_terminal(), tty && has_cursor(), is_utf8()};
     return dpslave::dpctl::run(std::vector<std::string>(argv + 1, argv + argc), terminal);
 }

@@ -88,7 +88,7 @@ std::string executed_in(std::string_view text)
 TEST(DpctlOfAHostileReply, PrintsNothingThatATerminalExecutesAndKeepsOtherText)
 {
     const FixtureDaemon daemon{" Z\u00FCrich\x1B[2J\u009B31m\u202E\r\n"};
-    for (const char* words : {"status", "show", "io", "diag", "counters", "bus", "events", "metrics",
+    for (const char* words : {"status", "show", "io", "diag", "counters", "bus", "events", "metrics", "top",
                               "version", "doctor", "reload", "read 7", "read 1"}) {
         std::string word;
         std::vector<std::string> arguments{"--socket", daemon.socket()};

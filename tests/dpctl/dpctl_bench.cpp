@@ -8,7 +8,9 @@
 #include <poll.h>
 #include <pty.h>
 #include <sys/eventfd.h>
+#include <sys/ioctl.h>
 #include <sys/wait.h>
+#include <termios.h>
 #include <unistd.h>
 #include <utmp.h>
 
@@ -267,6 +269,12 @@ Dpctl::Dpctl(std::vector<std::string> arguments, As user, bool terminal)
     std::vector<char*> argv;
     for (std::string& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);
+    std::string term = "TERM=xterm"; // whatever the test runs in
+    std::vector<char*> environment;
+    for (char** one = environ; *one != nullptr; ++one)
+        if (!terminal || !std::string_view{*one}.starts_with("TERM=")) environment.push_back(*one);
+    if (terminal) environment.push_back(term.data());
+    environment.push_back(nullptr);
     std::array<int, 2> out{}, err{};
     if (::pipe2(err.data(), O_CLOEXEC) != 0) throw std::runtime_error("pipe");
     if (terminal ? ::openpty(&out[0], &out[1], nullptr, nullptr, nullptr) != 0
@@ -282,7 +290,7 @@ Dpctl::Dpctl(std::vector<std::string> arguments, As user, bool terminal)
         if (user == As::unprivileged &&
             (::setgroups(0, nullptr) != 0 || ::setgid(kUnprivileged) != 0 || ::setuid(kUnprivileged) != 0))
             ::_exit(126);
-        ::execv(argv[0], argv.data());
+        ::execve(argv[0], argv.data(), environment.data());
         ::_exit(127);
     }
     ::close(out[1]);
@@ -313,6 +321,7 @@ bool Dpctl::read_some()
         const auto n = ::read(ready[i].fd, chunk.data(), chunk.size());
         if (n > 0) (i == 0 ? ran_.out : ran_.err).append(chunk.data(), static_cast<std::size_t>(n));
         if (n <= 0) { // ended; a pty says EIO
+            if (i == 0) ran_.echoes = echoes();
             ::close(ready[i].fd);
             (i == 0 ? out_ : err_) = -1;
         }
@@ -332,9 +341,27 @@ void Dpctl::type(std::string_view keys)
 {
     if (::write(out_, keys.data(), keys.size()) < 0) throw std::runtime_error("type");
 }
+void Dpctl::resize(unsigned short columns, unsigned short rows)
+{
+    const winsize size{.ws_row = rows, .ws_col = columns, .ws_xpixel = 0, .ws_ypixel = 0};
+    if (::ioctl(out_, TIOCSWINSZ, &size) != 0) throw std::runtime_error("resize");
+}
+bool Dpctl::echoes() const
+{
+    termios now{};
+    return ::tcgetattr(out_, &now) == 0 && (now.c_lflag & (ECHO | ICANON)) == (ECHO | ICANON);
+}
 void Dpctl::signal(int number)
 {
     ::kill(pid_, number);
+}
+
+bool Dpctl::stands_still()
+{
+    int status = 0;
+    ::waitpid(pid_, &status, WUNTRACED);
+    if (!WIFSTOPPED(status)) pid_ = -1;
+    return WIFSTOPPED(status);
 }
 
 Ran Dpctl::wait()

@@ -82,6 +82,8 @@ private:
 struct Ran {
     int exit = -1;
     std::string out, err;
+    bool echoes =
+        false; ///< its terminal, at the end: it echoes and gives whole lines, as it was at the start
 };
 
 /// A running dpctl.
@@ -96,8 +98,17 @@ public:
 
     /// Reads its output until `text` has come. False: it ended before, or nothing came for long.
     bool prints(const std::string& text);
+    /// Reads until something further has come. False: it ended, or nothing came for long.
+    bool prints_more() { return read_some(); }
+    const std::string& printed() const { return ran_.out; } ///< until now
     void type(std::string_view keys);
+    /// Its terminal has this size from now on; it gets the signal.
+    void resize(unsigned short columns, unsigned short rows);
+    /// Whether its terminal echoes and gives whole lines.
+    bool echoes() const;
     void signal(int number);
+    /// Waits until it has been stopped (SIGSTOP). False: it ended instead.
+    bool stands_still();
     Ran wait();
 
 private:

@@ -33,6 +33,7 @@ INSTANTIATE_TEST_SUITE_P(
         std::vector<std::string>{"status", "5", "6"}, std::vector<std::string>{"read"},
         std::vector<std::string>{"read", "-1"}, std::vector<std::string>{"read", "65536"},
         std::vector<std::string>{"read", "--every", "1ms", "7"},
+        std::vector<std::string>{"top", "--every", "soon"},
         std::vector<std::string>{"read", "--every", "1s", "--list"}, std::vector<std::string>{"write", "56"},
         std::vector<std::string>{"write", "56", "1", "2"}, std::vector<std::string>{"tec"},
         std::vector<std::string>{"tec", "set", "TYPE"}, std::vector<std::string>{"tec", "5"},
@@ -91,11 +92,11 @@ TEST(DpctlHelp, HasACommandOfEachKindUnderItsHeading)
     const std::string all = dpctl({"--help"}).out;
     std::size_t at = 0;
     for (const char* line :
-         {"\nLook:\n",    "\n  status ",  "\n  show ",    "\n  io ",  "\n  diag ",   "\n  counters ",
-          "\n  doctor ",  "\nWatch:\n",   "\n  trace ",   "\n  bus ", "\n  events ", "\n  metrics ",
-          "\nOperate:\n", "\n  read ",    "\n  write ",   "\n  tec ", "\n  survey ", "\n  log-level ",
-          "\n  reload ",  "\n  tune ",    "\nOffline:\n", "\n  tag ", "\n  hex ",    "\n  decode ",
-          "\n  gsd ",     "\nVersion:\n", "\n  version "}) {
+         {"\nLook:\n",      "\n  status ",  "\n  show ",    "\n  io ",      "\n  diag ", "\n  counters ",
+          "\n  doctor ",    "\nWatch:\n",   "\n  trace ",   "\n  bus ",     "\n  top ",  "\n  events ",
+          "\n  metrics ",   "\nOperate:\n", "\n  read ",    "\n  write ",   "\n  tec ",  "\n  survey ",
+          "\n  log-level ", "\n  reload ",  "\n  tune ",    "\nOffline:\n", "\n  tag ",  "\n  hex ",
+          "\n  decode ",    "\n  gsd ",     "\nVersion:\n", "\n  version "}) {
         const std::size_t found = all.find(line, at > 0 ? at - 1 : 0);
         ASSERT_NE(found, std::string::npos) << line;
         at = found + std::string_view{line}.size();
@@ -125,6 +126,8 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair{"show", kShows}, std::pair{"io", kShows}, std::pair{"diag", kShows},
         std::pair{"counters", kShows}, std::pair{"bus", kShows}, std::pair{"write", kShows},
         std::pair{"events", kShows},
+        std::pair{"top", "0 success, also q and Ctrl-C; 1 refused or faulty; 2 wrong usage or no such "
+                         "station; 3 no daemon."},
         std::pair{"read",
                   "0 success, with --every: Ctrl-C; 1 refused or faulty; 2 wrong usage, no such station or "
                   "no such tag; 3 no daemon."},

@@ -45,6 +45,17 @@ TEST(DpctlTable, AlignsByCharactersAndLeavesNoBlanksAtTheEnd)
                                    " Walze \xC3\xA4  123\n");
 }
 
+TEST(DpctlTable, CountsTwoColumnsForALetterOfEastAsiaAndBreaksBetweenThem)
+{
+    Table table({"NAME", "LAST"});
+    table.add({"\u4E2D\u6587", "x"});
+    table.add({"ab", "y"});
+
+    EXPECT_EQ(table.str(false), "NAME  LAST\n\u4E2D\u6587  x\nab    y\n");
+    EXPECT_EQ(wrapped("\u4E2D\u6587\u4E2D", 1), (std::vector<std::string>{"\u4E2D", "\u6587", "\u4E2D"}));
+    EXPECT_EQ(wrapped("\u4E2D\u6587\u4E2D", 5), (std::vector<std::string>{"\u4E2D\u6587", "\u4E2D"}));
+}
+
 TEST(DpctlTable, PaintsOnlyWhereColoursAreWanted)
 {
     Table table({"S"});

@@ -37,6 +37,7 @@ expect 'SPEED\ FEEDBACK|TORQUE' read --every 1s --station rewinder --socket /run
 grep -qx -e '--socket /run/s --timeout 1 --json read --list --station rewinder' "$asked" || { echo "asked: $(cat "$asked")" && exit 1; }
 expect 'unwinder|rewinder' read --station ''
 expect rewinder events re
+expect 'unwinder|rewinder' top --every 1s ''
 expect 'debug|info' log-level ''
 
 # Without a daemon: nothing, and no message in the middle of the line.

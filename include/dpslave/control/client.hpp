@@ -38,9 +38,11 @@ public:
     /// One call, one reply. `method` without an interface belongs to org.dpslaved.Control.
     Result<ReplyMessage, ClientError> call(std::string_view method, const Json& parameters = Json::object());
 
+    /// Starts a call; next() gives its one reply. So the wait for it can end earlier.
+    std::optional<ClientError> start_one(std::string_view method, const Json& parameters = Json::object());
     /// Starts a call with "more"; next() gives its replies.
     std::optional<ClientError> start(std::string_view method, const Json& parameters = Json::object());
-    /// The next reply of it, or none as soon as `wake` is readable (-1 = no such descriptor). The first reply
+    /// The next reply, or none as soon as `wake` is readable (-1 = no such descriptor). The first reply
     /// must come within the time-out; the others take as long as they take.
     Result<std::optional<ReplyMessage>, ClientError> next(int wake = -1);
 

@@ -39,6 +39,14 @@ std::string duration_fault(const std::string& text)
                : toml::in_quotes(text) + ": write a time up to 30 days, such as 90s, 10m or 2h";
 }
 
+/// Empty: `text` is a time as parse_interval() reads it.
+std::string interval_fault(const std::string& text)
+{
+    return parse_interval(text)
+               ? std::string{}
+               : toml::in_quotes(text) + ": write a time from 100ms, such as 500ms, 1s or 10m";
+}
+
 /// Empty: `text` is the number of a tag, or may be a name.
 std::string tag_fault(const std::string& text)
 {
@@ -103,11 +111,7 @@ void read_arguments(CLI::App& app, Options& options)
     auto* every =
         app.add_option("--every", options.every, "Read again and again, until Ctrl-C: 500ms, 1s, 10m")
             ->type_name("TIME")
-            ->check([](const std::string& text) {
-                return parse_interval(text)
-                           ? std::string{}
-                           : toml::in_quotes(text) + ": write a time from 100ms, such as 500ms, 1s or 10m";
-            });
+            ->check(interval_fault);
     app.add_flag("--list", options.list, "Print the tags and their names; with TAG only those that fit")
         ->excludes(every);
     station_option(app, options);
@@ -203,6 +207,16 @@ void octet_arguments(CLI::App& app, Options& options)
         ->type_name("prm|cfg|diag")
         ->check(CLI::IsMember({"prm", "cfg", "diag"}).description(""));
     profile_options(app, options, "Explain tags, modules and the extended diagnosis as those of this device");
+}
+
+void top_arguments(CLI::App& app, Options& options)
+{
+    station_argument(app, options);
+    app.add_option("--every", options.every,
+                   "Time from one refresh to the next: 500ms, 1s, 10s; into a pipe: print again and again. "
+                   "Default: 1s")
+        ->type_name("TIME")
+        ->check(interval_fault);
 }
 
 void metrics_arguments(CLI::App& app, Options& options)

@@ -29,5 +29,6 @@ void octet_arguments(CLI::App& app, Options& options);
 void metrics_arguments(CLI::App& app, Options& options);
 void survey_arguments(CLI::App& app, Options& options);
 void trace_arguments(CLI::App& app, Options& options);
+void top_arguments(CLI::App& app, Options& options);
 
 } // namespace dpslave::dpctl

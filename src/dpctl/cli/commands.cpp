@@ -27,6 +27,8 @@ constexpr const char* kReads = "0 success, with --every: Ctrl-C; 1 refused or fa
 constexpr const char* kSetsLevel = "0 success, 1 refused or faulty, 2 wrong usage, 3 no daemon.";
 constexpr const char* kWritesFigures =
     "0 success, 1 a faulty answer or the file cannot be written, 2 wrong usage, 3 no daemon.";
+constexpr const char* kTops = "0 success, also q and Ctrl-C; 1 refused or faulty; 2 wrong usage or no such "
+                              "station; 3 no daemon.";
 constexpr const char* kReloads = "0 applied, or can be; 1 refused or faulty; 2 wrong usage; 3 no daemon.";
 constexpr const char* kTunes =
     "0 success, 1 the rate of the bus cannot be held or something must be corrected,\n"
@@ -63,6 +65,11 @@ constexpr std::array kCommands = std::to_array<Command>({
      trace_arguments, do_trace},
     {"bus", kWatch, "Shows who is on the bus: masters, slaves, cycles, retries, load", "GetBus", kShows,
      "dpctl bus            also addresses that a master asks and nobody answers", no_arguments, do_bus},
+    {"top", kWatch, "Shows stations, values, rates and events on one screen that refreshes", kTopJson, kTops,
+     "dpctl top                 q ends it, arrows select a station, / filters\n"
+     "dpctl top unwinder        only this station\n"
+     "dpctl top --every 10s | tee top.txt",
+     top_arguments, do_top},
     {"events", kWatch, "Shows what happened, with the time, the newest last",
      "GetEvents, with --follow one reply a line", kShows, "dpctl events --follow unwinder", io_arguments,
      do_events},
@@ -147,7 +154,7 @@ const char* const kFooter =
     "The Varlink interface org.dpslaved.Control describes them: see\n" DPSLAVE_DATA_FOLDER
     "/org.dpslaved.Control.varlink, or ask the daemon:\n"
     "varlinkctl introspect /run/dpslaved/control.sock org.dpslaved.Control\n"
-    "show, doctor, survey, tune, metrics, tag, hex and decode have their own form: see their --help.\n"
+    "show, doctor, survey, tune, top, metrics, tag, hex and decode have their own form: see their --help.\n"
     "Exit codes; the --help of each command has the details:\n"
     "  0  success\n"
     "  1  refused by the daemon or the drive, a faulty answer or input, not found, or the answer is no "

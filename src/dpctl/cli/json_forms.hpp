@@ -37,6 +37,10 @@ inline constexpr const char* kTuneJson =
 "findings": [{"severity": "mend", "better" or "know", "name", "what", "cost", "steps": [text]}]};
 THREAD = {"id", "name", "policy", "priority", "cpus"}; what could not be found out is null)";
 
+inline constexpr const char* kTopJson =
+    R"({"status": the reply of GetStatus, "counters": of GetCounters, "io": of GetIo, "events": of GetEvents};
+with --every one a line, and of the events only the newest)";
+
 inline constexpr const char* kMetricsJson =
     R"({"version": the reply of GetVersion, "status": of GetStatus, "counters": of GetCounters})";
 

@@ -20,7 +20,7 @@ struct Options {
     std::string station;            ///< name or address; empty = not said
     bool station_is_option = false; ///< the command takes --station, else it is a word of its own
     int tag = 0;
-    std::string every;     ///< `read`: as parse_interval() reads it; empty = once
+    std::string every;     ///< `read` and `top`: as parse_interval() reads it; empty = once
     bool list = false;     ///< `read`: the names of the tags
     std::string parameter; ///< of the TEC OPTION function block
     std::string value;
@@ -99,6 +99,9 @@ int do_log_level(const Options&, Terminal&);
 int do_write(const Options&, Terminal&);
 int do_tec_set(const Options&, Terminal&);
 int do_reload(const Options&, Terminal&);
+
+// top.cpp
+int do_top(const Options&, Terminal&);
 
 // events.cpp
 int do_events(const Options&, Terminal&);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "table.hpp"
 
+#include "columns.hpp"
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -10,21 +12,11 @@ namespace {
 
 constexpr std::size_t kNarrowest = 10; ///< no column of words becomes narrower
 constexpr std::size_t kBetween = 2;
-
-bool begins_character(char c)
-{
-    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
-}
-
-/// Characters, not octets, of UTF-8.
-std::size_t width(std::string_view text)
-{
-    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_character));
-}
+constexpr std::size_t kWidestCharacter = 2;
 
 std::string blanks(std::size_t wanted, std::string_view text)
 {
-    return std::string(wanted - std::min(wanted, width(text)), ' ');
+    return std::string(wanted - std::min(wanted, columns_of(text)), ' ');
 }
 
 void end_line(std::string& out)
@@ -33,20 +25,11 @@ void end_line(std::string& out)
     out += '\n';
 }
 
-/// How many octets of `text` the first `characters` have.
-std::size_t octets_of(std::string_view text, std::size_t characters)
-{
-    std::size_t at = 0;
-    for (std::size_t seen = 0; at < text.size(); ++at)
-        if (begins_character(text[at]) && ++seen > characters) break;
-    return at;
-}
-
-/// One line without line ends, broken.
+/// One line without line ends, broken. Precondition: any character fits.
 void wrap_line(std::string_view line, std::size_t columns, std::vector<std::string>& into)
 {
-    while (width(line) > columns) {
-        const std::size_t fits = octets_of(line, columns);
+    while (columns_of(line) > columns) {
+        const std::size_t fits = octets_within(line, columns);
         const std::size_t blank = line[fits] == ' ' ? fits : line.rfind(' ', fits);
         const bool at_blank = blank != std::string_view::npos && blank > line.find_first_not_of(' ');
         const std::size_t end = at_blank ? blank : fits;
@@ -69,7 +52,7 @@ std::string painted(std::string_view text, Tone tone, Look look)
 std::vector<std::string> wrapped(std::string_view text, std::size_t columns)
 {
     std::vector<std::string> lines;
-    const std::size_t room = std::max<std::size_t>(columns, 1);
+    const std::size_t room = std::max(columns, kWidestCharacter);
     for (std::size_t at = 0; at <= text.size();) {
         const std::size_t end = std::min(text.find('\n', at), text.size());
         wrap_line(text.substr(at, end - at), room, lines);
@@ -80,7 +63,7 @@ std::vector<std::string> wrapped(std::string_view text, std::size_t columns)
 
 std::string paragraph(std::string_view first, std::string_view text, std::size_t columns)
 {
-    const std::size_t indent = width(first);
+    const std::size_t indent = columns_of(first);
     std::string out{first};
     bool is_first = true;
     for (const std::string& line : wrapped(text, std::max(columns, indent + kNarrowest) - indent)) {
@@ -120,9 +103,9 @@ void Table::add(std::vector<Cell> row)
 std::vector<std::size_t> Table::widths(std::size_t room) const
 {
     std::vector<std::size_t> result;
-    for (const std::string& name : header_) result.push_back(width(name));
+    for (const std::string& name : header_) result.push_back(columns_of(name));
     for (const auto& row : rows_)
-        for (std::size_t i = 0; i < row.size(); ++i) result[i] = std::max(result[i], width(row[i].text));
+        for (std::size_t i = 0; i < row.size(); ++i) result[i] = std::max(result[i], columns_of(row[i].text));
     const std::size_t between = result.empty() ? 0 : kBetween * (result.size() - 1);
     for (;;) {
         if (std::accumulate(result.begin(), result.end(), between) <= room) return result;
@@ -173,7 +156,7 @@ void Block::add(std::string name, std::string value, Tone tone)
 std::string Block::str(std::size_t indent, Look look) const
 {
     std::size_t names = 0;
-    for (const Line& line : lines_) names = std::max(names, width(line.name));
+    for (const Line& line : lines_) names = std::max(names, columns_of(line.name));
     std::string out;
     for (const Line& line : lines_) {
         if (line.name.empty()) {

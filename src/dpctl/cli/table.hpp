@@ -13,7 +13,7 @@ namespace dpslave::dpctl {
 struct Look {
     Look(bool with_colour = false, std::size_t columns = 80) : colour(with_colour), width(columns) {}
     bool colour;
-    std::size_t width; ///< of the terminal, in characters
+    std::size_t width; ///< of the terminal, in columns
 };
 
 enum class Tone { plain, good, bad, strong };
@@ -21,8 +21,8 @@ enum class Tone { plain, good, bad, strong };
 /// `text` in its colour, where colours are wanted.
 std::string painted(std::string_view text, Tone tone, Look look);
 
-/// Lines of at most `width` characters, broken at blanks; a word that is longer is broken within. Line ends
-/// stay. At least one line.
+/// Lines of at most `width` columns (2 at least), broken at blanks; a word that is longer is broken within.
+/// Line ends stay. At least one line.
 std::vector<std::string> wrapped(std::string_view text, std::size_t width);
 
 /// `text` behind `first`, its other lines under its beginning; each line ended.

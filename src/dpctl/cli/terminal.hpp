@@ -15,6 +15,8 @@ struct Terminal {
     bool tty = false;       ///< out is a terminal: --follow redraws
     bool colour = false;    ///< out understands colours and no option or variable forbids them
     std::size_t width = 80; ///< characters of a line
+    bool cursor = false; ///< out is a terminal whose cursor can be moved (ECMA-48): dpctl top draws a screen
+    bool utf8 = false;   ///< the locale says so: block elements may be used
 
     Look look() const { return {colour, width}; }
 };

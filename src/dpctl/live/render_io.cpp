@@ -56,10 +56,10 @@ Table word_table(const std::vector<report::Word>& words)
     const std::int64_t first = first_octet(words);
     for (const report::Word& w : words) {
         const std::string state = state_text(w);
-        const Tone tone = state == "good" ? Tone::good : state == "untried" ? Tone::plain : Tone::bad;
         table.add({w.direction, number(w.octet), word_number(w, first), number(w.tag), w.name.value_or(""),
                    w.value, fmt::format("{0} ({0:04X}h)", w.raw),
-                   Cell{w.answer ? fmt::format("{} '{}'", state, *w.answer) : state, tone}, age(w.age_ms)});
+                   Cell{w.answer ? fmt::format("{} '{}'", state, *w.answer) : state, state_tone(w)},
+                   age(w.age_ms)});
     }
     return table;
 }
@@ -85,6 +85,11 @@ std::string state_text(const report::Word& word)
     std::string state = word.state;
     std::replace(state.begin(), state.end(), '_', ' ');
     return state;
+}
+
+Tone state_tone(const report::Word& word)
+{
+    return word.state == "good" ? Tone::good : word.state == "untried" ? Tone::plain : Tone::bad;
 }
 
 std::string render_io(const Json& json, Look look)

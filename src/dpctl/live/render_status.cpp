@@ -8,15 +8,6 @@
 namespace dpslave::dpctl {
 namespace {
 
-Tone tone_of_state(const std::string& state)
-{
-    return state == "Data_Exch" ? Tone::good : Tone::bad;
-}
-Tone tone_of_link(const std::string& link)
-{
-    return link == "answers" ? Tone::good : link == "unknown" ? Tone::plain : Tone::bad;
-}
-
 /// What looks normal in a table and is not, a sentence a line.
 std::string remarks_of(const report::Station& s, Look look)
 {
@@ -48,9 +39,20 @@ std::string state_text(const report::Station& s)
     return result;
 }
 
+Tone state_tone(const report::Station& s)
+{
+    return s.state == "Data_Exch" && !s.clear && !s.held ? Tone::good : Tone::bad;
+}
+
 std::string link_text(const report::Drive& d)
 {
     return d.port_open ? d.link : "port missing";
+}
+
+Tone link_tone(const report::Drive& d)
+{
+    const std::string link = link_text(d);
+    return link == "answers" ? Tone::good : link == "unknown" ? Tone::plain : Tone::bad;
 }
 
 std::string ride_text(const report::Ride& ride)
@@ -79,10 +81,8 @@ Table station_table(const std::vector<report::Station>& stations)
 {
     Table table({"STATION", ">ADDRESS", "PROFILE", "STATE", ">MASTER", "DRIVE", "LINE"});
     for (const report::Station& s : stations) {
-        const std::string state = s.state, link = link_text(s.drive);
-        table.add({s.name, std::to_string(s.address), s.profile,
-                   Cell{state_text(s), s.clear || s.held ? Tone::bad : tone_of_state(state)},
-                   number(s.master), Cell{link, tone_of_link(link)}, s.drive.line});
+        table.add({s.name, std::to_string(s.address), s.profile, Cell{state_text(s), state_tone(s)},
+                   number(s.master), Cell{link_text(s.drive), link_tone(s.drive)}, s.drive.line});
     }
     return table;
 }

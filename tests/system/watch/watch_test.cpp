@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the commands that watch say of a real daemon: events, reads by name, the level of the log.
+// What the commands that watch say of a real daemon: events, one screen, reads by name, the level of the log.
 #include "gateway.hpp"
 
 #include <gmock/gmock.h>
@@ -63,6 +63,23 @@ TEST(DpctlLogLevel, IsDebugForAWhileAndFallsBackByItself)
     EXPECT_TRUE(gateway.daemon().says("level of the log: info again"));
     EXPECT_EQ(gateway.dpctl({"log-level"}).out, "level of the log: info\n");
     EXPECT_THAT(gateway.dpctl({"status"}).out, Not(HasSubstr("debug")));
+}
+
+TEST(DpctlTop, HasTheRatesAndTheValuesOfARunningBus)
+{
+    Gateway gateway;
+    Master master{gateway, {"--tags", "55,56w"}};
+    ASSERT_TRUE(master.does("start 30s"));
+    gateway.drive().send_line("set 55 12.50");
+    ASSERT_TRUE(master.does("wait 10s for in 1 = 1250"));
+
+    Process top{gateway.dpctl_command({"top", "--every", "100ms"})};
+
+    EXPECT_TRUE(top.says("unwinder: data_exchange ")) << "a counter that does not grow is left out";
+    EXPECT_TRUE(top.says("  12.50  good"));
+    EXPECT_TRUE(top.says("turnaround ["));
+    EXPECT_TRUE(top.says("unwinder: Data_Exch, master 2")) << "an event";
+    EXPECT_EQ(top.end(SIGINT), 0);
 }
 
 TEST(DpctlRead, FindsTagsOfTheTableByTheirNames)
