@@ -45,13 +45,17 @@ constexpr std::array kDescribed{
     Described{"GetLeds", "station?s", false},
     Described{"GetTec", "station?s", false},
     Described{"Watch", "station?s", false},
+    Described{"GetEvents", "station?s after?i", false},
+    Described{"FindTags", "station?s name?s", false},
     Described{"ReadTag", "station?s tag!i", false},
     Described{"GetSurveyScope", "station?s", false},
     Described{"Survey", "station?s tag!i", true},
     Described{"WriteTag", "station?s tag!i value!s", true},
     Described{"ProbeDrive", "station?s yes?b", true},
     Described{"SetTec", "station?s parameter!s value!s yes?b", true},
+    Described{"SetLogLevel", "level!s seconds?i", true},
     Described{"Reload", "dry_run?b", true},
+    Described{"Trace", "from?s", true},
 };
 
 void judge_parameters(const Described& method, const Json& parameters)
