@@ -35,7 +35,8 @@ class Third(screen.PageTest):
         self.choose_parameter(8)
         self.focus("listbox", "Parameters")
         self.keys("b")
-        self.choose_parameter(10)
+        # Without a click: in WebKit a press soon after it is a double click, even if it begins a drag.
+        self.type_into("searchbox", "Search parameters", "10")
         self.place("button", f"Delete from {THIRD.lower()}")  # scrolls the list into view
         self.drag(self.row_place("Parameters", 10), self.area_of(THIRD))
         self.choose_parameter(9)
