@@ -202,10 +202,10 @@ Result<SurveyedTable, toml::Faults> merge_survey(std::string_view table, const s
                                                  const Survey& seen)
 {
     const bool is_marked = table.starts_with(toml::kByteOrderMark);
-    if (is_marked) table.remove_prefix(toml::kByteOrderMark.size());
-    if (table.empty()) table = kNewTable;
+    if (table.size() == (is_marked ? toml::kByteOrderMark.size() : 0)) table = kNewTable;
     const auto tags = read_tags(table, file);
     if (!tags) return Failure{tags.error()};
+    if (table.starts_with(toml::kByteOrderMark)) table.remove_prefix(toml::kByteOrderMark.size());
     toml::Faults faults;
     TableText text{table, file, faults};
     if (!faults.empty()) return Failure{faults};

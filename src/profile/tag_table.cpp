@@ -189,6 +189,7 @@ Result<drive::TagTable, toml::Faults> load_tags(const toml::TextSource& source, 
 
 Result<drive::TagTable, toml::Faults> read_tags(std::string_view content, const std::string& file)
 {
+    if (content.starts_with(toml::kByteOrderMark)) content.remove_prefix(toml::kByteOrderMark.size());
     return TableReader{file}.read(utf8(content));
 }
 

@@ -230,12 +230,12 @@ TEST(SurveyTable, a_byte_order_mark_and_lines_that_end_as_a_spreadsheet_ends_the
     const std::string mark = "\xEF\xBB\xBF";
     const std::string header =
         "tag,name,type,decimals,min,max,mnemonic,notes,confirmed,seen_min,seen_max\r\n";
-    const auto joined = merge_survey(mark + header + "55,Drehzahl \xC3\xBC,INT,2,,,,,yes,,\r\n", "t.csv",
-                                     {{7, saw({"1.5"}, "a7")}});
-    ASSERT_TRUE(joined);
-    EXPECT_EQ(joined->text, mark + header +
-                                "55,Drehzahl \xC3\xBC,INT,2,,,,,yes,,\r\n"
-                                "7,,INT,1,,,a7,,no,1.5,1.5\r\n");
+    const SurveyedTable joined =
+        merged(mark + header + "55,Drehzahl \xC3\xBC,INT,2,,,,,yes,,\r\n", {{7, saw({"1.5"}, "a7")}});
+    EXPECT_EQ(joined.text, mark + header +
+                               "55,Drehzahl \xC3\xBC,INT,2,,,,,yes,,\r\n"
+                               "7,,INT,1,,,a7,,no,1.5,1.5\r\n");
+    EXPECT_FALSE(merge_survey(mark + joined.text, "t.csv", {})) << "a second mark is part of a name";
     const auto alone = merge_survey(mark, "t.csv", {});
     ASSERT_TRUE(alone) << "a file with nothing but the mark";
     EXPECT_EQ(alone->text, mark + std::string{kHeader});

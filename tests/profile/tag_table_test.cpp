@@ -261,6 +261,17 @@ TEST_F(TagTable, tolerates_a_byte_order_mark_empty_lines_and_a_missing_last_line
     EXPECT_EQ(tags.find(2)->name, "b");
 }
 
+TEST(TagTableText, is_read_with_a_byte_order_mark_as_without_it)
+{
+    const std::string mark = "\xEF\xBB\xBF";
+    const auto marked = profile::read_tags(mark + "tag,name\n7,a\n", "t.csv");
+    ASSERT_TRUE(marked);
+    EXPECT_EQ(*marked, *profile::read_tags("tag,name\n7,a\n", "t.csv"));
+    EXPECT_FALSE(profile::read_tags(mark + mark + "tag,name\n7,a\n", "t.csv"))
+        << "the second one is of a name";
+    EXPECT_FALSE(profile::read_tags(mark, "t.csv")) << "an empty table";
+}
+
 TEST_F(TagTable, a_tag_that_stands_twice_with_one_meaning_has_two_names)
 {
     const auto tags = good(

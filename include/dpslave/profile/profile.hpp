@@ -106,7 +106,7 @@ Result<Profile, toml::Faults> load_profile(const toml::TextSource& source, const
 
 /// Reads a tag table.
 Result<drive::TagTable, toml::Faults> load_tags(const toml::TextSource& source, const std::string& file);
-/// The same of its text; `file` is for the faults.
+/// The same of its text, with or without a byte order mark; `file` is for the faults.
 Result<drive::TagTable, toml::Faults> read_tags(std::string_view content, const std::string& file);
 
 } // namespace dpslave::profile

@@ -152,9 +152,9 @@ struct SurveyedTable {
     std::vector<std::string> contradictions; ///< what the drive answered against a row, a sentence each
 };
 
-/// Joins what was seen with `table`, the text of a tag table; empty = there is none yet. New rows have
-/// confirmed = no; rows with confirmed = no are widened (more decimals, further extremes) and keep their
-/// other cells; every other row stays as it is, octet by octet, but for the cells of
+/// Joins what was seen with `table`, the text of a tag table; empty, or nothing but a byte order mark = there
+/// is none yet. New rows have confirmed = no; rows with confirmed = no are widened (more decimals, further
+/// extremes) and keep their other cells; every other row stays as it is, octet by octet, but for the cells of
 /// new columns. Faults: `table` is no tag table.
 Result<SurveyedTable, toml::Faults> merge_survey(std::string_view table, const std::string& file,
                                                  const Survey& seen);
