@@ -28,6 +28,19 @@ void read_baud(Table& bus, BusConfig& config)
     }
 }
 
+/// Keys that are about answers: here they have no effect.
+void warn_of_answers(Document& document, const Table& bus, toml::Faults& warnings)
+{
+    for (const std::string_view key : {"max_tsdr", "echo"}) {
+        if (!bus.has(key)) continue;
+        const toml::Place at = bus.place_of(key);
+        warnings.push_back({document.name(), at.line, at.column,
+                            "'" + std::string{key} +
+                                "' means nothing with listen = true, because nothing is "
+                                "sent: remove it."});
+    }
+}
+
 /// A key that only another direction uses: here it has no effect.
 void warn_unused(Document& document, const Table& bus, std::string_view key, std::string_view direction,
                  toml::Faults& warnings)
@@ -49,8 +62,12 @@ void read_transceiver(Document& document, Table& bus, BusConfig& config, toml::F
                                                                {"rts", Direction::rts},
                                                                {"none", Direction::none}});
     driver.direction = direction.value_or(Direction::gpio);
-    const bool by_gpio =
-        !bus.has("direction") || direction == Direction::gpio; // not of a direction that is wrong
+    // Who only listens names the driver enable if there is one to be kept inactive.
+    const bool names_gpio = bus.has("gpio_chip") || bus.has("gpio_line");
+    const bool is_given = bus.has("direction");
+    if (!is_given && config.listen && !names_gpio) driver.direction = Direction::none;
+    const bool by_gpio = is_given ? direction == Direction::gpio // not of a direction that is wrong
+                                  : driver.direction == Direction::gpio;
     if (by_gpio) {
         constexpr const char* kHow = ", as `gpioinfo` shows it for the pin that enables the transceiver; or "
                                      "direction = \"none\" for a transceiver that switches by itself";
@@ -165,6 +182,7 @@ BusConfig read_bus(Document& document, toml::Faults& warnings)
     config.port = bus.text("port").value_or("");
     config.port_line = bus.place_of("port").line;
     read_baud(bus, config);
+    config.listen = bus.boolean("listen").value_or(false);
     read_transceiver(document, bus, config, warnings);
     if (const auto tbit = bus.integer("max_tsdr", 0, 65535)) {
         config.max_tsdr = static_cast<std::uint32_t>(*tbit);
@@ -173,12 +191,29 @@ BusConfig read_bus(Document& document, toml::Faults& warnings)
             bus.refuse("max_tsdr",
                        "'max_tsdr' is below 11 bit times, before which no station may answer: set 0 for the "
                        "profile's value, or 11 and more.");
-        if (config.max_tsdr > 1000)
+        if (config.max_tsdr > 1000 && !config.listen)
             warnings.push_back({document.name(), at.line, at.column,
                                 "'max_tsdr' is above 1000 bit times: many masters do not wait that long; "
                                 "check that the master's GSD states the same."});
     }
+    if (config.listen) {
+        warn_of_answers(document, bus, warnings);
+        config.max_tsdr = 0;
+        config.echo = fdl::EchoMode::off;
+        config.driver_enable.receive_own = false;
+    }
     return config;
+}
+
+void refuse_beside_listen(Document& document, const std::vector<Table>& tables, std::string_view what)
+{
+    if (tables.empty()) return;
+    const unsigned line = document.root().table("bus").place_of("listen").line;
+    document.fault(tables.front().place(),
+                   "[[" + std::string{what} + "]] cannot stand beside listen = true on line " +
+                       std::to_string(line) +
+                       ": who only listens has no station and no drive line. Remove each [[line]] and "
+                       "[[station]], or remove 'listen'.");
 }
 
 std::vector<ReadLine> read_lines(Document& document, const BusConfig& bus)
@@ -188,6 +223,7 @@ std::vector<ReadLine> read_lines(Document& document, const BusConfig& bus)
     Unlike ports;
     Table root = document.root();
     std::vector<Table> tables = root.tables("line");
+    if (bus.listen) refuse_beside_listen(document, tables, "line");
     if (std::ssize(tables) > kMostLines) {
         document.fault(tables[static_cast<std::size_t>(kMostLines)].place(),
                        "there are more lines than there can be stations (126): remove some of them.");

@@ -56,6 +56,10 @@ private:
 
 BusConfig read_bus(toml::Document& document, toml::Faults& warnings);
 
+/// With listen = true: a fault at the first of the `what` tables, "line" or "station".
+void refuse_beside_listen(toml::Document& document, const std::vector<toml::Table>& tables,
+                          std::string_view what);
+
 /// The [[line]] tables, with unlike names and ports.
 std::vector<ReadLine> read_lines(toml::Document& document, const BusConfig& bus);
 

@@ -363,6 +363,7 @@ std::vector<StationConfig> read_stations(Document& document, const BusConfig& bu
     StationReader reader{document, bus, sysfs, lines, shelf, warnings};
     Table root = document.root();
     std::vector<Table> tables = root.tables("station");
+    if (bus.listen) refuse_beside_listen(document, tables, "station");
     if (std::ssize(tables) > kMostStations) {
         document.fault(
             tables[static_cast<std::size_t>(kMostStations)].place(),
@@ -371,11 +372,11 @@ std::vector<StationConfig> read_stations(Document& document, const BusConfig& bu
         tables.erase(tables.begin() + kMostStations, tables.end());
     }
     for (Table& table : tables) stations.push_back(reader.read(table));
-    if (stations.empty())
+    if (stations.empty() && !bus.listen)
         document.fault(
             {},
             "there is no station: add a [[line]] with the drive's serial port and a [[station]] with name, "
-            "address, profile, line and unit.");
+            "address, profile, line and unit. To only listen on the bus: write listen = true under [bus].");
     return stations;
 }
 

@@ -115,6 +115,7 @@ protected:
         std::optional<Baud> baud = Baud::k500;
         io::Direction direction = io::Direction::rts;
         fdl::EchoMode echo = fdl::EchoMode::off;
+        bool listen = false;
     };
 
     OnABus() : master(pty) { uart::reset(); }
@@ -138,6 +139,7 @@ protected:
         config::Config config;
         config.bus.baud = options.baud;
         config.bus.echo = options.echo;
+        config.bus.listen = options.listen;
         config.bus.driver_enable.direction = options.direction;
         auto port = io::Port::open(port_path(), app::bus_tty_settings(config), std::chrono::milliseconds{1});
         ASSERT_TRUE(port) << port.error();

@@ -121,6 +121,24 @@ TEST_F(DriverEnableOfTheBus, ThatDoesNotWorkKeepsTheReplyBackUntilItWorksAgain)
     ask_status();
 }
 
+TEST_F(DriverEnableOfTheBus, IsNeverActiveAndNothingIsWrittenByABusThatOnlyListens)
+{
+    start({.listen = true}, {station(kStation)}); // a station that no configuration would allow
+    EXPECT_EQ(master.ask(fdl_status(kStation), 3), std::nullopt);
+    EXPECT_EQ(master.ask(set_prm(kStation, 0x6D), 3), std::nullopt);
+    ASSERT_TRUE(eventually([this] { return snapshot().counters.telegrams >= 6; })) << "it hears";
+    stop();
+
+    EXPECT_TRUE(uart::edges().empty());
+    EXPECT_FALSE(uart::is_active());
+    EXPECT_EQ(snapshot().write_errors, 0U);
+    const auto all = records();
+    EXPECT_TRUE(std::none_of(all.begin(), all.end(),
+                             [](const trace::Record& one) { return one.head.kind == trace::Kind::sent; }));
+    EXPECT_TRUE(std::any_of(all.begin(), all.end(),
+                            [](const trace::Record& one) { return one.head.kind == trace::Kind::heard; }));
+}
+
 TEST(BusSender, DistinguishesAPortThatHasGoneFromOneThatIsFull)
 {
     io::Pty pty;

@@ -408,10 +408,25 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Change{"[bus] port", "/dev/null-bus", "/dev/null-other"},
                     Change{"[bus] baud", "baud = 187500", "baud = 93750"},
                     Change{"[bus] max_tsdr", "baud = 187500", "baud = 187500\nmax_tsdr = 200"},
+                    Change{"[bus] direction, gpio_active_low", "direction = \"none\"",
+                           "direction = \"rts\"\ngpio_active_low = true"},
                     Change{"[realtime] priority, cpu", "[control]",
                            "[realtime]\npriority = 10\ncpu = 1\n[control]"},
                     Change{"[control] socket", "[control]", "[control]\nsocket = \"/run/other.sock\""}),
     testing::PrintToStringParamName());
+
+TEST_F(ReloadPlan, FromStationsToListeningAndBackNeedsARestart)
+{
+    const config::Config listens = good("[bus]\nport = \"/dev/null-bus\"\nbaud = 187500\nlisten = true\n");
+    const config::Config serves = good(one);
+
+    for (const Plan& plan : {app::plan_reload(serves, in_force(serves), listens),
+                             app::plan_reload(listens, in_force(listens), serves)}) {
+        ASSERT_THAT(plan.refusals, SizeIs(1));
+        EXPECT_THAT(plan.refusals.front(), HasSubstr("[bus] listen cannot change while the bus is served"));
+        EXPECT_THAT(plan.refusals.front(), HasSubstr("systemctl restart dpslaved"));
+    }
+}
 
 TEST_F(ReloadPlan, MayChangeTheOperatorsWhatTheyMayAndTheSinksOfTheLamps)
 {

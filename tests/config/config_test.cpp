@@ -498,7 +498,49 @@ TEST_F(ConfigFile, a_file_without_any_station_says_what_to_add)
 
     EXPECT_THAT(short_forms(bad(text.substr(0, text.find("[[station]]")))),
                 ElementsAre(AllOf(StartsWith("0:0: there is no station: add"),
-                                  HasSubstr("name, address, profile, line and unit"))));
+                                  HasSubstr("name, address, profile, line and unit"),
+                                  HasSubstr("To only listen on the bus: write listen = true"))));
+}
+
+TEST_F(ConfigFile, that_only_listens_has_no_station_and_needs_no_direction)
+{
+    const config::Config config = good("[bus]\nport = \"/dev/null-bus\"\nlisten = true\n");
+
+    EXPECT_TRUE(config.bus.listen);
+    EXPECT_TRUE(config.stations.empty());
+    EXPECT_EQ(config.bus.baud, std::nullopt);
+    EXPECT_EQ(config.bus.driver_enable.direction, io::Direction::none);
+    EXPECT_FALSE(good(kGood).bus.listen);
+}
+
+TEST_F(ConfigFile, that_only_listens_keeps_the_driver_enable_inactive_that_it_names)
+{
+    const std::string text = "[bus]\nport = \"/dev/null-bus\"\nlisten = true\ngpio_line = 17\n";
+
+    EXPECT_THAT(short_forms(bad(text)), ElementsAre(HasSubstr("'gpio_chip' is missing in [bus]")));
+    const config::Config config = good(text + "gpio_chip = \"/dev/gpiochip0\"\n");
+    EXPECT_EQ(config.bus.driver_enable.direction, io::Direction::gpio);
+    EXPECT_EQ(config.bus.driver_enable.gpio_line, 17U);
+}
+
+TEST_F(ConfigFile, that_only_listens_with_a_station_or_a_line_is_a_fault_that_names_both_places)
+{
+    EXPECT_THAT(short_forms(bad(with(kGood, "direction = \"none\"", "listen = true"))),
+                ElementsAre(AllOf(StartsWith("9:1: [[line]] cannot stand beside listen = true on line 4"),
+                                  HasSubstr("Remove each [[line]] and [[station]], or remove 'listen'")),
+                            StartsWith("14:1: [[station]] cannot stand beside listen = true on line 4")));
+}
+
+TEST_F(ConfigFile, that_only_listens_has_no_use_for_keys_about_answers)
+{
+    const config::Config config =
+        good("[bus]\nport = \"/dev/null-bus\"\nlisten = true\nmax_tsdr = 2000\necho = \"on\"\n");
+
+    EXPECT_THAT(short_forms(config.warnings),
+                ElementsAre(StartsWith("4:12: 'max_tsdr' means nothing with listen = true"),
+                            StartsWith("5:8: 'echo' means nothing with listen = true")));
+    EXPECT_EQ(config.bus.echo, fdl::EchoMode::off);
+    EXPECT_EQ(config.bus.max_tsdr, 0U);
 }
 
 TEST_F(ConfigFile, a_line_with_single_brackets_is_a_fault)

@@ -10,7 +10,7 @@ using nlohmann::json;
 
 const char* const kBus =
     R"({"port":"/dev/ttyS1","baud":187500,"baud_state":"DP_Control","configured_baud":null,
-                             "port_open":true,"driver_works":true,"unanswered":[],"stations":2,"exchanging":1,
+                             "port_open":true,"driver_works":true,"listens":false,"unanswered":[],"stations":2,"exchanging":1,
                              "last_telegram_age_ms":2.4})";
 
 const char* const kStations = R"([

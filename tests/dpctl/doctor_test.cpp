@@ -15,6 +15,22 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
+TEST_F(Doctor, OfADaemonThatOnlyListensHasANoteAndMissesNoStation)
+{
+    bus().listens = true;
+    bus().unanswered = {{.address = 9, .master = 2, .requests = 50, .age_ms = 100}};
+    replies.status.stations.clear();
+    replies.counters.groups.pop_back();
+
+    EXPECT_THAT(found(), IsEmpty());
+    EXPECT_THAT(found(true), ElementsAre("bus.listens"));
+    EXPECT_THAT(render_doctor(replies, diagnose(replies, ""), {}, "", false), Not(HasSubstr("STATION")));
+
+    replies.counters.groups[0].counters.clear();
+    bus().last_telegram_age_ms = std::nullopt;
+    EXPECT_THAT(found(), ElementsAre("bus.silent"));
+}
+
 TEST_F(Doctor, FindsNothingWhereAllIsWell)
 {
     EXPECT_THAT(found(), IsEmpty());

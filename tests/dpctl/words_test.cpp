@@ -87,6 +87,9 @@ INSTANTIATE_TEST_SUITE_P(
         Explained{"StationRequired", "org.dpslaved.Control.StationRequired",
                   R"({"known":["unwinder","rewinder"]})",
                   "there are several stations, name one: unwinder, rewinder"},
+        Explained{"OnlyListens", "org.dpslaved.Control.OnlyListens", "{}",
+                  "the daemon only listens, so it has no station: 'listen' is set in [bus] of its "
+                  "configuration. See who is on the bus: dpctl bus"},
         Explained{"NotPermitted", "org.dpslaved.Control.NotPermitted", R"({"group":"dpslaved"})",
                   "only root and members of the group 'dpslaved' may do this; try: sudo dpctl ..., or let "
                   "root add you: "

@@ -7,6 +7,7 @@
 #include "dpslave/base/units.hpp"
 #include "dpslave/io/tty.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/ioctl.h>
@@ -98,6 +99,25 @@ TEST(TtyOpen, ThrowsAwayWhatCameBefore)
     Tty tty = opened(cable.path(), kDriveLine);
 
     EXPECT_FALSE(tty.wait_readable(0s));
+}
+
+TEST(TtyOpen, ForReceivingOnlyLeavesNoWayToWrite)
+{
+    Pty pty;
+    auto tty = Tty::open(pty.path(), {.baud = 187'500, .receive_only = true});
+    ASSERT_TRUE(tty) << tty.error();
+    EXPECT_EQ(::fcntl(tty->fd(), F_GETFL) & O_ACCMODE, O_RDONLY);
+    const std::array<std::uint8_t, 2> octets{1, 2};
+
+    EXPECT_EQ(tty->send(octets), std::errc::bad_file_descriptor);
+    EXPECT_EQ(tty->write(octets), std::errc::bad_file_descriptor);
+    EXPECT_EQ(tty->set_baud(9600), std::nullopt);
+    EXPECT_EQ(pty.rate(), 9600U);
+    EXPECT_TRUE(pty.received().empty());
+    pty.send({7});
+    ASSERT_TRUE(tty->wait_readable(std::chrono::seconds{5}));
+    std::array<std::uint8_t, 4> buffer{};
+    EXPECT_EQ(tty->read(buffer)->octets.size(), 1U);
 }
 
 TEST(TtyOpen, RefusesAPortThatIsNotThere)

@@ -107,6 +107,7 @@ TEST(Replies, HaveAStructForEachErrorThatHasParameters)
     ASSERT_EQ(errors.erase("Busy"), 1U);
     ASSERT_EQ(errors.erase("ReadOnly"), 1U);
     ASSERT_EQ(errors.erase("TraceOff"), 1U);
+    ASSERT_EQ(errors.erase("OnlyListens"), 1U);
 
     EXPECT_EQ((described<NoSuchStation, StationRequired, NotPermitted, DriveRefused, BadValue, NoTecOption,
                          BadTecValue, BadLogLevel, LineInUse, WouldSilence>()),

@@ -33,6 +33,7 @@ struct BusConfig {
     std::uint32_t max_tsdr = 0; ///< T_bit, 0 = the profile's
     io::DriverEnableSettings driver_enable;
     fdl::EchoMode echo = fdl::EchoMode::off;
+    bool listen = false; ///< no station, and nothing is ever sent
     friend bool operator==(const BusConfig&, const BusConfig&) = default;
     unsigned port_line = 0; ///< where the key stands, for a message when the port cannot be opened
 };

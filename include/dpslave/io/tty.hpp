@@ -30,6 +30,7 @@ struct TtySettings {
                               ///< without it one with wrong parity reads as 00
     bool drop_rts_at_close = true; ///< open(2) raises RTS; the kernel drops it at close, also after a kill
     bool prompt = false;           ///< read() gives every octet as soon as it has come: receive trigger 1
+    bool receive_only = false;     ///< opened for reading: the kernel refuses each write
 };
 
 /// The result of one read.

@@ -63,12 +63,12 @@ struct Bus {
     std::int64_t baud = 0;
     std::string baud_state{};
     std::optional<std::int64_t> configured_baud{};
-    bool port_open = true, driver_works = true;
+    bool port_open = true, driver_works = true, listens = false;
     std::vector<Unanswered> unanswered{};
     std::int64_t stations = 0, exchanging = 0;
     std::optional<double> last_telegram_age_ms{};
-    DPSLAVE_FIELDS(port, baud, baud_state, configured_baud, port_open, driver_works, unanswered, stations,
-                   exchanging, last_telegram_age_ms)
+    DPSLAVE_FIELDS(port, baud, baud_state, configured_baud, port_open, driver_works, listens, unanswered,
+                   stations, exchanging, last_telegram_age_ms)
 };
 /// Of something that comes again and again.
 struct Spacing {

@@ -17,22 +17,24 @@ io::TtySettings bus_tty_settings(const config::Config& config)
     settings.baud = static_cast<std::uint32_t>(config.bus.baud.value_or(kEveryUart));
     settings.mark_errors = true;
     settings.prompt = true;
+    settings.receive_only = config.bus.listen;
     const io::DriverEnableSettings& driver = config.bus.driver_enable;
     settings.drop_rts_at_close = driver.direction != io::Direction::rts || !driver.active_low;
     return settings;
 }
 
-BusPort::BusPort(io::Port port, io::DriverEnable& driver, fdl::EchoMode echo, io::Epoll& epoll,
+BusPort::BusPort(const config::BusConfig& config, io::Port port, io::DriverEnable& driver, io::Epoll& epoll,
                  std::uint64_t key, BusLink& link)
     : port_(std::move(port)),
       driver_(driver),
-      sender_(driver),
-      echo_(echo),
+      echo_(config.echo),
       epoll_(epoll),
       key_(key),
       link_(link),
       trace_(link.trace)
-{}
+{
+    if (!config.listen) sender_.emplace(driver);
+}
 
 BusPort::~BusPort()
 {
@@ -66,7 +68,7 @@ void BusPort::watch()
 
 void BusPort::set_baud(Baud baud)
 {
-    sender_.abort();
+    if (sender_) sender_->abort();
     link_.baud.store(baud, std::memory_order_relaxed);
     trace_.rate(io::monotonic_now(), baud);
     if (const auto trouble = port_.set_baud(static_cast<std::uint32_t>(baud))) {
@@ -121,13 +123,13 @@ void BusPort::commit_trace(fdl::Layer2& layer2)
 
 std::optional<Instant> BusPort::send(const Reply& reply)
 {
-    if (!port_.is_open()) {
+    if (!sender_ || !port_.is_open()) {
         ++unsent_;
         note_unsent(reply, fdl::Unanswered::Why::unsent);
         return std::nullopt;
     }
     const auto written =
-        sender_.send(reply.octets, port_.tty(), reply.baud, reply.window_ended + driver_.edge_time());
+        sender_->send(reply.octets, port_.tty(), reply.baud, reply.window_ended + driver_.edge_time());
     if (!written) {
         const bool is_late = written.error() == BusSender::Unsent::too_late;
         ++(is_late ? late_ : unsent_);
@@ -165,14 +167,14 @@ void BusPort::note_unsent(const Reply& reply, fdl::Unanswered::Why why)
 
 void BusPort::finish_sending()
 {
-    if (sender_.is_sending() && port_.is_open()) sender_.finish(port_.tty());
+    if (is_sending() && port_.is_open()) sender_->finish(port_.tty());
 }
 
 void BusPort::check(Instant now)
 {
     if (now >= leaves_by_) discard_what_is_stuck();
     if (!port_.is_open()) reopen(now);
-    if (port_.is_open()) check_driver_enable(now);
+    if (sender_ && port_.is_open()) check_driver_enable(now);
 }
 
 /// Nothing is sent through a port whose driver enable does not work: it is treated as closed.
@@ -192,10 +194,10 @@ void BusPort::reopen(Instant now)
 /// time that the guard was needed.
 void BusPort::check_driver_enable(Instant now)
 {
-    if (sender_.driver_guarded() != guarded_ && !std::exchange(guard_reported_, true))
+    if (sender_->driver_guarded() != guarded_ && !std::exchange(guard_reported_, true))
         report(PortEvent::driver_guarded);
-    guarded_ = sender_.driver_guarded();
-    const bool works = driver_.works() || (!sender_.is_sending() && driver_.ready(now));
+    guarded_ = sender_->driver_guarded();
+    const bool works = driver_.works() || (!is_sending() && driver_.ready(now));
     if (std::exchange(driver_worked_, works) != works)
         report(works ? PortEvent::driver_back : PortEvent::driver_lost);
 }
@@ -217,7 +219,7 @@ void BusPort::refuse(const std::string& why)
 
 void BusPort::detach()
 {
-    sender_.abort();
+    if (sender_) sender_->abort();
     epoll_.remove(port_.tty().fd());
     driver_.detach();
 }
@@ -239,13 +241,14 @@ void BusPort::write_state(BusSnapshot& snapshot) const
     snapshot.port_open = port_.is_open();
     snapshot.counters.late += late_;
     snapshot.counters.replies -= late_; // layer 2 had handed them over
-    snapshot.write_errors = sender_.write_errors() + stuck_;
     snapshot.unsent = unsent_;
     snapshot.driver_works = driver_.works();
-    snapshot.driver_errors = sender_.driver_errors();
-    snapshot.driver_guarded = sender_.driver_guarded();
     snapshot.echo_broken = echo_.broken();
     snapshot.echo_missing = echo_.missing();
+    if (!sender_) return;
+    snapshot.write_errors = sender_->write_errors() + stuck_;
+    snapshot.driver_errors = sender_->driver_errors();
+    snapshot.driver_guarded = sender_->driver_guarded();
 }
 
 } // namespace dpslave::app

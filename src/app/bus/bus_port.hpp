@@ -27,9 +27,10 @@ io::TtySettings bus_tty_settings(const config::Config& config);
 class BusPort {
 public:
     /// `port` is open and `driver` attached to it, or it is closed. `epoll` reports `key` once for each
-    /// arrival of octets. All but `port` outlive the object.
-    BusPort(io::Port port, io::DriverEnable& driver, fdl::EchoMode echo, io::Epoll& epoll, std::uint64_t key,
-            BusLink& link);
+    /// arrival of octets. With listen = true the object has no sender: nothing is written, and `driver` is
+    /// never made active. `driver`, `epoll` and `link` outlive the object.
+    BusPort(const config::BusConfig& config, io::Port port, io::DriverEnable& driver, io::Epoll& epoll,
+            std::uint64_t key, BusLink& link);
     ~BusPort();
     BusPort(const BusPort&) = delete;
     BusPort& operator=(const BusPort&) = delete;
@@ -59,8 +60,9 @@ public:
     /// What was read and sent since the last call, and what `layer2` has left unanswered, goes into the
     /// trace.
     void commit_trace(fdl::Layer2& layer2);
-    bool is_sending() const { return sender_.is_sending(); }
-    Instant sending_ends() const { return sender_.next_deadline(); } ///< as BusSender::next_deadline()
+    bool is_sending() const { return sender_ && sender_->is_sending(); }
+    /// As BusSender::next_deadline().
+    Instant sending_ends() const { return sender_ ? sender_->next_deadline() : kNever; }
     void finish_sending();
 
     /// Opens a port that has gone, and tries a driver enable that has failed, when their time has come. It
@@ -88,7 +90,7 @@ private:
 
     io::Port port_;
     io::DriverEnable& driver_;
-    BusSender sender_;
+    std::optional<BusSender> sender_; ///< nothing: listen = true
     fdl::Echo echo_;
     io::Epoll& epoll_;
     std::uint64_t key_;

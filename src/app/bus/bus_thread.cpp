@@ -14,7 +14,7 @@ namespace dpslave::app {
 
 BusThread::BusThread(const config::BusConfig& config, io::Port port, io::DriverEnable& driver,
                      std::unique_ptr<BusStations> stations, BusLink& link)
-    : port_(std::move(port), driver, config.echo, epoll_, kPortKey, link),
+    : port_(config, std::move(port), driver, epoll_, kPortKey, link),
       layer2_(port_.layer2_settings(config)),
       stations_(std::move(stations), link.stations, layer2_),
       link_(link)

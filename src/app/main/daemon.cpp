@@ -67,6 +67,14 @@ std::string rate_in_words(const config::BusConfig& bus)
     return fmt::format("{} bit/s", static_cast<std::uint32_t>(*bus.baud));
 }
 
+std::string begin_in_words(const config::Config& config)
+{
+    const std::string at = fmt::format("on {} at {}", config.bus.port, rate_in_words(config.bus));
+    if (config.bus.listen)
+        return fmt::format("dpslaved {}: only listens {}: it has no station and sends nothing", kVersion, at);
+    return fmt::format("dpslaved {}: {} station(s) {}", kVersion, config.stations.size(), at);
+}
+
 /// Runs the self-test and logs what has failed.
 bool passes_self_test()
 {
@@ -148,8 +156,7 @@ ExitStatus run_daemon(const config::Config& config, const std::filesystem::path&
     if (config.realtime.lock_memory) say_warnings(io::lock_memory());
     link.memory_is_ready.store(true, std::memory_order_relaxed);
     runtime.start();
-    spdlog::info("dpslaved {}: {} station(s) on {} at {}", kVersion, config.stations.size(), config.bus.port,
-                 rate_in_words(config.bus));
+    spdlog::info("{}", begin_in_words(config));
     const bool by_signal = main_thread.run();
 
     // The bus first: the end that it publishes makes the drive lines write the safe state.

@@ -64,6 +64,8 @@ Error Monitor::no_such_station(const std::string& wanted) const
 
 Monitor::Choice Monitor::choose(const Json& parameters, bool one_is_needed) const
 {
+    if (config_.bus.listen && (one_is_needed || parameters.contains("station")))
+        return {.station = nullptr, .error = Error{"OnlyListens", Json::object()}};
     if (!parameters.contains("station")) {
         if (view_.stations.size() == 1) return {.station = view_.stations.data(), .error = {}};
         if (!one_is_needed) return {};

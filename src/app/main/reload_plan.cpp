@@ -69,6 +69,7 @@ std::string bus_differences(const config::BusConfig& a, const config::BusConfig&
     keys.look(a.driver_enable.gpio_line, b.driver_enable.gpio_line, "gpio_line");
     keys.look(a.driver_enable.active_low, b.driver_enable.active_low, "gpio_active_low");
     keys.look(a.echo, b.echo, "echo");
+    keys.look(a.listen, b.listen, "listen");
     config::BusConfig rest = a;
     rest.port_line = b.port_line;
     return keys.names().empty() && !(rest == b) ? "another key" : keys.names();

@@ -152,6 +152,7 @@ report::Bus bus_report(const View& view, Instant now)
     if (view.config->bus.baud) result.configured_baud = integer(*view.config->bus.baud);
     result.port_open = view.bus.port_open;
     result.driver_works = view.bus.driver_works;
+    result.listens = view.config->bus.listen;
     result.unanswered = unanswered_report(view, now);
     result.stations = integer(view.stations.size());
     result.exchanging = exchanging(view);
@@ -297,7 +298,9 @@ report::StationIo io_report(const Station& station, Instant now)
 
 std::string status_line(const View& view)
 {
-    std::string line = fmt::format("{} of {} in Data_Exch", exchanging(view), view.stations.size());
+    std::string line = view.config->bus.listen
+                           ? std::string{"only listens"}
+                           : fmt::format("{} of {} in Data_Exch", exchanging(view), view.stations.size());
     if (!view.bus.port_open) line += "; the port of the bus is missing";
     for (const Station& one : view.stations) {
         line += fmt::format("; {}: {}", one.config->name, dp::text(one.bus.state));

@@ -42,6 +42,18 @@ int print_error(const control::ReplyMessage& error, const Options& options, Term
     return error.error == "org.dpslaved.Control.NoSuchStation" ? kUsage : kNo;
 }
 
+int print_only_listens(const Options& options, Terminal& terminal)
+{
+    return print_error({Json::object(), "org.dpslaved.Control.OnlyListens", false}, options, terminal);
+}
+
+Result<Json, int> ask_of_stations(const Options& options, Terminal& terminal, std::string_view method)
+{
+    auto reply = ask(options, terminal, method, station_parameter(options));
+    if (reply && list(*reply, "stations").empty()) return Failure{print_only_listens(options, terminal)};
+    return reply;
+}
+
 Result<Json, int> ask(const Options& options, Terminal& terminal, std::string_view method,
                       const Json& parameters)
 {

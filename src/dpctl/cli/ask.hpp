@@ -28,6 +28,12 @@ int show(const Options& options, Terminal& terminal, std::string_view method, co
 int follow_replies(const Options& options, Terminal& terminal, std::string_view method,
                    const Json& parameters, const std::function<bool(const control::ReplyMessage&)>& take);
 
+/// The same of a method that lists stations. There is none only with a daemon that only listens: then it is a
+/// failure.
+Result<Json, int> ask_of_stations(const Options& options, Terminal& terminal, std::string_view method);
+/// The error reply of a daemon that only listens to a command that needs a station. Returns the exit code.
+int print_only_listens(const Options& options, Terminal& terminal);
+
 /// Prints a failure to reach the daemon, with what to do. Returns the exit code.
 int print_error(const control::ClientError& error, Terminal& terminal);
 /// The same of a daemon that had answered before: its end is that of the daemon.

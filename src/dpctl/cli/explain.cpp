@@ -50,6 +50,11 @@ std::string station_required(const report::StationRequired& p)
 {
     return fmt::format("there are several stations, name one: {}", joined(p.known, ", "));
 }
+std::string only_listens(const Json&)
+{
+    return "the daemon only listens, so it has no station: 'listen' is set in [bus] of its configuration. "
+           "See who is on the bus: dpctl bus";
+}
 std::string not_permitted(const report::NotPermitted& p)
 {
     if (p.group.empty()) return "only root may do this; try: sudo dpctl ...";
@@ -130,6 +135,7 @@ struct Row {
 constexpr std::array kSentences = std::to_array<Row>({
     {"org.dpslaved.Control.NoSuchStation", said<report::NoSuchStation, no_such_station>},
     {"org.dpslaved.Control.StationRequired", said<report::StationRequired, station_required>},
+    {"org.dpslaved.Control.OnlyListens", only_listens},
     {"org.dpslaved.Control.NotPermitted", said<report::NotPermitted, not_permitted>},
     {"org.dpslaved.Control.DriveRefused", said<report::DriveRefused, drive_refused>},
     {"org.dpslaved.Control.BadValue", said<report::BadValue, bad_value>},

@@ -203,7 +203,9 @@ int do_doctor(const Options& options, Terminal& terminal)
     fetch("GetTec", replies.tec);
     fetch("GetIo", replies.io);
     if (failed) return *failed;
-    if (!is_known(replies.status.stations, options.station)) {
+    const bool listens = replies.status.bus.listens;
+    if (listens && !options.station.empty()) return print_only_listens(options, terminal);
+    if (!listens && !is_known(replies.status.stations, options.station)) {
         terminal.err << (options.station.empty()
                              ? std::string{"dpctl: there is no station\n"}
                              : fmt::format("dpctl: there is no station '{}'\n", options.station));

@@ -110,7 +110,7 @@ std::string seen_other_address(const Facts& f)
 {
     constexpr double kNow = 10'000;
     constexpr std::int64_t kEnough = 3; // a master that starts asks each of its slaves
-    if (!telegrams_are_heard(f)) return {};
+    if (!telegrams_are_heard(f) || f.bus.listens) return {};
     bool is_bus = true;
     for (const report::CounterGroup& group : f.replies.counters.groups)
         if (!std::exchange(is_bus, false) && is_asked(group)) return {};
@@ -125,6 +125,11 @@ std::string seen_other_address(const Facts& f)
     for (const report::Station& station : f.replies.status.stations)
         ours += (ours.empty() ? "" : ", ") + std::to_string(station.address);
     return asked + "; no master asks for ours: " + ours;
+}
+std::string seen_listens(const Facts& f)
+{
+    if (!f.bus.listens) return {};
+    return "listen = true under [bus]: there is no station, and nothing is sent";
 }
 std::string seen_late(const Facts& f)
 {
@@ -245,6 +250,10 @@ constexpr std::array kBusRules = std::to_array<Rule>({
      "Check wiring and termination. The signal can be worse at the master than at this gateway.\n"
      "Look at `late`: dpctl counters. If it is not 0, the machine answers too late.",
      kGateway, seen_retries},
+    {"bus.listens", Rank::note, "listen = true under [bus]", "The daemon only listens",
+     "See who is on the bus: dpctl bus. See the telegrams: dpctl trace\n"
+     "To have stations: remove 'listen', add [[line]] and [[station]], and restart the service.",
+     kGateway, seen_listens},
 });
 
 } // namespace

@@ -67,7 +67,8 @@ std::string picture(const Replies& replies, const std::string& wanted, Look look
         if (is_meant(station, wanted))
             table.add({station.name, std::to_string(station.address), station.state, station.drive.link,
                        lamps(replies.leds, station.name)});
-    return paragraph("", bus_line(replies.status.bus), look.width) + '\n' + table.str(look);
+    const std::string bus = paragraph("", bus_line(replies.status.bus), look.width);
+    return replies.status.stations.empty() ? bus : bus + '\n' + table.str(look);
 }
 
 std::string steps(const Rule& rule, Look look)

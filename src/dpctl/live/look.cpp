@@ -10,11 +10,14 @@
 namespace dpslave::dpctl {
 namespace {
 
-int plain(const Options& options, Terminal& terminal, std::string_view method, const Json& parameters,
-          std::string (*render)(const Json&, Look))
+/// What there is of the station that is meant, or of all.
+int of_stations(const Options& options, Terminal& terminal, std::string_view method,
+                std::string (*render)(const Json&, Look))
 {
-    return show(options, terminal, method, parameters,
-                [&](const Json& reply) { return render(reply, terminal.look()); });
+    const auto reply = ask_of_stations(options, terminal, method);
+    if (!reply) return reply.error();
+    terminal.out << (options.json ? json_text(*reply) + '\n' : render(*reply, terminal.look())) << std::flush;
+    return kFine;
 }
 
 } // namespace
@@ -31,15 +34,16 @@ int do_status(const Options& options, Terminal& terminal)
 int do_io(const Options& options, Terminal& terminal)
 {
     if (options.follow) return follow_io(options, terminal);
-    return plain(options, terminal, "GetIo", station_parameter(options), render_io);
+    return of_stations(options, terminal, "GetIo", render_io);
 }
 int do_diag(const Options& options, Terminal& terminal)
 {
-    return plain(options, terminal, "GetDiagnosis", station_parameter(options), render_diagnosis);
+    return of_stations(options, terminal, "GetDiagnosis", render_diagnosis);
 }
 int do_counters(const Options& options, Terminal& terminal)
 {
-    return plain(options, terminal, "GetCounters", Json::object(), render_counters);
+    return show(options, terminal, "GetCounters", Json::object(),
+                [&](const Json& reply) { return render_counters(reply, terminal.look()); });
 }
 int do_version(const Options& options, Terminal& terminal)
 {

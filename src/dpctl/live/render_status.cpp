@@ -71,8 +71,9 @@ std::string bus_line(const report::Bus& bus)
     std::string speed = rate(bus.baud);
     if (is_search) speed = "searching the rate" + (bus.baud > 0 ? ", now at " + speed : std::string{});
     const auto heard = bus.last_telegram_age_ms;
-    return fmt::format("{}, {}{}, {}", bus.port, speed, is_search ? "" : " (" + bus.baud_state + ")",
-                       heard ? "last telegram " + age(heard) + " ago" : "no telegram received yet");
+    return fmt::format("{}, {}{}, {}{}", bus.port, speed, is_search ? "" : " (" + bus.baud_state + ")",
+                       heard ? "last telegram " + age(heard) + " ago" : "no telegram received yet",
+                       bus.listens ? "; only listens" : "");
 }
 
 namespace {
@@ -90,6 +91,7 @@ Table station_table(const std::vector<report::Station>& stations)
 /// A table, and below it what looks normal there and is not.
 std::string stations_text(const std::vector<report::Station>& stations, Look look)
 {
+    if (stations.empty()) return {};
     std::string said;
     for (const report::Station& station : stations) said += remarks_of(station, look);
     return station_table(stations).str(look) + (said.empty() ? "" : "\n" + said);
@@ -103,11 +105,13 @@ std::string render_status(const Json& json, Look look)
     const report::Bus& bus = reply.bus;
     Block block;
     block.add("bus", bus_line(bus));
-    block.add("stations", fmt::format("{}, {} in Data_Exch", bus.stations, bus.exchanging));
+    block.add("stations", bus.listens ? std::string{"none, nothing is sent (listen = true under [bus])"}
+                                      : fmt::format("{}, {} in Data_Exch", bus.stations, bus.exchanging));
     block.add("daemon", fmt::format("process {}, running for {}", reply.pid,
                                     age(static_cast<double>(reply.uptime_ms))));
     if (reply.log.level == "debug") block.add("log", log_level_text(reply.log));
-    return block.str(0, look) + '\n' + stations_text(reply.stations, look);
+    const std::string stations = stations_text(reply.stations, look);
+    return block.str(0, look) + (stations.empty() ? "" : '\n' + stations);
 }
 
 std::string log_level_text(const report::Log& log)

@@ -27,7 +27,7 @@ int do_show(const Options& options, Terminal& terminal)
             terminal.err << "OPTION VERSION 0.00: without dpslaved there is no option board.\n";
         return version.error();
     }
-    const auto info = ask(options, terminal, "GetInfo", station_parameter(options));
+    const auto info = ask_of_stations(options, terminal, "GetInfo");
     if (!info) return info.error();
     const auto leds = ask(options, terminal, "GetLeds", station_parameter(options));
     if (!leds) return leds.error();

@@ -32,7 +32,11 @@ bool all_exchange(const Json& status, bool with_drive)
 Result<Json, int> ask_status(const Options& options, Terminal& terminal)
 {
     auto reply = ask(options, terminal, "GetStatus", Json::object());
-    if (!reply || options.station.empty()) return reply;
+    if (!reply) return reply;
+    const bool names_one = !options.station.empty();
+    if ((names_one || options.wait_s) && report::read<report::GetStatusReply>(*reply).bus.listens)
+        return Failure{print_only_listens(options, terminal)};
+    if (!names_one) return reply;
     Json known = Json::array(), meant = Json::array();
     for (const Json& one : list(*reply, "stations")) {
         const auto station = report::read<report::Station>(one);

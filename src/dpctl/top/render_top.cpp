@@ -236,7 +236,8 @@ void add_stations(Lines& lines, const TopState& state, std::size_t rows, std::si
     const Grid grid = station_grid(state, true);
     const std::size_t shown = rows - 1;
     lines.add_fitted(grid.lines(look, columns, first_shown(state.selected(), shown, grid.rows()), shown));
-    if (grid.rows() == 0) lines.add_plain("  no station has this in its name or in those of its tags");
+    if (grid.rows() == 0 && !state.now().status.bus.listens)
+        lines.add_plain("  no station has this in its name or in those of its tags");
 }
 
 void add_values(Lines& lines, const TopState& state, std::size_t rows, std::size_t columns, Look look)

@@ -115,7 +115,8 @@ Tty::~Tty() = default;
 Result<Tty, std::string> Tty::open(const std::string& path, const TtySettings& settings,
                                    const std::filesystem::path& sysfs)
 {
-    Fd fd{::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)};
+    const int mode = settings.receive_only ? O_RDONLY : O_RDWR;
+    Fd fd{::open(path.c_str(), mode | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)};
     if (!fd) return Failure{why_not_opened(path, errno)};
     if (::isatty(fd.get()) == 0) return Failure{no_serial_port(path)};
     auto uart = std::make_unique<Uart>(look_at(fd.get(), sysfs));
