@@ -17,7 +17,7 @@
 #include "dpslave/dp/snapshot.hpp"
 #include "dpslave/drive/poller.hpp"
 #include "dpslave/fdl/layer2.hpp"
-#include "dpslave/trace/ring.hpp"
+#include "dpslave/trace/samples.hpp"
 
 #include <array>
 #include <atomic>
@@ -188,6 +188,9 @@ struct LineOrder {
 
 /// A drive line and the main thread.
 struct LineLink {
+    /// `sample_octets`: the size of the ring of samples; 0: no values are kept.
+    explicit LineLink(std::size_t sample_octets = 0) : samples(sample_octets) {}
+
     Ring<LineOrder, 16> orders;                // main -> drive
     Ring<drive::OperateAnswer, 16> answers;    // drive -> main
     Ring<ProbeOrder, 2> probes;                // main -> drive
@@ -197,6 +200,7 @@ struct LineLink {
     std::atomic<std::uint32_t> probe_ended{0};
     Mailbox<TroubleList> troubles;           // drive -> main
     std::atomic<bool> port_open{false};      // drive -> main
+    trace::Ring samples;                     ///< trace/samples.hpp, drive -> whoever looks
     Handover<LineWork> work;                 // main -> drive
     std::atomic<std::uint32_t> work_done{0}; ///< drive -> main: how many of them were carried out
     std::atomic<bool> ended{false};          ///< drive -> main: the thread has ended

@@ -31,6 +31,9 @@ TraceConfig read_trace(Table table)
     TraceConfig config;
     if (const auto kib = table.integer("bus_kib", 0, kMost))
         config.bus_kib = static_cast<std::uint32_t>(*kib);
+    constexpr std::uint32_t kMostOfALine = 1U << 12; // 4 MiB: the main thread looks through all of it
+    if (const auto kib = table.integer("samples_kib", 0, kMostOfALine))
+        config.samples_kib = static_cast<std::uint32_t>(*kib);
     return config;
 }
 

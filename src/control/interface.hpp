@@ -34,7 +34,7 @@ inline constexpr std::array kMethods = std::to_array<MethodEntry>({
     {"FindTags", Right::look},    {"ReadTag", Right::look},        {"GetSurveyScope", Right::look},
     {"Survey", Right::operate},   {"WriteTag", Right::operate},    {"ProbeDrive", Right::operate},
     {"SetTec", Right::operate},   {"SetLogLevel", Right::operate}, {"Reload", Right::operate},
-    {"Trace", Right::operate},
+    {"Trace", Right::operate},    {"GetSamples", Right::look},
 });
 
 inline constexpr std::string_view kInterface = "org.dpslaved.Control";

@@ -43,6 +43,7 @@ TEST_F(ConfigFile, with_the_required_keys_only_has_the_defaults_of_the_sample)
     EXPECT_EQ(config.realtime.cpu, -1);
     EXPECT_TRUE(config.realtime.lock_memory);
     EXPECT_EQ(config.trace.bus_kib, 4096U);
+    EXPECT_EQ(config.trace.samples_kib, 256U);
     EXPECT_EQ(config.sysfs, "/sys");
     EXPECT_EQ(config.control.socket, "/run/dpslaved/control.sock");
     EXPECT_EQ(config.control.operator_group, "dpslaved");
@@ -362,6 +363,10 @@ INSTANTIATE_TEST_SUITE_P(
                               "8901234567890123456789"
                               "012345\"",
                               "7:10: ", "longer than the 107 octets"}));
+
+INSTANTIATE_TEST_SUITE_P(samples, BadConfigFile,
+                         testing::Values(BadChange{"[control]", "[trace]\nsamples_kib = 4097\n[control]",
+                                                   "7:15: ", "from 0 to 4096"}));
 
 INSTANTIATE_TEST_SUITE_P(
     line, BadConfigFile,

@@ -141,6 +141,15 @@ std::map<std::string, json> all()
             {"number":1,"age_ms":9000.0,"station":null,"kind":"daemon","text":"dpslaved 9.8.7 started","count":1},
             {"number":2,"age_ms":5000.0,"station":"unwinder","kind":"state","text":"unwinder: Data_Exch with master 2","count":1},
             {"number":3,"age_ms":1500.0,"station":"rewinder","kind":"refused","text":"rewinder: Chk_Cfg of master 2 was refused","count":40}]})")},
+        {"GetSamples",
+         json::parse(
+             R"({"station":"unwinder","tag":7,"name":"SPEED FEEDBACK","direction":"in","lost":0,"newest":9,
+            "more":false,"oldest_unix_ms":1699999000000,"now_unix_ms":1700000100000,"samples":[
+            {"number":2,"unix_ms":1700000000000,"state":"good","raw":0,"scaled":0.0,"value":"0.00"},
+            {"number":4,"unix_ms":1700000050000,"state":"good","raw":1000,"scaled":10.0,"value":"10.00"},
+            {"number":6,"unix_ms":1700000060000,"state":"stale","raw":1000,"scaled":10.0,"value":"10.00"},
+            {"number":7,"unix_ms":1700000080000,"state":"none","raw":0,"scaled":0.0,"value":""},
+            {"number":9,"unix_ms":1700000090000,"state":"unscaled","raw":0,"scaled":0.0,"value":"0.00"}]})")},
         {"FindTags", json::parse(R"({"station":"unwinder","tags":[{"tag":7,"name":"SPEED FEEDBACK"}]})")},
         {"SetLogLevel", json::parse(R"({"log":{"level":"debug","ends_in_ms":600000.0}})")},
         {"ReadTag", tag},

@@ -56,6 +56,7 @@ constexpr std::array kDescribed{
     Described{"SetLogLevel", "level!s seconds?i", true},
     Described{"Reload", "dry_run?b", true},
     Described{"Trace", "from?s", true},
+    Described{"GetSamples", "station?s tag!i seconds?i after?i", false},
 };
 
 void judge_parameters(const Described& method, const Json& parameters)

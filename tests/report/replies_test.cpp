@@ -86,19 +86,18 @@ TEST(Replies, HaveAStructForEachTypeOfTheInterfaceWithItsFields)
     EXPECT_EQ((described<Led, StationLeds, Drive, Ride, Station, Unanswered, Bus, Info, TecRow, Tec, Word,
                          Demand, StationIo, StationWords, DiagOctet, Refusal, Unscaled, RefusedTag, Diagnosis,
                          Counter, CounterGroup, DistributionClass, Distribution, Refresh, Log, Event,
-                         NamedTag, TagSpan, Answering, LeavingStation, Member, Spacing>()),
+                         NamedTag, TagSpan, Answering, LeavingStation, Member, Spacing, Sample>()),
               test::control_varlink().types);
 }
 
 TEST(Replies, HaveAStructForEachMethodOfTheInterface)
 {
-    EXPECT_EQ(
-        (described<GetVersionReply, GetStatusReply, ListStationsReply, GetInfoReply, GetIoReply,
-                   GetDiagnosisReply, GetCountersReply, GetBusReply, GetLedsReply, GetTecReply, WatchReply,
-                   GetEventsReply, FindTagsReply, ReadTagReply, GetSurveyScopeReply, SurveyReply,
-                   WriteTagReply, ProbeDriveReply, SetTecReply, SetLogLevelReply, ReloadReply, TraceReply>(
-            "Reply")),
-        test::control_varlink().outputs);
+    EXPECT_EQ((described<GetVersionReply, GetStatusReply, ListStationsReply, GetInfoReply, GetIoReply,
+                         GetDiagnosisReply, GetCountersReply, GetBusReply, GetLedsReply, GetTecReply,
+                         WatchReply, GetEventsReply, FindTagsReply, ReadTagReply, GetSurveyScopeReply,
+                         SurveyReply, WriteTagReply, ProbeDriveReply, SetTecReply, SetLogLevelReply,
+                         ReloadReply, TraceReply, GetSamplesReply>("Reply")),
+              test::control_varlink().outputs);
 }
 
 TEST(Replies, HaveAStructForEachErrorThatHasParameters)
@@ -108,6 +107,7 @@ TEST(Replies, HaveAStructForEachErrorThatHasParameters)
     ASSERT_EQ(errors.erase("ReadOnly"), 1U);
     ASSERT_EQ(errors.erase("TraceOff"), 1U);
     ASSERT_EQ(errors.erase("OnlyListens"), 1U);
+    ASSERT_EQ(errors.erase("SamplesOff"), 1U);
 
     EXPECT_EQ((described<NoSuchStation, StationRequired, NotPermitted, DriveRefused, BadValue, NoTecOption,
                          BadTecValue, BadLogLevel, LineInUse, WouldSilence>()),

@@ -55,6 +55,7 @@ struct ControlConfig {
 /// Memory of the recorder, in KiB, which is locked as the rest is; 0 = nothing is recorded.
 struct TraceConfig {
     std::uint32_t bus_kib = 4096;
+    std::uint32_t samples_kib = 256; ///< of each drive line
     friend bool operator==(const TraceConfig&, const TraceConfig&) = default;
 };
 

@@ -73,6 +73,17 @@ struct FindTagsReply {
     std::vector<NamedTag> tags{};
     DPSLAVE_FIELDS(station, tags)
 };
+struct GetSamplesReply {
+    std::string station{};
+    std::int64_t tag = 0;
+    std::optional<std::string> name{}, direction{};
+    std::vector<Sample> samples{};
+    std::int64_t lost = 0, newest = 0;
+    bool more = false;
+    std::optional<std::int64_t> oldest_unix_ms{};
+    std::int64_t now_unix_ms = 0;
+    DPSLAVE_FIELDS(station, tag, name, direction, samples, lost, newest, more, oldest_unix_ms, now_unix_ms)
+};
 struct SetLogLevelReply {
     Log log{};
     DPSLAVE_FIELDS(log)

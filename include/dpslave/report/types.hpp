@@ -240,6 +240,14 @@ struct Event {
     std::int64_t count = 0;
     DPSLAVE_FIELDS(number, age_ms, station, kind, text, count)
 };
+struct Sample {
+    std::int64_t number = 0, unix_ms = 0;
+    std::string state{};
+    std::int64_t raw = 0;
+    double scaled = 0;
+    std::string value{};
+    DPSLAVE_FIELDS(number, unix_ms, state, raw, scaled, value)
+};
 struct NamedTag {
     std::int64_t tag = 0;
     std::string name{};

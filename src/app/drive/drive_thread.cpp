@@ -163,6 +163,7 @@ void DriveThread::publish()
         std::optional<drive::AnswerCounts> heard;
         if (backend != nullptr) heard = backend->backend().counts(units_[i].config->unit);
         units_[i].publish(poller_, i, heard);
+        units_[i].sample(poller_.snapshot(i), link_.samples);
     }
     while (const auto answer = poller_.take_operate_answer()) link_.answers.push(*answer);
     if (backend != nullptr) backend->log_port_messages(log_, io::monotonic_now());

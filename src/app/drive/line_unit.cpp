@@ -59,6 +59,7 @@ void LineUnit::fetch(drive::Poller& poller, std::size_t index)
     if (std::exchange(ended_, ended) != ended) poller.left_data_exchange(index, {.generation = ended});
     if (outputs != nullptr) {
         poller.set_outputs(index, *outputs);
+        sampler_.set_layout(outputs->layout);
         layout_ = outputs->layout.generation;
     }
     while (const auto order = link->demand_orders.pop()) poller.set_demand(index, *order);
@@ -73,6 +74,11 @@ void LineUnit::publish(drive::Poller& poller, std::size_t index,
     if (heard) snapshot.heard = *heard;
     link->drive_snapshot.publish(snapshot);
     log_ride_through(snapshot.ride_ends);
+}
+
+void LineUnit::sample(const drive::UnitSnapshot& now, trace::Ring& ring)
+{
+    sampler_.look(number, now, ended_, ring, io::monotonic_now());
 }
 
 void LineUnit::log_link(const drive::UnitSnapshot& now, LimitedLog& log)

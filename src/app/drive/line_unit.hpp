@@ -5,6 +5,7 @@
 
 #include "app/limited_log.hpp"
 #include "app/links.hpp"
+#include "sampler.hpp"
 
 #include "dpslave/config/config.hpp"
 #include "dpslave/drive/poller.hpp"
@@ -28,6 +29,8 @@ public:
     void fetch(drive::Poller& poller, std::size_t index);
     /// From the poller to the links. `heard`: of the back-end, if there is one.
     void publish(drive::Poller& poller, std::size_t index, const std::optional<drive::AnswerCounts>& heard);
+    /// Into the ring of the line, if there is something new.
+    void sample(const drive::UnitSnapshot& now, trace::Ring& ring);
     /// Whether the drive answers, when that has changed.
     void log_link(const drive::UnitSnapshot& now, LimitedLog& log);
 
@@ -42,6 +45,7 @@ private:
     std::int64_t zero_after_ms_ = 0; ///< as the poller has it
     Generation ended_ = 0;           ///< as the poller has it
     Generation layout_ = 0;
+    Sampler sampler_;
     bool was_known_ = false, answered_ = false; ///< as logged last
     std::optional<Instant> ride_ends_;          ///< as logged last
     Generation ride_layout_ = 0;                ///< whose outputs stand in a ride through

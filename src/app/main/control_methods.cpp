@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control_methods.hpp"
 
+#include "app/watch/samples.hpp"
 #include "app/watch/tag_names.hpp"
 #include "device_state.hpp"
 
@@ -106,6 +107,9 @@ control::Handlers ControlMethods::all_handlers()
                              const Caller& caller) { return parts_.event_streams.add(parameters, caller); }},
         {"FindTags", one([](const Station& station, const Json& parameters, const Caller&) -> Reply {
              return Done{json_of(found_tags(station, parameters.value("name", std::string{})))};
+         })},
+        {"GetSamples", one([](const Station& station, const Json& parameters, const Caller&) {
+             return get_samples(station, parameters);
          })},
         {"SetLogLevel",
          [this](const Json& parameters, const Caller& caller) { return set_log_level(parameters, caller); }},

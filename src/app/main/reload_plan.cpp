@@ -84,6 +84,14 @@ std::string realtime_differences(const config::RealtimeConfig& a, const config::
     return keys.names();
 }
 
+std::string trace_differences(const config::TraceConfig& a, const config::TraceConfig& b)
+{
+    Differences keys;
+    keys.look(a.bus_kib, b.bus_kib, "bus_kib");
+    keys.look(a.samples_kib, b.samples_kib, "samples_kib");
+    return keys.names();
+}
+
 void refuse_what_needs_a_restart(const config::Config& present, Plan& plan)
 {
     const auto refuse = [&plan](std::string_view table, const std::string& keys) {
@@ -96,7 +104,7 @@ void refuse_what_needs_a_restart(const config::Config& present, Plan& plan)
     };
     refuse("[bus]", bus_differences(present.bus, plan.config.bus));
     refuse("[realtime]", realtime_differences(present.realtime, plan.config.realtime));
-    refuse("[trace]", present.trace.bus_kib == plan.config.trace.bus_kib ? "" : "bus_kib");
+    refuse("[trace]", trace_differences(present.trace, plan.config.trace));
     refuse("[control]", present.control.socket == plan.config.control.socket ? "" : "socket");
 }
 

@@ -97,7 +97,7 @@ std::optional<std::string> Runtime::open(const config::Config& config)
 {
     std::vector<std::unique_ptr<LineBackend>> backends;
     for (const config::LineConfig& line : config.lines) {
-        lines_.push_back(std::make_shared<DriveLine>(line));
+        lines_.push_back(std::make_shared<DriveLine>(line, config.trace));
         auto backend = LineBackend::open(line, lines_.back()->link.port_open);
         if (!backend) return not_opened(config, line, backend.error());
         backends.push_back(std::move(*backend));
@@ -171,7 +171,8 @@ std::optional<std::string> Runtime::make_lines(const Plan& plan, Next& next) con
     for (std::size_t i = 0; i < plan.lines.size(); ++i) {
         const config::LineConfig& config = plan.config.lines[i];
         const Plan::Line& planned = plan.lines[i];
-        next.lines.push_back(planned.before ? lines_[*planned.before] : std::make_shared<DriveLine>(config));
+        next.lines.push_back(planned.before ? lines_[*planned.before]
+                                            : std::make_shared<DriveLine>(config, plan.config.trace));
         next.backends.emplace_back();
         if (!opens_for_a_trial(plan, i)) continue;
         auto backend = LineBackend::open(config, next.lines[i]->link.port_open);

@@ -25,7 +25,9 @@ namespace dpslave::app {
 
 /// A drive line and its thread, which ends with it.
 struct DriveLine {
-    explicit DriveLine(config::LineConfig line) : config(std::move(line)) {}
+    DriveLine(config::LineConfig line, const config::TraceConfig& trace)
+        : config(std::move(line)), link(std::size_t{trace.samples_kib} * 1024)
+    {}
     void request_stop();
 
     config::LineConfig config;

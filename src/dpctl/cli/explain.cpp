@@ -108,6 +108,10 @@ std::string trace_off(const Json&)
 {
     return "the daemon records nothing: set bus_kib in [trace] of its configuration, and restart it";
 }
+std::string samples_off(const Json&)
+{
+    return "the daemon keeps no values: set samples_kib in [trace] of its configuration, and restart it";
+}
 std::string busy(const Json&)
 {
     return "the daemon has too many connections or requests at once; try again";
@@ -146,6 +150,7 @@ constexpr std::array kSentences = std::to_array<Row>({
     {"org.dpslaved.Control.BadLogLevel", said<report::BadLogLevel, bad_log_level>},
     {"org.dpslaved.Control.ReadOnly", read_only},
     {"org.dpslaved.Control.TraceOff", trace_off},
+    {"org.dpslaved.Control.SamplesOff", samples_off},
     {"org.dpslaved.Control.Busy", busy},
     {"org.varlink.service.InvalidParameter", said<InvalidParameter, invalid_parameter>},
     {"org.varlink.service.MethodNotFound", said<MethodNotFound, method_not_found>},
