@@ -14,6 +14,7 @@ _dpctl_options()
         trace) echo "$_dpctl_common --follow --station --service --bad --write --linktype" ;;
         'tec set') echo "$_dpctl_common --station --yes" ;;
         top) echo "$_dpctl_common --every" ;;
+        plot) echo "$_dpctl_common --last --svg --csv --station" ;;
         read) echo "$_dpctl_common --every --list --station" ;;
         write) echo "$_dpctl_common --station" ;;
         metrics) echo "$_dpctl_common --write" ;;
@@ -87,7 +88,7 @@ _dpctl()
     local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD - 1]} command='' i word words=''
     COMPREPLY=()
     case $prev in
-        --socket | --table | --mapping | --page | --write) compopt -o filenames 2>/dev/null
+        --socket | --table | --mapping | --page | --write | --svg) compopt -o filenames 2>/dev/null
             mapfile -t COMPREPLY < <(compgen -f -- "$cur"); return ;;
         --profiles | --output) compopt -o filenames 2>/dev/null
             mapfile -t COMPREPLY < <(compgen -f -- "$cur"); return ;;
@@ -95,12 +96,12 @@ _dpctl()
         --linktype) mapfile -t COMPREPLY < <(compgen -W 'profibus user0' -- "$cur"); return ;;
         --as) mapfile -t COMPREPLY < <(compgen -W 'prm cfg diag' -- "$cur"); return ;;
         --station) _dpctl_offer "$cur" < <(_dpctl_stations); return ;;
-        --timeout | --wait | --every | --service | --tags | --for | --passes | --in | --out | --in-out | --ident | --max-tsdr | --description | --model) return ;;
+        --timeout | --wait | --every | --last | --service | --tags | --for | --passes | --in | --out | --in-out | --ident | --max-tsdr | --description | --model) return ;;
     esac
     for ((i = 1; i < COMP_CWORD; i++)); do
         word=${COMP_WORDS[i]}
         case $word in
-            --socket | --timeout | --wait | --service | --write | --linktype | --every | --station | --tags | --table | --for | --passes) i=$((i + 1)) ;;
+            --socket | --timeout | --wait | --service | --write | --linktype | --every | --last | --svg | --station | --tags | --table | --for | --passes) i=$((i + 1)) ;;
             -*) ;;
             *)
                 case "$command" in
@@ -115,8 +116,8 @@ _dpctl()
         words=$(_dpctl_options "$command")
     else
         case $command in
-            '') words='status show io diag counters doctor trace bus top events metrics read write tec survey log-level reload tune tag hex decode gsd version' ;;
-            read) _dpctl_offer "$cur" < <(_dpctl_tags); return ;;
+            '') words='status show io diag counters doctor trace bus top events plot metrics read write tec survey log-level reload tune tag hex decode gsd version' ;;
+            read | plot) _dpctl_offer "$cur" < <(_dpctl_tags); return ;;
             log-level) words='debug info' ;;
             status | show | io | top | events | diag | doctor | survey) _dpctl_offer "$cur" < <(_dpctl_stations); return ;;
             tec) words='set' ;;

@@ -219,6 +219,21 @@ void top_arguments(CLI::App& app, Options& options)
         ->check(interval_fault);
 }
 
+void plot_arguments(CLI::App& app, Options& options)
+{
+    app.add_option("TAG", options.words, "Tags of the drive: numbers (0 to 65535), or names or parts of them")
+        ->type_name("")
+        ->check(tag_fault);
+    app.add_option("--last", options.duration, "How far back: 90s, 10m, 2h. Default: 10m")
+        ->type_name("TIME")
+        ->check(duration_fault);
+    auto* const svg =
+        app.add_option("--svg", options.output, "Write a picture (SVG) instead; - is standard output")
+            ->type_name("FILE");
+    app.add_flag("--csv", options.csv, "Print a table, one row for each sample")->excludes(svg);
+    station_option(app, options);
+}
+
 void metrics_arguments(CLI::App& app, Options& options)
 {
     app.add_option("--write", options.output,

@@ -26,6 +26,7 @@ void query_arguments(CLI::App& app, Options& options);
 void number_arguments(CLI::App& app, Options& options);
 void reload_arguments(CLI::App& app, Options& options);
 void octet_arguments(CLI::App& app, Options& options);
+void plot_arguments(CLI::App& app, Options& options);
 void metrics_arguments(CLI::App& app, Options& options);
 void survey_arguments(CLI::App& app, Options& options);
 void trace_arguments(CLI::App& app, Options& options);

@@ -24,6 +24,9 @@ constexpr const char* kSurveys =
     "0 complete, 1 refused, faulty or not complete, 2 wrong usage or no such station, 3 no daemon.";
 constexpr const char* kReads = "0 success, with --every: Ctrl-C; 1 refused or faulty; 2 wrong usage, no such "
                                "station or no such tag; 3 no daemon.";
+constexpr const char* kPlots =
+    "0 success; 1 refused or faulty, or there are no values of a tag; 2 wrong usage, "
+    "no such station or no such tag; 3 no daemon.";
 constexpr const char* kSetsLevel = "0 success, 1 refused or faulty, 2 wrong usage, 3 no daemon.";
 constexpr const char* kWritesFigures =
     "0 success, 1 a faulty answer or the file cannot be written, 2 wrong usage, 3 no daemon.";
@@ -73,6 +76,13 @@ constexpr std::array kCommands = std::to_array<Command>({
     {"events", kWatch, "Shows what happened, with the time, the newest last",
      "GetEvents, with --follow one reply a line", kShows, "dpctl events --follow unwinder", io_arguments,
      do_events},
+    {"plot", kWatch, "Draws the values of a station over time, in the terminal or as SVG",
+     "GetSamples, one a line", kPlots,
+     "dpctl plot 55                                   the last ten minutes\n"
+     "dpctl plot \"speed feedback\" 56 --last 2m       names as for dpctl read\n"
+     "dpctl plot 55 --svg speed.svg --station unwinder\n"
+     "dpctl plot 55 56 --csv > speed.csv",
+     plot_arguments, do_plot},
     {"metrics", kWatch, "Prints the figures for Prometheus, in its text format", kMetricsJson, kWritesFigures,
      "dpctl metrics | promtool check metrics\n"
      "dpctl metrics --write /var/lib/prometheus/node-exporter/dpslaved.prom",

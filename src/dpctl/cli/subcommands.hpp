@@ -47,6 +47,8 @@ struct Options {
     std::string service;   ///< a part of its name; empty = all
     bool bad = false;      ///< only what is no telegram or was not answered
 
+    bool csv = false; ///< `plot`: a table
+
     // Of the subcommands that need no daemon.
     std::vector<std::string> words; ///< query, numbers or octets; `read`: tags
     std::string profiles =
@@ -57,7 +59,7 @@ struct Options {
     bool yes = false;                    ///< `tec set`: also what silences a station in exchange
     bool probe = false;                  ///< `doctor`: looks for the drive
     std::string port;                    ///< `tune`: a tty; empty = the daemon's
-    std::string output;                  ///< `metrics --write`: a file; empty = standard output
+    std::string output;                  ///< `metrics --write`, `plot --svg`: a file; empty = standard output
 
     std::chrono::milliseconds timeout() const
     {
@@ -105,6 +107,9 @@ int do_top(const Options&, Terminal&);
 
 // events.cpp
 int do_events(const Options&, Terminal&);
+
+// plot.cpp
+int do_plot(const Options&, Terminal&);
 
 // metrics.cpp
 int do_metrics(const Options&, Terminal&);

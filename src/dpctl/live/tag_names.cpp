@@ -4,13 +4,17 @@
 #include "dpctl/cli/ask.hpp"
 #include "dpctl/cli/table.hpp"
 
+#include "dpslave/base/letters.hpp"
 #include "dpslave/base/printable.hpp"
 #include "dpslave/profile/survey.hpp"
 #include "dpslave/report/replies.hpp"
+#include "dpslave/toml/wording.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <map>
 
 namespace dpslave::dpctl {
 namespace {
@@ -25,6 +29,36 @@ std::string tag_lines(const std::vector<report::NamedTag>& tags, std::size_t mos
     return table.empty() ? std::string{} : table.str(look, 2);
 }
 
+/// The parts of a name that have so many words as were written: a name may have many more.
+std::vector<std::string> parts_of(const std::string& name, std::size_t words)
+{
+    std::vector<std::size_t> begins{0};
+    for (std::size_t i = 1; i < name.size(); ++i)
+        if (name[i - 1] == ' ' && name[i] != ' ') begins.push_back(i);
+    std::vector<std::string> parts;
+    for (std::size_t i = 0; i < begins.size(); ++i) {
+        const std::size_t end = i + words < begins.size() ? begins[i + words] - 1 : name.size();
+        parts.push_back(name.substr(begins[i], end - begins[i]));
+    }
+    return parts;
+}
+
+/// The name that has the part which is nearest to what was written; empty: none is near.
+std::string nearest_tag(const std::string& written, const Options& options, Terminal& terminal)
+{
+    const auto json = ask(options, terminal, "FindTags", station_parameter(options));
+    if (!json) return {};
+    const std::string wanted = to_lower(written);
+    const auto words = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), ' ')) + 1;
+    std::map<std::string, std::string> names; // by part
+    std::vector<std::string> parts;
+    for (const report::NamedTag& one : report::read<report::FindTagsReply>(*json).tags)
+        for (const std::string& part : parts_of(to_lower(one.name), words))
+            if (names.emplace(part, one.name).second) parts.push_back(part);
+    const std::string_view near = toml::nearest(wanted, parts);
+    return near.empty() ? std::string{} : names.at(std::string{near});
+}
+
 Result<std::int64_t, int> find_tag(const std::string& name, const Options& options, Terminal& terminal)
 {
     Json parameters = station_parameter(options);
@@ -35,9 +69,10 @@ Result<std::int64_t, int> find_tag(const std::string& name, const Options& optio
     if (found.tags.size() == 1) return found.tags.front().tag;
     const std::string station = printable(found.station), wanted = printable(name);
     if (found.tags.empty()) {
+        const std::string near = printable(nearest_tag(name, options, terminal));
         terminal.err << fmt::format(
-            "dpctl: no tag of {} has '{}' in its name; dpctl read --list prints the names\n", station,
-            wanted);
+            "dpctl: no tag of {} has '{}' in its name; {}dpctl read --list prints the names\n", station,
+            wanted, near.empty() ? near : fmt::format("did you mean '{}'? ", near));
         return Failure{static_cast<int>(kUsage)};
     }
     for (report::NamedTag& one : found.tags) one.name = printable(one.name);
