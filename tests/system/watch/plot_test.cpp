@@ -20,7 +20,7 @@ Outcome parsed(const Gateway& gateway, const std::string& svg)
 {
     const auto file = gateway.folder("plot.svg");
     write_file(file, svg);
-    return run({"python3", "-c",
+    return run({"/usr/bin/env", "python3", "-c",
                 "import sys, xml.etree.ElementTree as tree\n"
                 "root = tree.parse(sys.argv[1]).getroot()\n"
                 "print(root.tag, *sorted({one.get('class') or '' for one in root.iter()}))\n"
@@ -79,7 +79,7 @@ TEST(DpctlPlot, EndsTheLineWhereTheMasterChoosesOtherTags)
     Master master{gateway, {"--tags", "90"}};
     ASSERT_TRUE(master.does("start 30s"));
     gateway.drive().send_line("set 90 7");
-    ASSERT_TRUE(master.does("cycle 20"));
+    ASSERT_TRUE(master.does("wait 10s for in 1 = 7"));
 
     EXPECT_THAT(states(gateway, "55"), IsSupersetOf({"good", "none"}));
     EXPECT_THAT(gateway.dpctl({"plot", "55"}).out,
