@@ -17,6 +17,14 @@ namespace {
 
 constexpr const char* kKept = "driver-enable.json";
 
+std::filesystem::path folder_of_service(const char* variable)
+{
+    const char* const folders = std::getenv(variable); // this program never sets a variable
+    if (folders == nullptr) return {};
+    const std::string_view all = folders;
+    return all.substr(0, all.find(':')); // the first of them
+}
+
 } // namespace
 
 bool is_unconfigured(const std::filesystem::path& file)
@@ -29,10 +37,12 @@ bool is_unconfigured(const std::filesystem::path& file)
 
 std::filesystem::path runtime_folder()
 {
-    const char* const folders = std::getenv("RUNTIME_DIRECTORY"); // this program never sets a variable
-    if (folders == nullptr) return {};
-    const std::string_view all = folders;
-    return all.substr(0, all.find(':')); // the first of them
+    return folder_of_service("RUNTIME_DIRECTORY");
+}
+
+std::filesystem::path state_folder()
+{
+    return folder_of_service("STATE_DIRECTORY");
 }
 
 std::optional<std::string> keep(const DriverInUse& driver, const std::filesystem::path& runtime)

@@ -34,6 +34,7 @@ TraceConfig read_trace(Table table)
     constexpr std::uint32_t kMostOfALine = 1U << 12; // 4 MiB: the main thread looks through all of it
     if (const auto kib = table.integer("samples_kib", 0, kMostOfALine))
         config.samples_kib = static_cast<std::uint32_t>(*kib);
+    config.incidents = table.boolean("incidents").value_or(config.incidents);
     return config;
 }
 

@@ -136,6 +136,23 @@ std::map<std::string, json> all()
          json::parse(
              R"({"lost":3,"caught_up":true,"hold_back_ns":0,"now_ns":2000000000,"unix_ns":1700000002000000000,
             "records":"EgAAAAQAAAAAAAAAAAAAAADKmjsAAAAAAAAAAAAAAABoDAxohYJtPT6AAAALBTMAshYBAAIABAAAAAEAAAAAAAAAKGScOwAAAACgUJw7AAAAAOUGAAAABAAAAAIAAAAAAAAAAPfLPAAAAAAAAAAAAAAAABAFAklRFgAAAwEEBQAAAwAAAAAAAACAjWQ9AAAAAAAAAAAAAAAA"})")},
+        {"ListIncidents",
+         json::parse(
+             R"({"folder":"/var/lib/dpslaved/incidents","not_kept":2,"failures":0,"trouble":null,"incidents":[
+            {"number":7,"kind":"left","station":"unwinder","reason":"watchdog","text":"unwinder: Wait_Prm: no request of the master","count":3,
+             "first_unix_ns":1700000001000000000,"last_unix_ns":1700000009000000000,"also":1}]})")},
+        // The telegrams of Trace, above.
+        {"GetIncident",
+         {{"size", 545},
+          {"octets",
+           "ZHBzbGF2ZWQgaW5jaWRlbnQgMQp7Im51bWJlciI6Nywid2hhdCI6eyJraW5kIjoibGVmdCIsInN0YXRpb24iOiJ1bndp"
+           "bmRlciIsInJlYXNvbiI6IndhdGNoZG9nIiwidGV4dCI6InVud2luZGVyOiBXYWl0X1BybTogbm8gcmVxdWVzdCBvZiB0"
+           "aGUgbWFzdGVyIn0sImF0X25zIjoxMDAwMDAwMDAwLCJ1bml4X25zIjoxNzAwMDAwMDAxMDAwMDAwMDAwLCJob2xkX2Jh"
+           "Y2tfbnMiOjAsImFsc28iOltdLCJwcm9ncmFtIjoiOS44LjciLCJzdGF0aW9ucyI6W3sibmFtZSI6InVud2luZGVyIiwi"
+           "YWRkcmVzcyI6NSwicHJvZmlsZSI6IjU5MCIsInN0YXRlIjoiRGF0YV9FeGNoIiwibWFzdGVyIjoyLCJzZXRfcHJtIjoi"
+           "ODAgMDAgMDAgMEIgMDUgMzMgMDAiLCJjaGtfY2ZnIjoiNjAgNTAifV19ChIAAAAEAAAAAAAAAAAAAAAAypo7AAAAAAAA"
+           "AAAAAAAAaAwMaIWCbT0+gAAACwUzALIWAQACAAQAAAABAAAAAAAAAChknDsAAAAAoFCcOwAAAADlBgAAAAQAAAACAAAA"
+           "AAAAAAD3yzwAAAAAAAAAAAAAAAAQBQJJURYAAAMBBAUAAAMAAAAAAAAAgI1kPQAAAAAAAAAAAAAAAArWGpg="}}},
         {"Watch", {{"bus", bus}, {"stations", stations}, {"words", watched_words}}},
         {"GetEvents", json::parse(R"({"lost":0,"newest":3,"events":[
             {"number":1,"age_ms":9000.0,"station":null,"kind":"daemon","text":"dpslaved 9.8.7 started","count":1},

@@ -26,8 +26,9 @@ TEST(ControlInterface, HasAHandlerNameForEachMethodOfTheFileAndNoOther)
 
 TEST(ControlInterface, LetsEveryUserReadAndOnlyOperatorsChange)
 {
-    const std::set<std::string_view> operating{"Survey", "WriteTag",    "SetTec", "ProbeDrive",
-                                               "Reload", "SetLogLevel", "Trace"};
+    const std::set<std::string_view> operating{"Survey",     "WriteTag",      "SetTec",
+                                               "ProbeDrive", "Reload",        "SetLogLevel",
+                                               "Trace",      "ListIncidents", "GetIncident"};
     for (const MethodEntry& method : kMethods)
         EXPECT_EQ(method.right, operating.count(method.name) > 0 ? Right::operate : Right::look)
             << method.name;

@@ -57,6 +57,8 @@ constexpr std::array kDescribed{
     Described{"Reload", "dry_run?b", true},
     Described{"Trace", "from?s", true},
     Described{"GetSamples", "station?s tag!i seconds?i after?i", false},
+    Described{"ListIncidents", "", true},
+    Described{"GetIncident", "number!i offset?i", true},
 };
 
 void judge_parameters(const Described& method, const Json& parameters)

@@ -86,18 +86,19 @@ TEST(Replies, HaveAStructForEachTypeOfTheInterfaceWithItsFields)
     EXPECT_EQ((described<Led, StationLeds, Drive, Ride, Station, Unanswered, Bus, Info, TecRow, Tec, Word,
                          Demand, StationIo, StationWords, DiagOctet, Refusal, Unscaled, RefusedTag, Diagnosis,
                          Counter, CounterGroup, DistributionClass, Distribution, Refresh, Log, Event,
-                         NamedTag, TagSpan, Answering, LeavingStation, Member, Spacing, Sample>()),
+                         NamedTag, Incident, TagSpan, Answering, LeavingStation, Member, Spacing, Sample>()),
               test::control_varlink().types);
 }
 
 TEST(Replies, HaveAStructForEachMethodOfTheInterface)
 {
-    EXPECT_EQ((described<GetVersionReply, GetStatusReply, ListStationsReply, GetInfoReply, GetIoReply,
-                         GetDiagnosisReply, GetCountersReply, GetBusReply, GetLedsReply, GetTecReply,
-                         WatchReply, GetEventsReply, FindTagsReply, ReadTagReply, GetSurveyScopeReply,
-                         SurveyReply, WriteTagReply, ProbeDriveReply, SetTecReply, SetLogLevelReply,
-                         ReloadReply, TraceReply, GetSamplesReply>("Reply")),
-              test::control_varlink().outputs);
+    EXPECT_EQ(
+        (described<GetVersionReply, GetStatusReply, ListStationsReply, GetInfoReply, GetIoReply,
+                   GetDiagnosisReply, GetCountersReply, GetBusReply, GetLedsReply, GetTecReply, WatchReply,
+                   GetEventsReply, FindTagsReply, ReadTagReply, GetSurveyScopeReply, SurveyReply,
+                   WriteTagReply, ProbeDriveReply, SetTecReply, SetLogLevelReply, ReloadReply, TraceReply,
+                   ListIncidentsReply, GetIncidentReply, GetSamplesReply>("Reply")),
+        test::control_varlink().outputs);
 }
 
 TEST(Replies, HaveAStructForEachErrorThatHasParameters)
@@ -110,7 +111,8 @@ TEST(Replies, HaveAStructForEachErrorThatHasParameters)
     ASSERT_EQ(errors.erase("SamplesOff"), 1U);
 
     EXPECT_EQ((described<NoSuchStation, StationRequired, NotPermitted, DriveRefused, BadValue, NoTecOption,
-                         BadTecValue, BadLogLevel, LineInUse, WouldSilence>()),
+                         BadTecValue, BadLogLevel, LineInUse, WouldSilence, IncidentsOff, NoSuchIncident,
+                         IncidentUnreadable>()),
               errors);
 }
 

@@ -17,6 +17,8 @@ bool is_unconfigured(const std::filesystem::path& file);
 /// The folder that the service manager gives this service while it runs (systemd.exec(5),
 /// RUNTIME_DIRECTORY); empty = it was started by hand.
 std::filesystem::path runtime_folder();
+/// Likewise the one for what outlives the program (StateDirectory=).
+std::filesystem::path state_folder();
 
 /// What enables the RS-485 driver, and where.
 struct DriverInUse {

@@ -95,6 +95,18 @@ struct TraceReply {
     std::int64_t hold_back_ns = 0, now_ns = 0, unix_ns = 0;
     DPSLAVE_FIELDS(records, lost, caught_up, hold_back_ns, now_ns, unix_ns)
 };
+struct ListIncidentsReply {
+    std::string folder{};
+    std::vector<Incident> incidents{};
+    std::int64_t not_kept = 0, failures = 0;
+    std::optional<std::string> trouble{};
+    DPSLAVE_FIELDS(folder, incidents, not_kept, failures, trouble)
+};
+struct GetIncidentReply {
+    std::string octets{};
+    std::int64_t size = 0;
+    DPSLAVE_FIELDS(octets, size)
+};
 struct ReadTagReply {
     std::string station{};
     std::int64_t tag = 0;
@@ -171,6 +183,20 @@ struct BadValue {
     std::int64_t tag = 0;
     std::string value{}, reason{};
     DPSLAVE_FIELDS(tag, value, reason)
+};
+struct IncidentsOff {
+    std::string reason{};
+    DPSLAVE_FIELDS(reason)
+};
+struct NoSuchIncident {
+    std::int64_t number = 0;
+    std::vector<std::int64_t> known{};
+    DPSLAVE_FIELDS(number, known)
+};
+struct IncidentUnreadable {
+    std::int64_t number = 0;
+    std::string reason{};
+    DPSLAVE_FIELDS(number, reason)
 };
 struct NoTecOption {
     std::string station{};

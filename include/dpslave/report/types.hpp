@@ -248,6 +248,14 @@ struct Sample {
     std::string value{};
     DPSLAVE_FIELDS(number, unix_ms, state, raw, scaled, value)
 };
+struct Incident {
+    std::int64_t number = 0;
+    std::string kind{};
+    std::optional<std::string> station{};
+    std::string reason{}, text{};
+    std::int64_t count = 1, first_unix_ns = 0, last_unix_ns = 0, also = 0;
+    DPSLAVE_FIELDS(number, kind, station, reason, text, count, first_unix_ns, last_unix_ns, also)
+};
 struct NamedTag {
     std::int64_t tag = 0;
     std::string name{};

@@ -130,6 +130,9 @@ control::Handlers ControlMethods::all_handlers()
          })},
         {"Trace", [this](const Json& parameters,
                          const Caller& caller) { return parts_.traces.add(parameters, caller); }},
+        {"ListIncidents", [this](const Json&, const Caller&) { return parts_.incidents.list(); }},
+        {"GetIncident",
+         [this](const Json& parameters, const Caller&) { return parts_.incidents.piece(parameters); }},
         {"Reload",
          [this](const Json& parameters, const Caller&) {
              return parts_.reload.request(parameters.value("dry_run", false));

@@ -2,6 +2,7 @@
 /// The methods of org.dpslaved.Control: which one is answered by what. Main thread only.
 #pragma once
 
+#include "app/incident/incidents.hpp"
 #include "app/watch/event_streams.hpp"
 #include "app/watch/log_level.hpp"
 #include "app/watch/traces.hpp"
@@ -24,6 +25,7 @@ public:
         PendingProbes& probes;
         Watchers& watchers;
         Traces& traces;
+        Incidents& incidents;
         Reload& reload;
         EventHistory& events;
         EventStreams& event_streams;

@@ -131,7 +131,7 @@ ExitStatus run_daemon(const config::Config& config, const std::filesystem::path&
         return give_up();
     }
     DriverGuard guard{*driver, link.baud};
-    MainThread main_thread(config, profiles, runtime, link, guard, signals);
+    MainThread main_thread(config, profiles, state_folder(), runtime, link, guard, signals);
     if (const auto trouble = main_thread.open_socket()) {
         spdlog::error("{}: [control] socket: {}; set it to a place where this user may write",
                       config.file.string(), *trouble);
@@ -169,8 +169,14 @@ ExitStatus run_daemon(const config::Config& config, const std::filesystem::path&
     }
     static_cast<void>(driver->set(false, io::monotonic_now())); // also after a bus thread that has failed
     runtime.end();
+    const auto status = by_signal ? ExitStatus::ended_by_signal : ExitStatus::device_not_opened;
+    if (!main_thread.end_incidents()) {
+        spdlog::warn("the folder of the incidents hangs; the program ends without the last one");
+        main_thread.release();
+        std::_Exit(static_cast<int>(status)); // what its thread uses cannot be freed
+    }
     spdlog::info("ended");
-    return by_signal ? ExitStatus::ended_by_signal : ExitStatus::device_not_opened;
+    return status;
 }
 
 } // namespace dpslave::app

@@ -26,8 +26,9 @@ constexpr std::chrono::milliseconds kTickWhilePending{5};   // while a call wait
 
 } // namespace
 
-MainThread::MainThread(config::Config config, const std::filesystem::path& profiles, Runtime& runtime,
-                       BusLink& bus, const DriverGuard& guard, io::Signals& signals)
+MainThread::MainThread(config::Config config, const std::filesystem::path& profiles,
+                       const std::filesystem::path& state, Runtime& runtime, BusLink& bus,
+                       const DriverGuard& guard, io::Signals& signals)
     : runtime_(runtime),
       bus_(bus),
       guard_(guard),
@@ -35,7 +36,8 @@ MainThread::MainThread(config::Config config, const std::filesystem::path& profi
       monitor_(std::move(config), runtime, bus),
       file_(monitor_.config(), profiles, io::monotonic_now()),
       traces_(bus, replies_),
-      methods_({monitor_, lamps_, file_, accesses_, probes_, watchers_, traces_, reload_, events_,
+      incidents_(monitor_, bus, replies_, state),
+      methods_({monitor_, lamps_, file_, accesses_, probes_, watchers_, traces_, incidents_, reload_, events_,
                 event_streams_, log_level_},
                io::monotonic_now())
 {
@@ -115,7 +117,7 @@ bool MainThread::run()
 
 std::chrono::milliseconds MainThread::tick_length() const
 {
-    if (!accesses_.empty() || !reload_.is_idle()) return kTickWhilePending;
+    if (!accesses_.empty() || !reload_.is_idle() || incidents_.is_waited_for()) return kTickWhilePending;
     if (!traces_.empty()) return kTickWithDiagnosis;
     const auto& stations = runtime_.stations();
     const bool has_diagnosis = std::any_of(stations.begin(), stations.end(), [](const Station& station) {
@@ -139,6 +141,7 @@ void MainThread::tick(Instant now)
     watchers_.push(now);
     event_streams_.push(now);
     traces_.push();
+    incidents_.on_time(now);
     let_log_level_end(now);
     file_.on_time(now);
     feed_watchdog(now);
@@ -194,6 +197,7 @@ void MainThread::log_events(const Station& station)
         const bool is_refusal = event->kind == Kind::refused || event->kind == Kind::foreign_set_prm;
         events_.add(is_refusal ? Happened::refused : Happened::state, station.config->name, text, key,
                     io::monotonic_now());
+        incidents_.look(station, *event, text, io::monotonic_now());
     }
 }
 

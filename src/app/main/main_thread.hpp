@@ -15,13 +15,16 @@ namespace dpslave::app {
 
 class MainThread {
 public:
-    /// `config`: what `runtime` was opened with; `profiles`: where its profiles were read from. What
-    /// `guard` had to do is logged.
-    MainThread(config::Config config, const std::filesystem::path& profiles, Runtime& runtime, BusLink& bus,
-               const DriverGuard& guard, io::Signals& signals);
+    /// `config`: what `runtime` was opened with; `profiles`: where its profiles were read from; `state`: the
+    /// folder for incidents, empty: none. What `guard` had to do is logged.
+    MainThread(config::Config config, const std::filesystem::path& profiles,
+               const std::filesystem::path& state, Runtime& runtime, BusLink& bus, const DriverGuard& guard,
+               io::Signals& signals);
 
     /// For an end without the destructor: switches the lamps off and removes the socket.
     void release();
+    /// The last incident is written. False: the disk hangs, and this object cannot be destroyed.
+    bool end_incidents() { return incidents_.end(std::chrono::seconds{2}); }
 
     /// Opens the control socket. The reason of a failure is a sentence.
     std::optional<std::string> open_socket();
@@ -60,6 +63,7 @@ private:
     PendingProbes probes_{monitor_, runtime_, replies_};
     Watchers watchers_{monitor_, replies_};
     Traces traces_;
+    Incidents incidents_;
     Reload reload_{{file_, monitor_, runtime_, bus_, lamps_, accesses_, replies_, notifier_, events_}};
     ControlMethods methods_;
 

@@ -8,6 +8,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdint>
+#include <limits>
+
 namespace dpslave::dpctl {
 namespace {
 
@@ -268,7 +271,16 @@ void survey_arguments(CLI::App& app, Options& options)
 
 void trace_arguments(CLI::App& app, Options& options)
 {
-    app.add_flag("--follow", options.follow, "Show what comes from now on, until Ctrl-C");
+    auto* const follow =
+        app.add_flag("--follow", options.follow, "Show what comes from now on, until Ctrl-C");
+    auto* const list =
+        app.add_flag("--incidents", options.incidents, "List what the daemon has kept of incidents")
+            ->excludes(follow);
+    app.add_option("--incident", options.incident, "The telegrams around this incident")
+        ->type_name("NUMBER")
+        ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()).description(""))
+        ->excludes(follow)
+        ->excludes(list);
     app.add_option("--station", options.station, "Only telegrams from or to this name or address")
         ->type_name("STATION");
     app.add_option("--service", options.service, "Only services whose name has this part, as in \"diag\"")

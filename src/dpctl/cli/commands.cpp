@@ -64,7 +64,9 @@ constexpr std::array kCommands = std::to_array<Command>({
     {"trace", kWatch, "Shows the telegrams of the bus (root and the operator group)", kTraceJson, kShows,
      "dpctl trace --bad                      what was no telegram, and requests without a reply\n"
      "dpctl trace --follow --station 5       from now on, only from and to address 5\n"
-     "dpctl trace --write bus.pcapng         into a capture for Wireshark",
+     "dpctl trace --write bus.pcapng         into a capture for Wireshark\n"
+     "dpctl trace --incidents                what went wrong, and what is kept of it\n"
+     "dpctl trace --incident 7               the seconds before and after it",
      trace_arguments, do_trace},
     {"bus", kWatch, "Shows who is on the bus: masters, slaves, cycles, retries, load", "GetBus", kShows,
      "dpctl bus            also addresses that a master asks and nobody answers", no_arguments, do_bus},

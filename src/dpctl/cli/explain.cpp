@@ -112,6 +112,21 @@ std::string samples_off(const Json&)
 {
     return "the daemon keeps no values: set samples_kib in [trace] of its configuration, and restart it";
 }
+std::string incidents_off(const report::IncidentsOff& p)
+{
+    return fmt::format("the daemon keeps no incidents: {}", p.reason);
+}
+std::string no_such_incident(const report::NoSuchIncident& p)
+{
+    std::vector<std::string> known;
+    for (const std::int64_t one : p.known) known.push_back(std::to_string(one));
+    return fmt::format("there is no incident {}; there {}", p.number,
+                       known.empty() ? "is none" : "are: " + joined(known, ", "));
+}
+std::string incident_unreadable(const report::IncidentUnreadable& p)
+{
+    return fmt::format("the file of incident {}: {}", p.number, p.reason);
+}
 std::string busy(const Json&)
 {
     return "the daemon has too many connections or requests at once; try again";
@@ -151,6 +166,9 @@ constexpr std::array kSentences = std::to_array<Row>({
     {"org.dpslaved.Control.ReadOnly", read_only},
     {"org.dpslaved.Control.TraceOff", trace_off},
     {"org.dpslaved.Control.SamplesOff", samples_off},
+    {"org.dpslaved.Control.IncidentsOff", said<report::IncidentsOff, incidents_off>},
+    {"org.dpslaved.Control.NoSuchIncident", said<report::NoSuchIncident, no_such_incident>},
+    {"org.dpslaved.Control.IncidentUnreadable", said<report::IncidentUnreadable, incident_unreadable>},
     {"org.dpslaved.Control.Busy", busy},
     {"org.varlink.service.InvalidParameter", said<InvalidParameter, invalid_parameter>},
     {"org.varlink.service.MethodNotFound", said<MethodNotFound, method_not_found>},

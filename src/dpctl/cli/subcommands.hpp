@@ -42,10 +42,12 @@ struct Options {
     bool resume = false;      ///< goes on with the record that is there
 
     // Of trace.
-    std::string file;      ///< a capture that is written; empty = text
-    std::string link_type; ///< of it: "profibus" or "user0"
-    std::string service;   ///< a part of its name; empty = all
-    bool bad = false;      ///< only what is no telegram or was not answered
+    std::string file;          ///< a capture that is written; empty = text
+    std::string link_type;     ///< of it: "profibus" or "user0"
+    std::string service;       ///< a part of its name; empty = all
+    bool bad = false;          ///< only what is no telegram or was not answered
+    bool incidents = false;    ///< the list of them
+    std::int64_t incident = 0; ///< in place of the ring the file of this one; 0 = not said
 
     bool csv = false; ///< `plot`: a table
 

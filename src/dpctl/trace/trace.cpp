@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpctl/cli/ask.hpp"
 #include "dpctl/cli/subcommands.hpp"
+#include "incident.hpp"
 #include "trace_file.hpp"
 
 #include "dpslave/base/base64.hpp"
@@ -36,16 +37,22 @@ public:
         : filter_(std::move(filter)), file_(file), json_(options.json), terminal_(terminal)
     {}
 
-    void print(const trace::Entry& entry, UnixOffset offset)
+    /// `note`: where it is not an entry of the wire.
+    void print(const trace::Entry& entry, UnixOffset offset, std::string_view note = {})
     {
         const TraceWords words = words_of(entry);
         const auto before = std::exchange(before_, entry.last);
         if (!passes(filter_, entry, words)) return;
-        if (file_ != nullptr) return file_->add(entry, words, offset);
-        if (json_)
-            terminal_.out << json_of(entry, words, offset).dump() << '\n';
-        else
-            terminal_.out << line_of(entry, words, offset, before) << '\n';
+        if (file_ != nullptr) return file_->add(entry, words, offset, note);
+        if (json_) {
+            Json json = json_of(entry, words, offset);
+            if (!note.empty()) json["note"] = note;
+            terminal_.out << json.dump() << '\n';
+            return;
+        }
+        terminal_.out << line_of(entry, words, offset, before);
+        if (!note.empty()) terminal_.out << "  (" << note << ')';
+        terminal_.out << '\n';
     }
 
 private:
@@ -98,6 +105,7 @@ int run(const Options& options, Printer& printer, std::int64_t& ended_at, Termin
 
 int do_trace(const Options& options, Terminal& terminal)
 {
+    if (options.incidents) return list_incidents(options, terminal);
     TraceFilter filter{.address = {}, .service = options.service, .bad = options.bad};
     if (!options.station.empty()) {
         const auto address = address_of(options, terminal);
@@ -117,7 +125,11 @@ int do_trace(const Options& options, Terminal& terminal)
     }
     Printer printer{std::move(filter), file ? &*file : nullptr, options, terminal};
     std::int64_t ended_at = 0;
-    const int code = run(options, printer, ended_at, terminal);
+    const auto print = [&](const trace::Entry& entry, UnixOffset offset, std::string_view note) {
+        printer.print(entry, offset, note);
+    };
+    const int code = options.incident != 0 ? print_incident(options, terminal, print, ended_at)
+                                           : run(options, printer, ended_at, terminal);
     if (!file) return code;
     if (const auto trouble = file->finish(ended_at)) {
         terminal.err << "dpctl: " << *trouble << '\n';

@@ -32,7 +32,8 @@ void TraceFile::write(const pcapng::Octets& octets)
     file_.write(reinterpret_cast<const char*>(octets.data()), static_cast<std::streamsize>(octets.size()));
 }
 
-void TraceFile::add(const trace::Entry& entry, const TraceWords& words, UnixOffset offset)
+void TraceFile::add(const trace::Entry& entry, const TraceWords& words, UnixOffset offset,
+                    std::string_view note)
 {
     if (entry.what == trace::Entry::What::lost) {
         dropped_ += entry.count;
@@ -40,6 +41,7 @@ void TraceFile::add(const trace::Entry& entry, const TraceWords& words, UnixOffs
     }
     auto packet = packet_of(entry, words, offset);
     if (!packet) return;
+    if (!note.empty()) packet->comments.emplace_back(note);
     if (const std::uint64_t dropped = std::exchange(dropped_before_, 0); dropped != 0)
         packet->dropped = dropped;
     ++received_;

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace dpslave::dpctl {
 
@@ -15,8 +16,9 @@ public:
     /// Makes the file anew. The error is a sentence with its path.
     static Result<TraceFile, std::string> create(const std::string& path, pcapng::LinkType link_type);
 
-    /// One entry. What was lost is written with the packet behind it.
-    void add(const trace::Entry& entry, const TraceWords& words, UnixOffset offset);
+    /// One entry; `note` becomes a comment. What was lost is written with the packet behind it.
+    void add(const trace::Entry& entry, const TraceWords& words, UnixOffset offset,
+             std::string_view note = {});
     /// The end: what was received and lost. The error is a sentence with the path.
     std::optional<std::string> finish(std::int64_t unix_ns);
 

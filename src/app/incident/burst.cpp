@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "burst.hpp"
+
+namespace dpslave::app {
+
+bool Burst::look(std::uint64_t count, Instant now)
+{
+    if (!at_begin_ || now - begin_ > kWithin) {
+        begin_ = at_begin_ ? looked_at_ : now;
+        at_begin_ = at_begin_ ? newest_ : count;
+    }
+    looked_at_ = now;
+    if (count != newest_) grew_at_ = now;
+    newest_ = count;
+    if (lasts_) {
+        lasts_ = now - grew_at_ < kWithin;
+        return false;
+    }
+    lasts_ = count - *at_begin_ >= kLeast;
+    return lasts_;
+}
+
+} // namespace dpslave::app

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The flight recorder: notices incidents, has what surrounds them written from the ring of the trace into
+/// files, and answers ListIncidents and GetIncident. Main thread only; the files are read and written by a
+/// SideJob.
+#pragma once
+
+#include "app/main/monitor.hpp"
+#include "app/main/replies.hpp"
+#include "book.hpp"
+#include "burst.hpp"
+#include "folder.hpp"
+#include "side_job.hpp"
+
+#include "dpslave/trace/ring.hpp"
+
+#include <array>
+#include <deque>
+#include <filesystem>
+#include <map>
+
+namespace dpslave::app {
+
+class Incidents {
+public:
+    /// `state`: the folder for what outlives the program; empty: there is none, so nothing is kept. All
+    /// outlive this object.
+    Incidents(const Monitor& monitor, const BusLink& bus, Replies& replies,
+              const std::filesystem::path& state);
+
+    /// An event of a station, as it comes from the bus thread; `text`: its sentence.
+    void look(const Station& station, const dp::Event& event, const std::string& text, Instant now);
+    /// Looks for what no event tells, and takes the files further.
+    void on_time(Instant now);
+
+    control::Reply list() const;
+    control::Reply piece(const control::Json& parameters);
+    /// A caller waits for a file: on_time() is to be called soon.
+    bool is_waited_for() const { return !asked_.empty(); }
+
+    /// The last counts are written. False: the disk hangs, and this object cannot be destroyed.
+    bool end(std::chrono::milliseconds limit);
+
+private:
+    /// What happened, with all that its head needs.
+    struct Happening {
+        IncidentKey key;
+        std::string text;
+        Instant now{};
+        std::int64_t unix_ns = 0;
+        std::optional<report::IncidentStation> station;
+    };
+    /// A file that is to be written.
+    struct Writing {
+        report::IncidentHead head;
+        bool is_complete = false; ///< else the time behind the incident is not over yet
+    };
+    struct Asked {
+        std::uint64_t token = 0, number = 0, offset = 0;
+    };
+    /// The state of a station as the events say, and the parameters of the exchange that it is or was in.
+    struct Exchange {
+        dp::State state = dp::State::power_on;
+        std::string set_prm, chk_cfg; ///< hexadecimal
+    };
+    /// What was seen of a drive before.
+    struct Seen {
+        std::uint64_t losses = 0;
+        drive::AnswerCounts heard{};
+        bool line_open = false;
+    };
+
+    void happened(IncidentKind kind, std::optional<report::IncidentStation> station, std::string reason,
+                  std::string text, Instant now);
+    void note(const Happening& happening);
+    void look_at_flaws(Instant now);
+    void look_at_drives(Instant now);
+    bool start_next(Instant now);
+    bool start_search();
+    bool start_writing();
+    bool start_removing();
+    bool start_reading();
+    bool start_counts(Instant now);
+    bool is_written(const std::optional<std::string>& failure);
+    report::IncidentCounts counts() const;
+
+    const Monitor& monitor_;
+    const BusLink& bus_;
+    Replies& replies_;
+    std::filesystem::path folder_;
+    std::string off_because_; ///< a sentence; empty: incidents are kept
+
+    IncidentBook book_;
+    bool is_searched_ = false;                 ///< the folder
+    std::vector<Happening> early_;             ///< before it was
+    std::optional<report::IncidentHead> head_; ///< of the open one
+    std::deque<Writing> to_write_;
+    std::vector<std::uint64_t> to_remove_;
+    std::deque<Asked> asked_;
+    bool counts_wait_ = false;
+    Instant next_counts_{};
+    std::uint64_t failures_ = 0;         ///< files that could not be written
+    std::optional<std::string> trouble_; ///< of the last one, until one is written
+
+    std::map<std::uint32_t, Exchange> exchanges_; ///< by the number of the station
+    std::map<std::uint32_t, Seen> seen_;          ///< likewise
+    Burst flaws_;
+    std::array<std::uint64_t, fdl::kFlaws> flaws_before_{};
+    SideJob job_; ///< last: it ends first
+};
+
+} // namespace dpslave::app

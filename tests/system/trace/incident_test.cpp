@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// What surrounds an incident is on the disk, and nothing suffers when it cannot be.
+#include "system/gateway.hpp"
+
+#include "dpslave/pcapng/pcapng.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+namespace dpslave::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A gateway as a service: with a folder for what outlives it.
+class Incidents : public testing::Test {
+protected:
+    std::filesystem::path state() const { return folder_ / "state"; }
+    std::filesystem::path incidents() const { return state() / "incidents"; }
+    Wiring wiring() const
+    {
+        Wiring wiring;
+        wiring.environment = {{"STATE_DIRECTORY", state().string()}};
+        wiring.line_keys = "timeout_ms = 5000\n"; // a busy machine is no incident
+        return wiring;
+    }
+    static Json list(const Gateway& gateway) { return gateway.json({"trace", "--incidents"}); }
+    static testing::AssertionResult lists(const Gateway& gateway, std::size_t count)
+    {
+        return eventually([&] { return list(gateway).at("incidents").size() == count; });
+    }
+    /// The lines of --incident once the file is complete: with what followed.
+    static std::vector<Json> lines_of(const Gateway& gateway, const std::string& number)
+    {
+        std::istringstream lines{gateway.dpctl({"trace", "--json", "--incident", number}).out};
+        std::vector<Json> all;
+        for (std::string line; std::getline(lines, line);) all.push_back(Json::parse(line));
+        return all;
+    }
+    /// A station that was in exchange and that its master has released.
+    static void release(Gateway& gateway)
+    {
+        Master master{gateway, {"--tags", "55,56w"}};
+        ASSERT_TRUE(master.does("start 30s"));
+        ASSERT_TRUE(master.does("unlock"));
+        ASSERT_TRUE(lists(gateway, 1));
+    }
+    static testing::AssertionResult appears(const std::filesystem::path& path)
+    {
+        return eventually([&] { return std::filesystem::exists(path); });
+    }
+
+    Folder folder_;
+};
+
+TEST_F(Incidents, OfAStationThatLeftHaveItsParametersAndTheTelegramsAroundIt)
+{
+    Gateway gateway{wiring()};
+    release(gateway);
+
+    const Json one = list(gateway).at("incidents").at(0);
+    EXPECT_EQ(one.at("number"), 1);
+    EXPECT_EQ(one.at("kind"), "left");
+    EXPECT_EQ(one.at("station"), "unwinder");
+    EXPECT_EQ(one.at("reason"), "unlock");
+    EXPECT_EQ(one.at("count"), 1);
+
+    const auto lines = lines_of(gateway, "1");
+    ASSERT_GT(lines.size(), 5U);
+    EXPECT_EQ(lines[0].at("what"), "incident");
+    const Json& station = lines[0].at("incident").at("stations").at(0);
+    EXPECT_EQ(station.at("state"), "Data_Exch");
+    EXPECT_EQ(station.at("master"), 2);
+    EXPECT_EQ(lines[1].at("service"), "Set_Prm");
+    EXPECT_TRUE(lines[1].contains("note"));
+    EXPECT_THAT(lines[1].at("octets").get<std::string>(),
+                HasSubstr(station.at("set_prm").get<std::string>()));
+    const auto heard = [&](const char* service) {
+        return std::count_if(lines.begin() + 5, lines.end(),
+                             [&](const Json& entry) { return entry.at("service") == service; });
+    };
+    EXPECT_GT(heard("Data_Exchange"), 0);
+    EXPECT_GT(heard("Set_Prm"), 0) << "the one that released it";
+}
+
+TEST_F(Incidents, OutliveKillMinus9WithTheirNumbers)
+{
+    Gateway gateway{wiring()};
+    release(gateway);
+    ASSERT_TRUE(appears(incidents() / "1.incident"));
+    gateway.daemon().end(SIGKILL);
+    gateway.start_daemon();
+
+    ASSERT_TRUE(lists(gateway, 1));
+    EXPECT_GT(lines_of(gateway, "1").size(), 5U);
+
+    Master master{gateway, {"--tags", "55,56w", "--ident", "0x1234"}};
+    master.send_line("start 1s");
+    ASSERT_TRUE(lists(gateway, 2));
+    const Json second = list(gateway).at("incidents").at(1);
+    EXPECT_EQ(second.at("number"), 2);
+    EXPECT_EQ(second.at("kind"), "refused");
+    EXPECT_EQ(second.at("reason"), "prm_ident");
+}
+
+TEST_F(Incidents, BecomeACaptureThatBeginsWithTheStartUp)
+{
+    Gateway gateway{wiring()};
+    release(gateway);
+    const std::string path = gateway.folder("incident.pcapng").string();
+
+    EXPECT_EQ(gateway.dpctl({"trace", "--incident", "1", "--write", path}).status, 0);
+
+    std::ifstream file{path, std::ios::binary};
+    const std::vector<std::uint8_t> octets{std::istreambuf_iterator<char>{file}, {}};
+    const auto capture = pcapng::read(octets);
+    ASSERT_TRUE(capture) << capture.error();
+    ASSERT_GT(capture->packets.size(), 4U);
+    EXPECT_THAT(capture->packets[0].comments.at(0), HasSubstr("from the head"));
+    EXPECT_EQ(capture->packets[0].octets.at(7), 61) << "Set_Prm";
+    EXPECT_EQ(capture->packets[2].octets.at(7), 62) << "Chk_Cfg";
+}
+
+TEST_F(Incidents, ThatCannotBeWrittenAreSaidOnceAndHinderNothing)
+{
+    Gateway gateway{wiring()};
+    ASSERT_TRUE(lists(gateway, 0));
+    std::filesystem::remove_all(incidents());
+    write_file(incidents(), "in the way");
+
+    Master master{gateway, {"--tags", "55,56w"}};
+    for (int i = 0; i < 3; ++i) {
+        ASSERT_TRUE(master.does("start 30s"));
+        ASSERT_TRUE(master.does("unlock"));
+        ASSERT_TRUE(eventually([&] { return list(gateway).at("failures") >= i + 1; }));
+    }
+    EXPECT_TRUE(gateway.daemon().says("incidents are not kept until the folder can be written again"));
+    EXPECT_EQ(gateway.daemon().how_often("incidents are not kept"), 0U) << "said once";
+    EXPECT_TRUE(list(gateway).at("incidents").empty());
+
+    std::filesystem::remove(incidents());
+    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("unlock"));
+    EXPECT_TRUE(lists(gateway, 1));
+    EXPECT_TRUE(gateway.daemon().says("incidents are kept again"));
+}
+
+TEST_F(Incidents, AreSkippedWhereAFileIsForeignOrCutOff)
+{
+    write_file(incidents() / "7.incident", "dpslaved incident 1\n{");
+    write_file(incidents() / "letter.txt", "hello");
+    Gateway gateway{wiring()};
+
+    release(gateway);
+
+    EXPECT_TRUE(gateway.daemon().ever_said("7.incident is skipped"));
+    EXPECT_TRUE(gateway.daemon().ever_said("letter.txt is skipped"));
+    EXPECT_EQ(list(gateway).at("incidents").at(0).at("number"), 8);
+    EXPECT_EQ(gateway.dpctl({"trace", "--incident", "7"}).status, 1);
+}
+
+TEST_F(Incidents, AreOffWithoutAFolderAndTheReasonIsGiven)
+{
+    Gateway gateway;
+
+    const Outcome outcome = gateway.dpctl({"trace", "--incidents"});
+
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_THAT(outcome.err, HasSubstr("STATE_DIRECTORY"));
+}
+
+} // namespace
+} // namespace dpslave::test
