@@ -72,6 +72,13 @@ TEST_F(DpctlTrace, WhatIsNoTelegramNamesItsFlaw)
     EXPECT_THAT(line(piece), HasSubstr("no telegram: " + std::string{fdl::text(fdl::Flaw::unfinished)}));
 }
 
+TEST_F(DpctlTrace, OctetsThatAreNoTelegramAreNamedSoWhateverTheRecordSays)
+{
+    for (const std::vector<std::uint8_t>& octets :
+         {std::vector<std::uint8_t>{}, {0x68}, {0x10, 0x05}, {0xE5, 0xE5}, {0x68, 0x05, 0x05, 0x68, 0x05}})
+        EXPECT_THAT(line(entry(What::reply, octets)), HasSubstr("  - > -   no telegram"));
+}
+
 TEST_F(DpctlTrace, EachReasonForNoReplyIsASentence)
 {
     Entry one = entry(What::unanswered);

@@ -63,7 +63,7 @@ std::string why_in_words(fdl::Unanswered::Why why)
 
 TraceWords words_of_telegram(const Entry& entry)
 {
-    const auto telegram = fdl::decode(entry.octets);
+    const auto telegram = telegram_of(entry);
     if (!telegram) return {.from = {}, .to = {}, .service = "no telegram"};
     if (telegram->delimiter == fdl::kSC) return {.from = {}, .to = {}, .service = "SC"};
     if (telegram->delimiter == fdl::kSD4)
@@ -72,6 +72,14 @@ TraceWords words_of_telegram(const Entry& entry)
 }
 
 } // namespace
+
+std::optional<fdl::Telegram> telegram_of(const Entry& entry)
+{
+    const auto length = fdl::frame_length(entry.octets);
+    if (entry.octets.empty() || !length || *length != entry.octets.size()) return std::nullopt;
+    const auto telegram = fdl::decode(entry.octets);
+    return telegram ? std::optional{*telegram} : std::nullopt;
+}
 
 TraceWords words_of(const Entry& entry)
 {

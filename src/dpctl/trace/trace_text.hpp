@@ -4,6 +4,7 @@
 
 #include "dpctl/cli/fields.hpp"
 
+#include "dpslave/fdl/telegram.hpp"
 #include "dpslave/pcapng/pcapng.hpp"
 #include "dpslave/trace/telegrams.hpp"
 
@@ -13,6 +14,9 @@
 #include <string>
 
 namespace dpslave::dpctl {
+
+/// The telegram of an entry; nothing: its octets are none, from the first to the last. It points into them.
+std::optional<fdl::Telegram> telegram_of(const trace::Entry& entry);
 
 /// Which entries are shown.
 struct TraceFilter {
