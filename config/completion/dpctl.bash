@@ -11,7 +11,7 @@ _dpctl_options()
         doctor) echo "$_dpctl_common --all --probe --yes" ;;
         status) echo "$_dpctl_common --follow --wait --drive --quiet" ;;
         io | events) echo "$_dpctl_common --follow" ;;
-        trace) echo "$_dpctl_common --follow --incidents --incident --station --service --bad --write --linktype" ;;
+        trace) echo "$_dpctl_common --follow --incidents --incident --station --service --bad --stop-on --decode --gsd --profiles --write --linktype" ;;
         'tec set') echo "$_dpctl_common --station --yes" ;;
         top) echo "$_dpctl_common --every" ;;
         plot) echo "$_dpctl_common --last --svg --csv --station" ;;
@@ -96,12 +96,12 @@ _dpctl()
         --linktype) mapfile -t COMPREPLY < <(compgen -W 'profibus user0' -- "$cur"); return ;;
         --as) mapfile -t COMPREPLY < <(compgen -W 'prm cfg diag' -- "$cur"); return ;;
         --station) _dpctl_offer "$cur" < <(_dpctl_stations); return ;;
-        --timeout | --wait | --every | --last | --service | --tags | --for | --passes | --in | --out | --in-out | --ident | --max-tsdr | --description | --model) return ;;
+        --timeout | --wait | --every | --last | --service | --stop-on | --tags | --for | --passes | --in | --out | --in-out | --ident | --max-tsdr | --description | --model) return ;;
     esac
     for ((i = 1; i < COMP_CWORD; i++)); do
         word=${COMP_WORDS[i]}
         case $word in
-            --socket | --timeout | --wait | --service | --write | --linktype | --every | --last | --svg | --station | --tags | --table | --for | --passes) i=$((i + 1)) ;;
+            --socket | --timeout | --wait | --service | --stop-on | --gsd | --profiles | --write | --linktype | --every | --last | --svg | --station | --tags | --table | --for | --passes) i=$((i + 1)) ;;
             -*) ;;
             *)
                 case "$command" in

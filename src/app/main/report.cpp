@@ -3,6 +3,7 @@
 
 #include "device_state.hpp"
 
+#include "dpslave/report/demand.hpp"
 #include "dpslave/report/words.hpp"
 
 #include <fmt/format.h>
@@ -78,30 +79,14 @@ std::vector<report::Unanswered> unanswered_report(const View& view, Instant now)
     return all;
 }
 
-/// The four registers of Demand Data in words: commands 1 and 2 have the tag in register 1, 3 and 4 in
-/// register 2 (2408f/2404f handbook ch. 7).
-std::string demand_words(const config::StationConfig& station, const std::array<std::uint16_t, 4>& request,
-                         const std::array<std::uint16_t, 4>& reply)
+std::string demand_words(const config::StationConfig& station, const dp::Snapshot& bus)
 {
-    const unsigned command = request[0] >> 12;
-    if (command == 0) return "no command";
-    const bool extended =
-        station.personality->demand == dp::DemandForm::extended && (command == 3 || command == 4);
-    const auto tag = static_cast<std::uint16_t>(extended ? request[1] : request[0] & 0x07FF);
-    const bool reads = command == 1 || (extended && command == 3);
-    const bool writes = command == 2 || (extended && command == 4);
-    const auto value = [&](std::uint16_t word) { return shown_value(*station.tags, tag, word); };
-    const std::string asked = reads    ? fmt::format("read tag {}", tag)
-                              : writes ? fmt::format("write {} to tag {}", value(request[3]), tag)
-                                       : fmt::format("command {} with tag {}", command, tag);
-    std::string none_yet = asked + ": not answered yet";
-    const unsigned answer = reply[0] >> 12;
-    const unsigned echo = extended ? reply[1] : reply[0] & 0x07FF;
-    if (answer == 0 || echo != tag) return none_yet;
-    // 7; or more, where the tag of worked example 2 runs into the command: 7000 + 2088 = 9088.
-    if (answer >= 7) return fmt::format("{}: rejected with error code {}", asked, reply[3]);
-    if (writes && reply[3] != request[3]) return none_yet;
-    return fmt::format("{}: done, value {}", asked, value(reply[3]));
+    report::DemandNames names;
+    names.value = [&station](std::uint16_t tag, std::uint16_t word) {
+        return shown_value(*station.tags, tag, word);
+    };
+    return report::demand_words(bus.demand_request, bus.demand_reply,
+                                station.personality->demand == dp::DemandForm::extended, names);
 }
 
 /// A master exchanges data with it. Held at the start it is in the state and exchanges nothing.
@@ -292,7 +277,7 @@ report::StationIo io_report(const Station& station, Instant now)
     if (bus.demand_data)
         result.demand = {.request = registers(bus.demand_request),
                          .reply = registers(bus.demand_reply),
-                         .words = demand_words(*station.config, bus.demand_request, bus.demand_reply)};
+                         .words = demand_words(*station.config, bus)};
     return result;
 }
 

@@ -25,13 +25,18 @@ void station_option(CLI::App& app, Options& options)
         ->type_name("STATION");
 }
 
-void profile_options(CLI::App& app, Options& options, const char* what_profile_does)
+void profiles_option(CLI::App& app, Options& options)
 {
-    app.add_option("--profile", options.profile, what_profile_does)->type_name("NAME");
     app.add_option("--profiles", options.profiles,
                    "Folder of the device profiles; the tag tables are in ../tags")
         ->type_name("DIR")
         ->capture_default_str();
+}
+
+void profile_options(CLI::App& app, Options& options, const char* what_profile_does)
+{
+    app.add_option("--profile", options.profile, what_profile_does)->type_name("NAME");
+    profiles_option(app, options);
 }
 
 /// Empty: `text` is a time as parse_duration() reads it.
@@ -286,6 +291,10 @@ void trace_arguments(CLI::App& app, Options& options)
     app.add_option("--service", options.service, "Only services whose name has this part, as in \"diag\"")
         ->type_name("NAME");
     app.add_flag("--bad", options.bad, "Only what is no telegram, and requests without a reply");
+    app.add_option("--stop-on", options.stop_on,
+                   "End behind the first telegram for which this holds: bad, unanswered, service=NAME, "
+                   "station=STATION, from=ADDRESS, to=ADDRESS; several with commas")
+        ->type_name("CONDITION");
     auto* const file =
         app.add_option("--write", options.file, "Write a capture (pcapng) in place of the text")
             ->type_name("FILE");
@@ -294,6 +303,15 @@ void trace_arguments(CLI::App& app, Options& options)
         ->type_name("TYPE")
         ->check(CLI::IsMember({"profibus", "user0"}).description(""))
         ->needs(file);
+    auto* const decode =
+        app.add_flag("--decode", options.decode,
+                     "Below each telegram what it says: parameters, tags by name, values, diagnosis")
+            ->excludes(file);
+    app.add_option("--gsd", options.gsd_folder,
+                   "Folder of GSD files: texts of the diagnosis of other devices")
+        ->type_name("DIR")
+        ->needs(decode);
+    profiles_option(app, options);
 }
 
 } // namespace dpslave::dpctl

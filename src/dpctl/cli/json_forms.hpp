@@ -18,7 +18,8 @@ with --all {"rules": [RULE], "lines": [LINE]}, where RULE is FINDING with "note"
 inline constexpr const char* kTraceJson =
     R"({"what": "telegram", "piece", "reply", "unanswered", "rate" or "lost", "at_ns", "first_ns", "last_ns": since 1970,
 "uncertainty_ns", "baud", "from", "to": null or address, "service", "octets": hexadecimal, "bad_characters",
-"flaw": null or code, "lost": records, "note": text, of telegrams that were before}, one a line;
+"flaw": null or code, "lost": records, "note": text, of telegrams that were before; with --decode "decoded": null or
+{"kind", "hex", "lines": [{"name", "value"}], "octets": [{"octet", "offset", "value", "meaning"}], "faults": [text]}}, one a line;
 with --incidents the reply of ListIncidents; with --incident first {"what": "incident", "incident": its head})";
 
 inline constexpr const char* kSurveyJson =

@@ -48,6 +48,9 @@ struct Options {
     bool bad = false;          ///< only what is no telegram or was not answered
     bool incidents = false;    ///< the list of them
     std::int64_t incident = 0; ///< in place of the ring the file of this one; 0 = not said
+    bool decode = false;       ///< what each telegram says beneath it
+    std::string gsd_folder;    ///< with `decode`: GSD files of other devices; empty = none
+    std::string stop_on;       ///< as read_condition() reads it; empty = no condition
 
     bool csv = false; ///< `plot`: a table
 

@@ -138,23 +138,41 @@ Decoded decode_as(Form form, Bytes octets, DecodeContext context)
     return decoded;
 }
 
+Json decoded_json(const Decoded& part)
+{
+    Json lines = Json::array(), octets = Json::array();
+    for (const Decoded::Line& line : part.lines)
+        lines.push_back({{"name", line.name}, {"value", line.value}});
+    for (const Decoded::Octet& o : part.octets)
+        octets.push_back(
+            {{"octet", o.octet}, {"offset", o.octet - 1}, {"value", o.value}, {"meaning", o.meaning}});
+    return {{"kind", part.kind},
+            {"hex", part.hex},
+            {"lines", lines},
+            {"octets", octets},
+            {"faults", part.faults}};
+}
+
 Json decoded_json(const std::vector<Decoded>& parts)
 {
     Json list = Json::array();
-    for (const Decoded& part : parts) {
-        Json lines = Json::array(), octets = Json::array();
-        for (const Decoded::Line& line : part.lines)
-            lines.push_back({{"name", line.name}, {"value", line.value}});
-        for (const Decoded::Octet& o : part.octets)
-            octets.push_back(
-                {{"octet", o.octet}, {"offset", o.octet - 1}, {"value", o.value}, {"meaning", o.meaning}});
-        list.push_back({{"kind", part.kind},
-                        {"hex", part.hex},
-                        {"lines", lines},
-                        {"octets", octets},
-                        {"faults", part.faults}});
-    }
+    for (const Decoded& part : parts) list.push_back(decoded_json(part));
     return {{"parts", list}};
+}
+
+std::string render_details(const Decoded& part, std::size_t indent, Look look)
+{
+    Block block;
+    for (const Decoded::Line& line : part.lines) block.add(line.name, line.value);
+    std::string out = block.str(indent, look);
+    Table table({">OCTET", ">OFFSET", "VALUE", "MEANING"});
+    for (const Decoded::Octet& o : part.octets)
+        table.add({std::to_string(o.octet), std::to_string(o.octet - 1), fmt::format("0x{:02X}", o.value),
+                   o.meaning});
+    if (!table.empty()) out += table.str(look, indent);
+    for (const std::string& fault : part.faults)
+        out += paragraph(std::string(indent, ' ') + "wrong: ", fault, look.width);
+    return out;
 }
 
 std::string render_decoded(const std::vector<Decoded>& parts, Look look)
@@ -162,16 +180,9 @@ std::string render_decoded(const std::vector<Decoded>& parts, Look look)
     std::string out;
     for (const Decoded& part : parts) {
         out += (out.empty() ? "" : "\n") + painted(part.kind, Tone::strong, look) + '\n';
-        Block block;
-        block.add("octets", part.hex);
-        for (const Decoded::Line& line : part.lines) block.add(line.name, line.value);
-        out += block.str(2, look);
-        Table table({">OCTET", ">OFFSET", "VALUE", "MEANING"});
-        for (const Decoded::Octet& o : part.octets)
-            table.add({std::to_string(o.octet), std::to_string(o.octet - 1), fmt::format("0x{:02X}", o.value),
-                       o.meaning});
-        if (!table.empty()) out += table.str(look, 2);
-        for (const std::string& fault : part.faults) out += paragraph("  wrong: ", fault, look.width);
+        Decoded with_octets = part;
+        with_octets.lines.insert(with_octets.lines.begin(), {"octets", part.hex});
+        out += render_details(with_octets, 2, look);
     }
     return out;
 }

@@ -66,6 +66,13 @@ std::string device_octet(Bytes block, std::size_t i, const profile::Profile& dev
     return fmt::format("device-related, octet {}", i);
 }
 
+/// The same of a device that is known by its GSD, or not at all.
+std::string foreign_octet(Bytes block, std::size_t i, const DiagnosisTexts* texts)
+{
+    const std::string said = texts != nullptr ? texts_of_octet(*texts, block, i) : std::string{};
+    return fmt::format("device-related, octet {}{}", i, said.empty() ? "" : ": " + said);
+}
+
 /// Identifiers whose bit is set in a block of identifier-related diagnosis.
 std::string identifiers_in(std::uint8_t octet, std::size_t first)
 {
@@ -100,7 +107,7 @@ void add_block(Bytes block, std::size_t at, const DecodeContext& context, Decode
             add(0, fmt::format("device-related block of {} octets", number));
             for (std::size_t i = 1; i < block.size(); ++i)
                 add(i, context.device != nullptr ? device_octet(block, i, *context.device)
-                                                 : fmt::format("device-related, octet {}", i));
+                                                 : foreign_octet(block, i, context.texts));
             break;
         case 1:
             add(0, fmt::format("identifier-related block of {} octets", number));
@@ -165,6 +172,8 @@ void decode_diagnosis(Bytes data, const DecodeContext& context, Decoded& into)
     }
     if (data.size() > kMaxDiagnosis) into.faults.push_back("a diagnosis has at most 244 octets");
     standard_part(data, into);
+    if (context.texts != nullptr && !context.texts->model.empty())
+        into.lines.push_back({"device", context.texts->model + " (by its GSD)"});
     const Bytes extended = data.subspan(dp::kStandardDiagnosis);
     if (!extended.empty()) {
         into.lines.push_back({"extended part", (data[0] & 0x08) != 0 ? "reports a fault (Ext_Diag is 1)"

@@ -61,13 +61,6 @@ std::string watchdog_words(Bytes data, bool dpv1_status)
     return age(static_cast<double>(dp::watchdog_of(data, dpv1_status).count()));
 }
 
-/// "271 SPEED TRIM".
-std::string tag_words(std::uint16_t tag, const profile::Profile& device)
-{
-    const drive::Tag* row = device.tags.find(tag);
-    return row == nullptr ? std::to_string(tag) : fmt::format("{} {}", tag, row->name);
-}
-
 /// What this octet of User_Prm_Data is to the device; `at` counts from 0.
 std::string user_octet(Bytes user, std::size_t at, const profile::Profile* device)
 {
@@ -98,6 +91,8 @@ void add_refusal(const dp::RefusalDetail& refusal, const profile::Profile& devic
 void judge_set_prm(Bytes data, DecodeContext& context, Decoded& into)
 {
     if (dp::lock_of(data) != dp::Lock::lock) return;
+    context.configuration.reset();
+    context.demand.reset();
     dp::Personality personality = context.device->personality;
     if (!context.device->ident) personality.ident = be16(data, 4); // the site's own
     const auto taken = dp::check_set_prm(personality, data);
@@ -241,7 +236,7 @@ void decode_set_prm(Bytes data, DecodeContext& context, Decoded& into)
     if (context.device != nullptr) judge_set_prm(data, context, into);
 }
 
-void decode_cfg(Bytes data, const DecodeContext& context, bool check, Decoded& into)
+void decode_cfg(Bytes data, DecodeContext& context, bool check, Decoded& into)
 {
     if (data.empty()) {
         into.faults.push_back("Cfg_Data is empty");
@@ -251,8 +246,10 @@ void decode_cfg(Bytes data, const DecodeContext& context, bool check, Decoded& i
     if (!check || context.device == nullptr) return;
     const dp::Personality& personality = context.device->personality;
     const std::vector<std::uint16_t> tags = context.tags ? *context.tags : assumed_tags(data, personality);
-    if (const auto taken = dp::check_chk_cfg(personality, tags, data); !taken)
-        add_refusal(taken.error(), *context.device, into);
+    const auto taken = dp::check_chk_cfg(personality, tags, data);
+    if (!taken) add_refusal(taken.error(), *context.device, into);
+    context.configuration.reset();
+    if (taken && context.tags) context.configuration = *taken;
 }
 
 } // namespace dpslave::dpctl

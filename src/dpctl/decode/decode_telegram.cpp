@@ -187,11 +187,13 @@ void decode_request(const Telegram& telegram, DecodeContext& context, Decoded& i
         case dp::sap::kSlaveDiag: return wants_no_data(data, "Slave_Diag", into);
         case dp::sap::kSetPrm: return decode_set_prm(data, context, into);
         case dp::sap::kChkCfg: return decode_cfg(data, context, true, into);
-        default: add_data_line(data, telegram.dsap ? "data" : "outputs", into);
+        default:
+            if (telegram.dsap || !decode_exchange(data, true, context, into))
+                add_data_line(data, telegram.dsap ? "data" : "outputs", into);
     }
 }
 
-void decode_reply(const Telegram& telegram, const DecodeContext& context, Decoded& into)
+void decode_reply(const Telegram& telegram, DecodeContext& context, Decoded& into)
 {
     const Bytes data = telegram.data;
     switch (telegram.ssap.value_or(0)) {
@@ -199,7 +201,9 @@ void decode_reply(const Telegram& telegram, const DecodeContext& context, Decode
         case dp::sap::kRdOutp: return add_data_line(data, "outputs", into);
         case dp::sap::kGetCfg: return decode_cfg(data, context, false, into);
         case dp::sap::kSlaveDiag: return decode_diagnosis(data, context, into);
-        default: add_data_line(data, telegram.ssap ? "data" : "inputs", into);
+        default:
+            if (telegram.ssap || !decode_exchange(data, false, context, into))
+                add_data_line(data, telegram.ssap ? "data" : "inputs", into);
     }
 }
 
@@ -223,7 +227,6 @@ void check_fc(const Telegram& telegram, Decoded& into)
 
 void check_addresses(const Telegram& telegram, Decoded& into)
 {
-    if (!telegram.has_fc()) return;
     if (telegram.sa == telegram.da)
         into.faults.push_back(
             fmt::format("sender and receiver are both {}: no station talks to itself", telegram.sa));
@@ -261,12 +264,7 @@ void describe(const Telegram& telegram, DecodeContext& context, Decoded& into)
             {"DSAP, SSAP", telegram.is_request()
                                ? sap_words(telegram.dsap) + ", " + masters_sap(telegram.ssap)
                                : masters_sap(telegram.dsap) + ", " + sap_words(telegram.ssap)});
-    check_fc(telegram, into);
-    check_addresses(telegram, into);
-    if (telegram.is_request())
-        decode_request(telegram, context, into);
-    else
-        decode_reply(telegram, context, into);
+    decode_service(telegram, context, into);
 }
 
 std::uint8_t sum_of(Bytes octets)
@@ -331,6 +329,16 @@ std::string service_name(const Telegram& telegram)
     for (const Sap& row : kSaps)
         if (row.number == *sap) return fmt::format("{}{}", row.name, side);
     return fmt::format("SAP {}{}", *sap, side);
+}
+
+void decode_service(const Telegram& telegram, DecodeContext& context, Decoded& into)
+{
+    check_fc(telegram, into);
+    check_addresses(telegram, into);
+    if (telegram.is_request())
+        decode_request(telegram, context, into);
+    else
+        decode_reply(telegram, context, into);
 }
 
 Decoded decode_telegram(Bytes frame, DecodeContext& context)

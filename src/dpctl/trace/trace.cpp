@@ -2,69 +2,124 @@
 #include "dpctl/cli/ask.hpp"
 #include "dpctl/cli/subcommands.hpp"
 #include "incident.hpp"
+#include "trace_condition.hpp"
 #include "trace_file.hpp"
+#include "trace_sources.hpp"
 
 #include "dpslave/base/base64.hpp"
+#include "dpslave/base/printable.hpp"
 #include "dpslave/report/replies.hpp"
 #include "dpslave/trace/wire_form.hpp"
 
 #include <algorithm>
+#include <bitset>
 
 namespace dpslave::dpctl {
 namespace {
 
-/// Whose address, by name or number. The failure is an exit code; why is printed.
-Result<std::uint8_t, int> address_of(const Options& options, Terminal& terminal)
+/// The address of a station, by name or number. The failure is an exit code; why is printed.
+Result<std::uint8_t, int> address_of(const std::string& name, const Options& options, Terminal& terminal)
 {
     const auto reply = ask(options, terminal, "ListStations", Json::object());
     if (!reply) return Failure{reply.error()};
     for (const report::Station& station : report::read<report::ListStationsReply>(*reply).stations)
-        if (station.name == options.station || std::to_string(station.address) == options.station)
+        if (station.name == name || std::to_string(station.address) == name)
             return static_cast<std::uint8_t>(station.address);
-    const bool is_number = !options.station.empty() && options.station.size() <= 3 &&
-                           options.station.find_first_not_of("0123456789") == std::string::npos;
-    if (is_number && std::stoi(options.station) <= 127)
-        return static_cast<std::uint8_t>(std::stoi(options.station));
-    terminal.err << "dpctl: no station is called " << options.station
+    const bool is_number =
+        !name.empty() && name.size() <= 3 && name.find_first_not_of("0123456789") == std::string::npos;
+    if (is_number && std::stoi(name) <= 127) return static_cast<std::uint8_t>(std::stoi(name));
+    terminal.err << "dpctl: no station is called " << name
                  << ". Any address from 0 to 127 may be given as a number.\n";
     return Failure{int{kUsage}};
+}
+
+/// Of --stop-on; nothing: without it. The failure is an exit code; why is printed.
+Result<std::optional<StopCondition>, int> stop_condition_of(const Options& options, Terminal& terminal)
+{
+    if (options.stop_on.empty()) return std::optional<StopCondition>{};
+    auto condition = read_condition(options.stop_on);
+    if (!condition) {
+        terminal.err << "dpctl: --stop-on: " << condition.error() << '\n';
+        return Failure{int{kUsage}};
+    }
+    if (!condition->station.empty()) {
+        const auto address = address_of(condition->station, options, terminal);
+        if (!address) return Failure{address.error()};
+        condition->filter.address = *address;
+    }
+    return std::optional{StopCondition{*std::move(condition)}};
 }
 
 /// Prints entries as they come, and writes them into a file where one is wanted.
 class Printer {
 public:
-    Printer(TraceFilter filter, TraceFile* file, const Options& options, Terminal& terminal)
-        : filter_(std::move(filter)), file_(file), json_(options.json), terminal_(terminal)
+    /// `file` and `decoder`: nullptr = none.
+    Printer(TraceFilter filter, std::optional<StopCondition> stop, TraceDecoder* decoder, TraceFile* file,
+            const Options& options, Terminal& terminal)
+        : filter_(std::move(filter)),
+          stop_(std::move(stop)),
+          decoder_(decoder),
+          file_(file),
+          json_(options.json),
+          terminal_(terminal)
     {}
+
+    /// The condition of --stop-on has held: nothing more is printed.
+    bool has_stopped() const { return has_stopped_; }
 
     /// `note`: where it is not an entry of the wire.
     void print(const trace::Entry& entry, UnixOffset offset, std::string_view note = {})
     {
         const TraceWords words = words_of(entry);
         const auto before = std::exchange(before_, entry.last);
-        if (!passes(filter_, entry, words)) return;
+        const auto decoded =
+            decoder_ != nullptr ? decoder_->decode(entry) : std::nullopt; // it learns from each
+        has_stopped_ = stop_ && note.empty() && stop_->holds(entry, words);
+        if (!has_stopped_ && !passes(filter_, entry, words)) return;
         if (file_ != nullptr) return file_->add(entry, words, offset, note);
         if (json_) {
             Json json = json_of(entry, words, offset);
             if (!note.empty()) json["note"] = note;
-            terminal_.out << json.dump() << '\n';
+            if (decoder_ != nullptr) json["decoded"] = decoded ? decoded_json(*decoded) : Json(nullptr);
+            terminal_.out << printable_json(json.dump()) << '\n';
             return;
         }
         terminal_.out << line_of(entry, words, offset, before);
         if (!note.empty()) terminal_.out << "  (" << note << ')';
         terminal_.out << '\n';
+        if (decoded) terminal_.out << render_details(*decoded, kIndent, terminal_.look());
     }
 
 private:
+    static constexpr std::size_t kIndent = 4; ///< of what stands beneath a telegram
+
     TraceFilter filter_;
+    std::optional<StopCondition> stop_;
+    bool has_stopped_ = false;
+    TraceDecoder* decoder_;
     TraceFile* file_;
     bool json_;
     Terminal& terminal_;
     std::optional<Instant> before_;
 };
 
+/// Looks which slaves are parameterised or configured in a trace.
+class LayoutScan {
+public:
+    void print(const trace::Entry& entry, UnixOffset /*offset*/, std::string_view /*note*/ = {})
+    {
+        if (const auto address = layout_changed_by(entry)) changed_.set(*address);
+    }
+    static bool has_stopped() { return false; }
+    const std::bitset<128>& changed() const { return changed_; }
+
+private:
+    std::bitset<128> changed_;
+};
+
 /// What one reply brings. False: its records cannot be read.
-bool take(const report::TraceReply& reply, trace::Telegrams& telegrams, Printer& printer)
+template <class Taker>
+bool take(const report::TraceReply& reply, trace::Telegrams& telegrams, Taker& printer)
 {
     const UnixOffset offset{reply.unix_ns - reply.now_ns};
     const Instant now{std::chrono::nanoseconds{reply.now_ns}};
@@ -76,12 +131,17 @@ bool take(const report::TraceReply& reply, trace::Telegrams& telegrams, Printer&
         telegrams.lost(static_cast<std::uint64_t>(reply.lost), record ? record->head.at : now);
     for (; record; record = trace::take_record(rest)) telegrams.add(*record);
     if (reply.caught_up) telegrams.pass_time(now);
-    while (const auto entry = telegrams.take()) printer.print(*entry, offset);
+    while (!printer.has_stopped()) {
+        const auto entry = telegrams.take();
+        if (!entry) break;
+        printer.print(*entry, offset);
+    }
     return rest.empty();
 }
 
 /// Until all is printed, without an end with --follow. Gives the exit code.
-int run(const Options& options, Printer& printer, std::int64_t& ended_at, Terminal& terminal)
+template <class Taker>
+int run(const Options& options, Taker& printer, std::int64_t& ended_at, Terminal& terminal)
 {
     const Json from = options.follow ? Json{{"from", "newest"}} : Json::object();
     std::optional<trace::Telegrams> telegrams;
@@ -93,12 +153,39 @@ int run(const Options& options, Printer& printer, std::int64_t& ended_at, Termin
             is_read = take(part, *telegrams, printer);
             ended_at = part.unix_ns;
             terminal.out << std::flush;
-            return !is_read || (!options.follow && part.caught_up);
+            return !is_read || printer.has_stopped() || (!options.follow && part.caught_up);
         });
     if (is_read) return code;
     terminal.err << "dpctl: the records of the daemon cannot be read. Is dpctl of the same version? Compare: "
                     "dpctl version\n";
     return kNo;
+}
+
+/// Of the ring, or with --incident of a file.
+template <class Taker>
+int read_all(const Options& options, Taker& taker, std::int64_t& ended_at, Terminal& terminal)
+{
+    if (options.incident == 0) return run(options, taker, ended_at, terminal);
+    const auto print = [&](const trace::Entry& entry, UnixOffset offset, std::string_view note) {
+        if (!taker.has_stopped()) taker.print(entry, offset, note);
+    };
+    return print_incident(options, terminal, print, ended_at);
+}
+
+/// With --decode: what is known beside the telegrams. A trace of the past is read twice, because a layout
+/// that is in force now need not be that of its first telegrams. The failure is an exit code; why is printed.
+Result<std::optional<TraceSources>, int> sources_of(const Options& options, Terminal& terminal)
+{
+    if (!options.decode) return std::optional<TraceSources>{};
+    auto sources = trace_sources(options, terminal);
+    if (!sources) return Failure{sources.error()};
+    LayoutScan scan;
+    std::int64_t ended_at = 0;
+    if (!options.follow)
+        if (const int failed = read_all(options, scan, ended_at, terminal); failed != kFine)
+            return Failure{int{failed}};
+    set_layouts(*sources, scan.changed());
+    return std::optional<TraceSources>{*std::move(sources)};
 }
 
 } // namespace
@@ -108,10 +195,14 @@ int do_trace(const Options& options, Terminal& terminal)
     if (options.incidents) return list_incidents(options, terminal);
     TraceFilter filter{.address = {}, .service = options.service, .bad = options.bad};
     if (!options.station.empty()) {
-        const auto address = address_of(options, terminal);
+        const auto address = address_of(options.station, options, terminal);
         if (!address) return address.error();
         filter.address = *address;
     }
+    auto stop = stop_condition_of(options, terminal);
+    if (!stop) return stop.error();
+    auto sources = sources_of(options, terminal);
+    if (!sources) return sources.error();
     std::optional<TraceFile> file;
     if (!options.file.empty()) {
         auto made =
@@ -123,13 +214,12 @@ int do_trace(const Options& options, Terminal& terminal)
         }
         file.emplace(*std::move(made));
     }
-    Printer printer{std::move(filter), file ? &*file : nullptr, options, terminal};
+    std::optional<TraceSources>& known = *sources;
+    Printer printer{std::move(filter),       *std::move(stop), known ? &known->decoder : nullptr,
+                    file ? &*file : nullptr, options,          terminal};
     std::int64_t ended_at = 0;
-    const auto print = [&](const trace::Entry& entry, UnixOffset offset, std::string_view note) {
-        printer.print(entry, offset, note);
-    };
-    const int code = options.incident != 0 ? print_incident(options, terminal, print, ended_at)
-                                           : run(options, printer, ended_at, terminal);
+    int code = read_all(options, printer, ended_at, terminal);
+    if (code == kFine && !options.stop_on.empty() && !printer.has_stopped()) code = kNo;
     if (!file) return code;
     if (const auto trouble = file->finish(ended_at)) {
         terminal.err << "dpctl: " << *trouble << '\n';

@@ -132,6 +132,45 @@ TEST(Trace, WritesACaptureWithTheDirectionOfEachTelegram)
     EXPECT_EQ(capture->statistics.at(0).dropped, 0U);
 }
 
+TEST(Trace, ThatStopsOnATelegramEndsItsCaptureWithIt)
+{
+    Gateway gateway;
+    Master master{gateway, {"--tags", "55,56w"}};
+    ASSERT_TRUE(master.does("start 30s"));
+    const std::string path = gateway.folder("stopped.pcapng").string();
+
+    const Outcome outcome = gateway.dpctl({"trace", "--write", path, "--stop-on", "service=set_prm,to=5"});
+
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    std::ifstream file{path, std::ios::binary};
+    const std::vector<std::uint8_t> octets{std::istreambuf_iterator<char>{file}, {}};
+    const auto capture = pcapng::read(octets);
+    ASSERT_TRUE(capture) << capture.error();
+    ASSERT_GT(capture->packets.size(), 1U);
+    EXPECT_EQ(capture->packets.back().octets.at(7), 61) << "DSAP of Set_Prm";
+    EXPECT_EQ(capture->statistics.at(0).received, capture->packets.size());
+}
+
+TEST(Trace, DecodesTheDataOfOurStationByTheLayoutThatTheMasterHasChosen)
+{
+    Gateway gateway;
+    Master master{gateway, {"--tags", "55,56w"}};
+    ASSERT_TRUE(master.does("start 30s"));
+    gateway.drive().send_line("set 55 12.50");
+    ASSERT_TRUE(master.does("wait 10s for in 1 = 1250"));
+    const Arguments decode{"trace", "--decode", "--profiles",
+                           std::string{DPSLAVE_SOURCE_DIR} + "/config/profiles"};
+
+    const Outcome whole = gateway.dpctl(decode);
+    EXPECT_EQ(whole.status, 0) << whole.err;
+    EXPECT_THAT(whole.out, HasSubstr("low octet: 55 Example: speed feedback"));
+    EXPECT_THAT(whole.out, HasSubstr("    55 Example: speed feedback  12.50\n"));
+
+    Arguments follow = decode; // the Set_Prm is not in it: the daemon says the layout
+    follow.insert(follow.end(), {"--follow", "--stop-on", "from=5"});
+    EXPECT_THAT(gateway.dpctl(follow).out, HasSubstr("    55 Example: speed feedback  12.50\n"));
+}
+
 TEST(Trace, OfARecorderThatIsOffSaysHowToSwitchItOn)
 {
     Gateway gateway{{.started = false}};
