@@ -55,6 +55,15 @@ class Chart:
         self.parts.append(self._words(LEFT + 46, at, name))
         self.lines += 1
 
+    def bar(self, top: float, value: float, height: float, colour: str, words: str) -> None:
+        """From 0 to `value`; `top` and `height` on the y axis. The words stand behind it."""
+        y, bottom = self._y(top), self._y(top - height)
+        self.parts.append(f'<path d="M{LEFT} {y:.1f}H{self._x(value):.1f}V{bottom:.1f}H{LEFT}Z" fill="{colour}"/>')
+        self.parts.append(self._words(self._x(value) + 6, (y + bottom) / 2 + 4, words))
+
+    def words(self, x: float, y: float, words: str) -> None:
+        self.parts.append(self._words(self._x(x) + 4, self._y(y), words))
+
     def write(self, file: pathlib.Path) -> None:
         file.write_text("\n".join([*self.parts, "</svg>"]) + "\n", encoding="utf-8")
 
@@ -88,10 +97,27 @@ def turnaround(curve: dict, file: pathlib.Path) -> str:
     return "Turnaround of dpslaved and of the null responder, cumulative"
 
 
+def refresh(lines: list[dict], file: pathlib.Path) -> str:
+    """Two bars for each line: what the frames take, and the cycle."""
+    title = "Refresh of 12 values: what the wire takes, and the cycle of the daemon"
+    most = max(max(line["wire_ms"], line["cycle_ms"]) for line in lines)
+    chart = Chart(title, linear(50 * math.ceil(most / 50 + 1), 50), (lambda place: place, []), "ms", "")
+    height = 1 / len(lines)
+    for at, line in enumerate(lines):
+        top = 1 - at * height
+        chart.words(0.0, top - 0.3 * height, line["line"])
+        for row, (name, value, colour) in enumerate((("wire", line["wire_ms"], "#8a8a8a"), ("cycle", line["cycle_ms"], COLOURS[0]))):
+            chart.bar(top - (0.38 + 0.29 * row) * height, value, 0.25 * height, colour, f"{name} {value:.1f} ms")
+    chart.write(file)
+    return "Refresh of 12 values on a line, against the time that its frames take"
+
+
 def write(curves: dict, folder: pathlib.Path) -> list[tuple[str, str]]:
     """Draws what is there. Gives the name of each picture, with what it shows."""
     folder.mkdir(exist_ok=True)
     drawn = []
     if "turnaround" in curves:
         drawn.append(("turnaround.svg", turnaround(curves["turnaround"], folder / "turnaround.svg")))
+    if "refresh" in curves:
+        drawn.append(("refresh.svg", refresh(curves["refresh"], folder / "refresh.svg")))
     return drawn

@@ -221,7 +221,8 @@ std::vector<Row> measure_refresh(nlohmann::json& curves)
     const auto add = [&](const std::string& line, nanoseconds by_formula, std::vector<double> ratios) {
         const double ms = std::chrono::duration<double, std::milli>{by_formula}.count();
         rows.push_back(refresh_row(line, std::move(ratios)));
-        shown.push_back({{"line", line}, {"wire_ms", ms}, {"cycle_ms", ms * rows.back().ratio()}});
+        shown.push_back(
+            {{"line", line + ", simulated clock"}, {"wire_ms", ms}, {"cycle_ms", ms * rows.back().ratio()}});
     };
     {
         EiAscii drive{9600};

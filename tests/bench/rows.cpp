@@ -10,21 +10,39 @@
 namespace dpslave::bench {
 namespace {
 
-const char* kind(Noise noise)
+struct Limits {
+    double low = 0, high = 0;
+};
+
+/// Between which A/A has to be; nothing: it judges nothing.
+std::optional<Limits> limits(Noise noise)
 {
-    return noise == Noise::p50 ? "p50" : "p99";
+    switch (noise) {
+        case Noise::p50: return Limits{0.97, 1.03};
+        case Noise::p99: return Limits{0.90, 1.10};
+        case Noise::not_judged: break;
+    }
+    return std::nullopt;
+}
+
+/// Blocks that come of a real machine may be too few; of a simulated clock, or of memory, one is enough.
+std::size_t blocks_needed(const Row& row)
+{
+    return row.aa.empty() ? 1 : kBlocks;
 }
 
 nlohmann::json json_of(const Row& row)
 {
     const auto aa = row.aa_ratio();
+    const auto within = limits(row.noise);
     return {{"id", row.id},
             {"metric", row.metric},
             {"blocks", row.blocks},
             {"ratio", row.ratio()},
             {"aa", row.aa},
             {"aa_ratio", aa ? nlohmann::json(*aa) : nlohmann::json()},
-            {"aa_kind", row.noise == Noise::not_judged ? nlohmann::json() : nlohmann::json(kind(row.noise))},
+            {"aa_limits", within ? nlohmann::json{within->low, within->high} : nlohmann::json()},
+            {"blocks_needed", blocks_needed(row)},
             {"limit", row.limit},
             {"direction", row.is_least ? "min" : "max"}};
 }
@@ -56,11 +74,10 @@ bool Row::is_kept() const
 
 bool Row::is_noisy() const
 {
+    if (blocks.size() < blocks_needed(*this)) return true;
     const auto error = aa_ratio();
-    if (!error) return false; // of a simulated clock, or of memory
-    if (blocks.size() < kBlocks) return true;
-    if (noise == Noise::not_judged) return false;
-    return noise == Noise::p50 ? *error < 0.97 || *error > 1.03 : *error < 0.90 || *error > 1.10;
+    const auto within = limits(noise);
+    return error && within && (*error < within->low || *error > within->high);
 }
 
 int exit_status(const std::vector<Row>& rows)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Joins what the programs of tools/bench have found into one table, judges it, and renews the page of the figures.
 
-Each FILE is what one program wrote: {"rows": [{"id", "metric", "blocks", "ratio", "aa", "aa_ratio", "aa_kind", "limit",
-"direction"}], "curves": {}}. Exit status: 0 every row is kept, 1 a row is broken or missing, 77 the machine was too noisy.
+Each FILE is what one program wrote: {"rows": [{"id", "metric", "blocks", "ratio", "aa", "aa_ratio", "aa_limits", "blocks_needed",
+"limit", "direction"}], "curves": {}}. Exit status: 0 every row is kept, 1 a row is broken or missing, 77 the machine was too noisy.
 """
 
 import argparse
@@ -16,8 +16,6 @@ import pictures
 HERE = pathlib.Path(__file__).resolve().parent
 PAGE = HERE.parent.parent / "docs/internals/performance.md"
 BEGIN, END = "<!-- written by tools/bench --docs -->", "<!-- end -->"
-BLOCKS = 21
-AA_LIMITS = {"p50": (0.97, 1.03), "p99": (0.90, 1.10)}
 
 
 def known_rows() -> list[tuple[str, str]]:
@@ -27,9 +25,9 @@ def known_rows() -> list[tuple[str, str]]:
 
 
 def verdict(row: dict) -> str:
-    low, high = AA_LIMITS.get(row["aa_kind"], (0, float("inf")))
-    if row["aa"] and len(row["blocks"]) < BLOCKS:  # the machine was too slow for all of them
+    if len(row["blocks"]) < row["blocks_needed"]:  # the machine was too slow for all of them
         return "too noisy"
+    low, high = row["aa_limits"] or (0, float("inf"))
     if row["aa_ratio"] is not None and not low <= row["aa_ratio"] <= high:
         return "too noisy"
     kept = row["ratio"] >= row["limit"] if row["direction"] == "min" else row["ratio"] <= row["limit"]
@@ -53,6 +51,14 @@ def in_order(rows: list[dict]) -> tuple[list[dict], list[str]]:
     faults = [f"{id} {metric}: no program measured it" for id, metric in known if (id, metric) not in by_name]
     faults += [f"{id} {metric}: is not in rows.csv" for id, metric in by_name if (id, metric) not in known]
     return [by_name[name] for name in known if name in by_name], faults
+
+
+def joined(found: list[dict]) -> dict:
+    """The curves of all programs; lists of one name are one list."""
+    curves = {}
+    for name, curve in (item for one in found for item in one.items()):
+        curves[name] = curves[name] + curve if name in curves else curve
+    return curves
 
 
 def print_table(rows: list[dict]) -> None:
@@ -88,7 +94,7 @@ def main() -> int:
         faults = [fault for fault in faults if "no program" not in fault]
         print("\n".join(faults))
         return 1 if faults else 0
-    curves = {name: curve for one in found for name, curve in one["curves"].items()}
+    curves = joined([one["curves"] for one in found])
     print_table(rows)
     print("\n".join(faults))
     if words.json:
