@@ -56,7 +56,7 @@ struct TraceConfig {
     /// Memory of the recorder, in KiB, which is locked as the rest is; 0 = nothing is recorded.
     std::uint32_t bus_kib = 4096;
     std::uint32_t samples_kib = 256; ///< of each drive line
-    bool incidents = true; ///< what surrounds an incident is written to the state folder
+    bool incidents = true;           ///< what surrounds an incident is written to the state folder
     friend bool operator==(const TraceConfig&, const TraceConfig&) = default;
 };
 
