@@ -34,10 +34,15 @@ protected:
     {
         return eventually([&] { return list(gateway).at("incidents").size() == count; });
     }
-    /// The lines of --incident once the file is complete: with what followed.
+    /// The lines of --incident, as soon as there is a file. What followed is in it two seconds later.
     static std::vector<Json> lines_of(const Gateway& gateway, const std::string& number)
     {
-        std::istringstream lines{gateway.dpctl({"trace", "--json", "--incident", number}).out};
+        Outcome outcome;
+        EXPECT_TRUE(eventually([&] {
+            outcome = gateway.dpctl({"trace", "--json", "--incident", number});
+            return outcome.status == 0;
+        })) << outcome.err;
+        std::istringstream lines{outcome.out};
         std::vector<Json> all;
         for (std::string line; std::getline(lines, line);) all.push_back(Json::parse(line));
         return all;
@@ -70,8 +75,17 @@ TEST_F(Incidents, OfAStationThatLeftHaveItsParametersAndTheTelegramsAroundIt)
     EXPECT_EQ(one.at("reason"), "unlock");
     EXPECT_EQ(one.at("count"), 1);
 
-    const auto lines = lines_of(gateway, "1");
+    std::vector<Json> lines;
+    const auto heard = [&](const char* service) {
+        return std::count_if(lines.begin() + 5, lines.end(),
+                             [&](const Json& entry) { return entry.at("service") == service; });
+    };
+    EXPECT_TRUE(eventually([&] {
+        lines = lines_of(gateway, "1");
+        return lines.size() > 5 && heard("Set_Prm") > 0;
+    })) << "the one that released it";
     ASSERT_GT(lines.size(), 5U);
+    EXPECT_GT(heard("Data_Exchange"), 0);
     EXPECT_EQ(lines[0].at("what"), "incident");
     const Json& station = lines[0].at("incident").at("stations").at(0);
     EXPECT_EQ(station.at("state"), "Data_Exch");
@@ -80,12 +94,6 @@ TEST_F(Incidents, OfAStationThatLeftHaveItsParametersAndTheTelegramsAroundIt)
     EXPECT_TRUE(lines[1].contains("note"));
     EXPECT_THAT(lines[1].at("octets").get<std::string>(),
                 HasSubstr(station.at("set_prm").get<std::string>()));
-    const auto heard = [&](const char* service) {
-        return std::count_if(lines.begin() + 5, lines.end(),
-                             [&](const Json& entry) { return entry.at("service") == service; });
-    };
-    EXPECT_GT(heard("Data_Exchange"), 0);
-    EXPECT_GT(heard("Set_Prm"), 0) << "the one that released it";
 }
 
 TEST_F(Incidents, OutliveKillMinus9WithTheirNumbers)
