@@ -39,7 +39,7 @@ std::string demand_request(const DemandWords& request, bool extended, const Dema
 std::string demand_words(const DemandWords& request, const DemandWords& reply, bool extended,
                          const DemandNames& names)
 {
-    const std::string asked = demand_request(request, extended, names);
+    std::string asked = demand_request(request, extended, names);
     if (request[0] >> 12 == 0) return asked;
     const Request of = request_of(request, extended);
     std::string none_yet = asked + ": not answered yet";
