@@ -20,7 +20,8 @@ using control::Json;
 
 namespace {
 
-constexpr std::chrono::seconds kCountsInterval{60}; // a flash memory wears out
+constexpr std::chrono::seconds kCountsInterval{60};       // a flash memory wears out
+constexpr std::chrono::milliseconds kOldestSnapshot{200}; // one is published every 50 ms
 constexpr std::size_t kMostEarly = 32, kMostWaiting = 4, kMostAsked = 8;
 
 report::IncidentPart part_of(const IncidentKey& key, const std::string& text)
@@ -98,8 +99,23 @@ void Incidents::look(const Station& station, const dp::Event& event, const std::
         was.chk_cfg = exchange.chk_cfg;
         happened(IncidentKind::left, was, std::string{report::code(event.reason)}, text, now);
     }
-    if (event.state == dp::State::data_exch)
-        exchange = {event.state, hex(station.bus.prm), hex(station.bus.cfg)};
+    if (event.state == dp::State::data_exch) exchange = {.state = event.state, .since = now};
+}
+
+/// A snapshot may be older than the event, and then of the exchange before; or newer, and then of its end.
+/// What is of neither for certain is not known: a short exchange has its start-up among the records.
+void Incidents::look_at_exchanges(Instant now)
+{
+    for (const Station& station : monitor_.view().stations) {
+        const auto found = exchanges_.find(station.number);
+        if (found == exchanges_.end() || !found->second.set_prm.empty()) continue;
+        Exchange& exchange = found->second;
+        const bool is_of_it =
+            exchange.state == dp::State::data_exch && now - exchange.since >= kOldestSnapshot;
+        if (!is_of_it || station.bus.state != dp::State::data_exch) continue;
+        exchange.set_prm = hex(station.bus.prm);
+        exchange.chk_cfg = hex(station.bus.cfg);
+    }
 }
 
 void Incidents::look_at_flaws(Instant now)
@@ -191,6 +207,7 @@ void Incidents::note(const Happening& happening)
 void Incidents::on_time(Instant now)
 {
     if (!off_because_.empty()) return;
+    look_at_exchanges(now);
     look_at_flaws(now);
     look_at_drives(now);
     if (book_.is_complete(now) && head_) {

@@ -60,7 +60,8 @@ private:
     /// The state of a station as the events say, and the parameters of the exchange that it is or was in.
     struct Exchange {
         dp::State state = dp::State::power_on;
-        std::string set_prm, chk_cfg; ///< hexadecimal
+        Instant since{};
+        std::string set_prm{}, chk_cfg{}; ///< hexadecimal; empty: not known for certain
     };
     /// What was seen of a drive before.
     struct Seen {
@@ -72,6 +73,7 @@ private:
     void happened(IncidentKind kind, std::optional<report::IncidentStation> station, std::string reason,
                   std::string text, Instant now);
     void note(const Happening& happening);
+    void look_at_exchanges(Instant now);
     void look_at_flaws(Instant now);
     void look_at_drives(Instant now);
     bool start_next(Instant now);

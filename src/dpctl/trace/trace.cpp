@@ -106,7 +106,7 @@ private:
 /// Looks which slaves are parameterised or configured in a trace.
 class LayoutScan {
 public:
-    void print(const trace::Entry& entry, UnixOffset /*offset*/, std::string_view /*note*/ = {})
+    void print(const trace::Entry& entry, UnixOffset /*offset*/)
     {
         if (const auto address = layout_changed_by(entry)) changed_.set(*address);
     }
@@ -161,28 +161,19 @@ int run(const Options& options, Taker& printer, std::int64_t& ended_at, Terminal
     return kNo;
 }
 
-/// Of the ring, or with --incident of a file.
-template <class Taker>
-int read_all(const Options& options, Taker& taker, std::int64_t& ended_at, Terminal& terminal)
-{
-    if (options.incident == 0) return run(options, taker, ended_at, terminal);
-    const auto print = [&](const trace::Entry& entry, UnixOffset offset, std::string_view note) {
-        if (!taker.has_stopped()) taker.print(entry, offset, note);
-    };
-    return print_incident(options, terminal, print, ended_at);
-}
-
 /// With --decode: what is known beside the telegrams. A trace of the past is read twice, because a layout
-/// that is in force now need not be that of its first telegrams. The failure is an exit code; why is printed.
+/// that is in force now need not be that of its first telegrams. An incident has only the layout of its head.
+/// The failure is an exit code; why is printed.
 Result<std::optional<TraceSources>, int> sources_of(const Options& options, Terminal& terminal)
 {
     if (!options.decode) return std::optional<TraceSources>{};
     auto sources = trace_sources(options, terminal);
     if (!sources) return Failure{sources.error()};
+    if (options.incident != 0) return std::optional<TraceSources>{*std::move(sources)};
     LayoutScan scan;
     std::int64_t ended_at = 0;
     if (!options.follow)
-        if (const int failed = read_all(options, scan, ended_at, terminal); failed != kFine)
+        if (const int failed = run(options, scan, ended_at, terminal); failed != kFine)
             return Failure{int{failed}};
     set_layouts(*sources, scan.changed());
     return std::optional<TraceSources>{*std::move(sources)};
@@ -218,7 +209,11 @@ int do_trace(const Options& options, Terminal& terminal)
     Printer printer{std::move(filter),       *std::move(stop), known ? &known->decoder : nullptr,
                     file ? &*file : nullptr, options,          terminal};
     std::int64_t ended_at = 0;
-    int code = read_all(options, printer, ended_at, terminal);
+    const auto print = [&](const trace::Entry& entry, UnixOffset offset, std::string_view note) {
+        if (!printer.has_stopped()) printer.print(entry, offset, note);
+    };
+    int code = options.incident != 0 ? print_incident(options, terminal, print, ended_at)
+                                     : run(options, printer, ended_at, terminal);
     if (code == kFine && !options.stop_on.empty() && !printer.has_stopped()) code = kNo;
     if (!file) return code;
     if (const auto trouble = file->finish(ended_at)) {

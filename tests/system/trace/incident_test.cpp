@@ -48,10 +48,11 @@ protected:
         return all;
     }
     /// A station that was in exchange and that its master has released.
-    static void release(Gateway& gateway)
+    static void release(Gateway& gateway, const char* after = "wait 1s")
     {
         Master master{gateway, {"--tags", "55,56w"}};
         ASSERT_TRUE(master.does("start 30s"));
+        ASSERT_TRUE(master.does(after));
         ASSERT_TRUE(master.does("unlock"));
         ASSERT_TRUE(lists(gateway, 1));
     }
@@ -94,6 +95,32 @@ TEST_F(Incidents, OfAStationThatLeftHaveItsParametersAndTheTelegramsAroundIt)
     EXPECT_TRUE(lines[1].contains("note"));
     EXPECT_THAT(lines[1].at("octets").get<std::string>(),
                 HasSubstr(station.at("set_prm").get<std::string>()));
+}
+
+TEST_F(Incidents, OfAShortExchangeNeverHaveTheParametersThatEndedIt)
+{
+    Gateway gateway{wiring()};
+    release(gateway, "wait 1ms");
+
+    const Json station = lines_of(gateway, "1").at(0).at("incident").at("stations").at(0);
+    const auto set_prm = station.at("set_prm").get<std::string>();
+    EXPECT_TRUE(set_prm.empty() || set_prm.starts_with("B8")) << set_prm;
+}
+
+TEST_F(Incidents, AreDecodedWithTheLayoutOfTheirHead)
+{
+    Gateway gateway{wiring()};
+    release(gateway);
+    Master other{gateway, {"--tags", "62w"}}; // the layout that is in force when the incident is read
+    ASSERT_TRUE(other.does("start 30s"));
+    ASSERT_GT(lines_of(gateway, "1").size(), 5U);
+
+    const std::string profiles = std::string{DPSLAVE_SOURCE_DIR} + "/config/profiles";
+    const std::string said =
+        gateway.dpctl({"trace", "--incident", "1", "--decode", "--profiles", profiles}).out;
+    EXPECT_EQ(said.find("incident 1,"), said.rfind("incident 1,")) << "its head, once: " << said;
+    EXPECT_THAT(said, HasSubstr("55 Example: speed feedback"));
+    EXPECT_THAT(said, testing::Not(HasSubstr("62 Example")));
 }
 
 TEST_F(Incidents, OutliveKillMinus9WithTheirNumbers)
