@@ -11,7 +11,7 @@ _dpctl_options()
         doctor) echo "$_dpctl_common --all --probe --yes" ;;
         status) echo "$_dpctl_common --follow --wait --drive --quiet" ;;
         io | events) echo "$_dpctl_common --follow" ;;
-        trace) echo "$_dpctl_common --follow --incidents --incident --station --service --bad --stop-on --decode --gsd --profiles --write --linktype" ;;
+        trace) echo "$_dpctl_common --follow --incidents --incident --station --drive --service --bad --stop-on --decode --gsd --profiles --write --linktype" ;;
         'tec set') echo "$_dpctl_common --station --yes" ;;
         top) echo "$_dpctl_common --every" ;;
         plot) echo "$_dpctl_common --last --svg --csv --station" ;;

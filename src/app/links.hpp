@@ -5,6 +5,7 @@
 #pragma once
 
 #include "app/drive/line_probe.hpp"
+#include "app/drive/line_trace.hpp"
 
 #include "dpslave/base/handover.hpp"
 #include "dpslave/base/histogram.hpp"
@@ -188,8 +189,11 @@ struct LineOrder {
 
 /// A drive line and the main thread.
 struct LineLink {
-    /// `sample_octets`: the size of the ring of samples; 0: no values are kept.
-    explicit LineLink(std::size_t sample_octets = 0) : samples(sample_octets) {}
+    /// `trace_octets`, `sample_octets`: the sizes of the rings of its trace and of its samples; 0: nothing is
+    /// kept.
+    explicit LineLink(std::size_t trace_octets = 0, std::size_t sample_octets = 0)
+        : samples(sample_octets), trace(std::make_shared<LineTrace>(trace_octets))
+    {}
 
     Ring<LineOrder, 16> orders;                // main -> drive
     Ring<drive::OperateAnswer, 16> answers;    // drive -> main
@@ -204,6 +208,8 @@ struct LineLink {
     Handover<LineWork> work;                 // main -> drive
     std::atomic<std::uint32_t> work_done{0}; ///< drive -> main: how many of them were carried out
     std::atomic<bool> ended{false};          ///< drive -> main: the thread has ended
+    /// Its frames, drive -> whoever looks, who may keep it longer than the line is there.
+    const std::shared_ptr<LineTrace> trace;
 };
 
 } // namespace dpslave::app

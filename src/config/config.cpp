@@ -35,6 +35,8 @@ TraceConfig read_trace(Table table)
     if (const auto kib = table.integer("samples_kib", 0, kMostOfALine))
         config.samples_kib = static_cast<std::uint32_t>(*kib);
     config.incidents = table.boolean("incidents").value_or(config.incidents);
+    if (const auto kib = table.integer("drive_kib", 0, kMost))
+        config.drive_kib = static_cast<std::uint32_t>(*kib);
     return config;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exchange.hpp"
 
+#include "frame_receiver.hpp"
 #include "pdu.hpp"
 
 #include <algorithm>
@@ -29,6 +30,37 @@ Form form_of_answer(std::uint8_t unit, Bytes pdu)
     return form_of(unit, pdu[0], pdu.size());
 }
 
+std::chrono::nanoseconds characters(std::size_t count, const ClientSettings& settings)
+{
+    return std::chrono::nanoseconds{static_cast<std::int64_t>(count) * settings.bits_of_a_character *
+                                    std::nano::den / std::max<std::uint32_t>(settings.baud, 1)};
+}
+
+/// As it is on the wire.
+ByteBuffer<kLongestFrame> framed(std::uint8_t unit, Bytes pdu)
+{
+    ByteBuffer<kLongestFrame> frame;
+    frame.push(unit);
+    frame.append(pdu);
+    const std::uint16_t crc = crc16(frame);
+    frame.push(low(crc));
+    frame.push(high(crc));
+    return frame;
+}
+
+drive::Judgement judgement_of(Verdict verdict, Bytes pdu)
+{
+    switch (verdict) {
+        case Verdict::answer: return exception_of(pdu) ? drive::Judgement::refused : drive::Judgement::taken;
+        case Verdict::answer_or_older: return drive::Judgement::older;
+        case Verdict::before_write: return drive::Judgement::before_write;
+        case Verdict::owed: return drive::Judgement::late;
+        case Verdict::duplicate: return drive::Judgement::duplicate;
+        case Verdict::foreign: break;
+    }
+    return drive::Judgement::foreign;
+}
+
 std::chrono::nanoseconds settle_of(const ClientSettings& settings)
 {
     const auto settle = settings.rules.settle;
@@ -44,15 +76,15 @@ ModbusClient::Exchange::Exchange(FrameLine& line, ClientSettings settings)
       owed_(drive::OwedAnswers::Names::drive, settle_of(settings_)),
       echo_(settings_.rules.echo == EchoMode::off  ? Echo::none
             : settings_.rules.echo == EchoMode::on ? Echo::heard
-                                                   : Echo::unknown)
+                                                   : Echo::unknown),
+      notes_(settings_.rules.frames, drive::LineProtocol::modbus_rtu, characters(1, settings_))
 {
     settings_.baud = std::max<std::uint32_t>(settings_.baud, 1);
 }
 
-std::chrono::nanoseconds ModbusClient::Exchange::duration_of(std::size_t characters) const
+std::chrono::nanoseconds ModbusClient::Exchange::duration_of(std::size_t count) const
 {
-    return std::chrono::nanoseconds{static_cast<std::int64_t>(characters) * settings_.bits_of_a_character *
-                                    std::nano::den / settings_.baud};
+    return characters(count, settings_);
 }
 
 /// 3.5 characters, beyond 19200 bit/s a fixed time (MODBUS over Serial Line V1.02, 2.5.1.1); and what the
@@ -98,10 +130,12 @@ ModbusClient::Exchange::End ModbusClient::Exchange::ask(std::uint8_t unit, Bytes
         trouble_ = "an answer to an earlier request of this form is still owed";
         return End::not_asked;
     }
+    const Instant begun = line_.now();
     if (!line_.send(unit, request)) {
         trouble_ = "the line does not accept the request";
         return End::silence;
     }
+    notes_.sent(unit, framed(unit, request), begun);
     const Instant sent_at = line_.now() + duration_of(request.size() + kFrame); // send() need not wait
     owed_.asked(question, sent_at);
     echo_due_ = echo_ != Echo::none;
@@ -121,10 +155,8 @@ bool ModbusClient::Exchange::fall_silent()
                 heard_at_ = line_.now();
                 judge({}, line_.frame());
                 break;
-            case FrameLine::Heard::broken:
-                heard_at_ = line_.now();
-                owed_.damaged(unit_);
-                break;
+            case FrameLine::Heard::broken: broken(); break;
+            case FrameLine::Heard::rest: note(drive::Judgement::no_frame); break;
             case FrameLine::Heard::silence:
             case FrameLine::Heard::gone: owed_.settle(line_.now()); return true;
         }
@@ -144,18 +176,33 @@ ModbusClient::Exchange::End ModbusClient::Exchange::wait(Bytes request, Instant 
                 trouble_.clear();
                 return End::answer;
             case FrameLine::Heard::broken:
-                heard_at_ = line_.now();
-                owed_.damaged(unit_);
+                broken();
                 trouble_ = "an answer with a wrong check sum or parity, or one that broke off";
                 // Noise before the echo or the echo itself: the drive may have heard better. The next copy is
                 // taken for the echo; it cannot be proven to be the answer.
                 if (echo_due_) break;
                 return End::damaged;
-            case FrameLine::Heard::silence: return End::silence;
+            case FrameLine::Heard::rest: note(drive::Judgement::no_frame); break;
+            case FrameLine::Heard::silence: notes_.no_answer(line_.now()); return End::silence;
             case FrameLine::Heard::gone: trouble_ = "the port has gone"; return End::silence;
         }
     }
+    notes_.no_answer(line_.now());
     return End::silence;
+}
+
+void ModbusClient::Exchange::note(drive::Judgement judgement)
+{
+    const FrameLine::Piece piece = line_.piece();
+    notes_.came(piece.octets, piece.read_at);
+    notes_.judge(judgement);
+}
+
+void ModbusClient::Exchange::broken()
+{
+    heard_at_ = line_.now();
+    owed_.damaged(unit_);
+    note(line_.piece().flaw);
 }
 
 /// The first copy of a request is its echo, a second one the answer (function 6, 8).
@@ -169,6 +216,7 @@ bool ModbusClient::Exchange::take_echo(Bytes request, Bytes frame)
     }
     if (!is_copy || !echo_due_) return false;
     echo_due_ = false;
+    note(drive::Judgement::echo);
     return true;
 }
 
@@ -193,13 +241,14 @@ bool ModbusClient::Exchange::take_frame(Bytes request)
 /// Of a frame that has the form of an answer to `request` the rest has to fit, too.
 Verdict ModbusClient::Exchange::judge(Bytes request, Bytes frame)
 {
-    if (frame.size() < 2) return Verdict::foreign;
+    if (frame.size() < 2) return Verdict::foreign; // no line gives one
     const Bytes pdu = frame.subspan(1);
     const Form form = form_of_answer(frame[0], pdu);
     const bool gateway = (pdu[0] & kIsException) != 0 && pdu.size() == 2 && is_of_gateway(pdu[1]);
     const bool has_form = !request.empty() && frame[0] == unit_ && form == question_of(unit_, request).answer;
     const Verdict verdict =
         has_form && !answers(request, pdu) ? Verdict::foreign : owed_.heard(form, frame, line_.now());
+    note(judgement_of(verdict, pdu));
     if (verdict == Verdict::foreign) owed_.foreign(unit_);
     if (frame[0] == unit_ && !gateway && verdict != Verdict::foreign) heard_unit_ = true;
     return verdict;

@@ -47,13 +47,16 @@ private:
     bool take_frame(Bytes request);
     bool take_echo(Bytes request, Bytes frame);
     drive::OwedAnswers::Verdict judge(Bytes request, Bytes frame);
-    std::chrono::nanoseconds duration_of(std::size_t characters) const;
+    void note(drive::Judgement judgement);
+    void broken();
+    std::chrono::nanoseconds duration_of(std::size_t count) const;
     std::chrono::nanoseconds pause() const;
 
     FrameLine& line_;
     ClientSettings settings_;
     drive::OwedAnswers owed_;
     Echo echo_;
+    drive::FrameNotes notes_;
     bool echo_due_ = false; ///< of the request under way
     std::uint8_t unit_ = 0; ///< asked last
     bool heard_unit_ = false;

@@ -50,32 +50,52 @@ bool FrameReceiver::has_length() const
     }
 }
 
+/// Gives what was fed as a piece.
+FrameReceiver::Found FrameReceiver::found(Found what)
+{
+    piece_.swap(octets_);
+    octets_.clear();
+    return what;
+}
+
+FrameReceiver::Found FrameReceiver::broken(drive::Judgement flaw)
+{
+    flaw_ = flaw;
+    return found(Found::broken);
+}
+
 FrameReceiver::Found FrameReceiver::feed(std::uint8_t octet)
 {
-    if (skips_) return Found::nothing;
+    if (skips_) {
+        if (rest_.size() < kLongestFrame) rest_.push_back(octet);
+        return Found::nothing;
+    }
     octets_.push_back(octet);
     if (has_length() && crc16(octets_) == 0) { // over a frame with its check sum
         frame_.assign(octets_.begin(), octets_.end() - 2);
-        octets_.clear();
-        return Found::frame;
+        return found(Found::frame);
     }
-    return octets_.size() < kLongestFrame ? Found::nothing : fault();
+    if (octets_.size() < kLongestFrame) return Found::nothing;
+    skips_ = true;
+    return broken(drive::Judgement::no_frame);
 }
 
 FrameReceiver::Found FrameReceiver::fault()
 {
-    if (skips_) return Found::nothing;
+    if (skips_) return feed(0);
     skips_ = true;
-    octets_.clear();
-    return Found::broken;
+    octets_.push_back(0);
+    return broken(drive::Judgement::bad_character);
 }
 
 FrameReceiver::Found FrameReceiver::silence()
 {
-    const bool broke_off = !octets_.empty();
     skips_ = false;
-    octets_.clear();
-    return broke_off ? Found::broken : Found::nothing;
+    if (!octets_.empty())
+        return broken(has_length() ? drive::Judgement::bad_checksum : drive::Judgement::truncated);
+    if (rest_.empty()) return Found::nothing;
+    octets_.swap(rest_);
+    return found(Found::rest);
 }
 
 } // namespace dpslave::modbus

@@ -123,7 +123,9 @@ FrameLine::Heard RtuLine::receive(Instant until)
         if (fetch(end)) continue;
         if (!port_.is_open()) return Heard::gone;
         if (!in_frame) return Heard::silence;
-        if (receiver_.silence() == FrameReceiver::Found::broken) return Heard::broken;
+        const FrameReceiver::Found found = receiver_.silence();
+        if (found == FrameReceiver::Found::broken) return Heard::broken;
+        if (found == FrameReceiver::Found::rest) return Heard::rest;
     }
 }
 
@@ -154,6 +156,7 @@ bool RtuLine::fetch(Instant until)
         lose();
         return false;
     }
+    read_at_ = now();
     heard_ = chunk->octets;
     bad_behind_ = chunk->bad_character;
     return !heard_.empty() || bad_behind_ || now() < until;

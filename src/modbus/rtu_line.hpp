@@ -32,6 +32,10 @@ public:
     bool send(std::uint8_t unit, Bytes pdu) override;
     Heard receive(Instant until) override;
     Bytes frame() const override { return receiver_.frame(); }
+    Piece piece() const override
+    {
+        return {.octets = receiver_.piece(), .flaw = receiver_.flaw(), .read_at = read_at_};
+    }
     Instant now() const override;
 
     bool is_open() const { return port_.is_open(); }
@@ -67,6 +71,7 @@ private:
     std::chrono::nanoseconds hold_back_{};
     Bytes heard_;             ///< read and not yet put together
     bool bad_behind_ = false; ///< right behind it a bad character
+    Instant read_at_{};
 };
 
 } // namespace dpslave::modbus

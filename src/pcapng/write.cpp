@@ -99,7 +99,9 @@ Octets section(std::string_view program, std::string_view comment)
     return block.finish();
 }
 
-Octets description(const Interface& interface)
+} // namespace
+
+Octets block(const Interface& interface)
 {
     Builder block{kInterfaceBlock};
     block.put16(interface.link_type);
@@ -112,15 +114,13 @@ Octets description(const Interface& interface)
     return block.finish();
 }
 
-} // namespace
-
 Octets file_header(std::string_view program, std::string_view comment,
                    const std::vector<Interface>& interfaces)
 {
     Octets file = section(program, comment);
     for (const Interface& interface : interfaces) {
-        const Octets block = description(interface);
-        file.insert(file.end(), block.begin(), block.end());
+        const Octets one = block(interface);
+        file.insert(file.end(), one.begin(), one.end());
     }
     return file;
 }

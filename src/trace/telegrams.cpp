@@ -43,6 +43,9 @@ void Telegrams::add(const Record& record)
             break;
         }
         case Kind::rate: done_.push_back(simple(Entry::What::rate, record.head.at)); break;
+        case Kind::asked:
+        case Kind::answered:
+        case Kind::no_answer: break; // of a drive line: they are no telegrams
     }
 }
 

@@ -108,10 +108,11 @@ std::vector<std::string> daemon_command(const Options& options, const Pty& bus, 
 {
     const std::filesystem::path file = options.folder / "dpslaved.toml";
     std::ofstream out{file};
-    out << fmt::format("[bus]\nport = \"{}\"\nbaud = 1500000\ndirection = \"none\"\nmax_tsdr = 1023\n"
-                       "[control]\nsocket = \"{}\"\noperator_group = \"root\"\n"
-                       "[trace]\nbus_kib = 0\nsamples_kib = 0\n", // their memory is what the operator chose
-                       bus.name, (options.folder / "socket").string());
+    out << fmt::format(
+        "[bus]\nport = \"{}\"\nbaud = 1500000\ndirection = \"none\"\nmax_tsdr = 1023\n"
+        "[control]\nsocket = \"{}\"\noperator_group = \"root\"\n"
+        "[trace]\nbus_kib = 0\nsamples_kib = 0\ndrive_kib = 0\n", // their memory is what the operator chose
+        bus.name, (options.folder / "socket").string());
     for (std::size_t i = 0; i < lines.size(); ++i)
         out << fmt::format("[[line]]\nname = \"{0}\"\nport = \"{1}\"\nprotocol = \"ei-ascii\"\nbaud = 19200\n"
                            "[[station]]\nname = \"s{0}\"\naddress = {2}\nprofile = \"590\"\nline = \"{0}\"\n"

@@ -96,14 +96,58 @@ TEST(Wireshark, CallsEachTelegramOfACaptureAsDpctlTraceDoesAndFindsNoneMalformed
         ASSERT_EQ(gateway.dpctl({"trace", "--write", capture, "--linktype", link_type}).status, 0);
 
         expect_services(tshark(gateway, capture,
-                               {"-T", "fields", "-E", "separator=/t", "-e", "profibus.service", "-e",
-                                "_ws.expert.message"}),
+                               {"-Y", "frame.interface_name == \"bus\"", "-T", "fields", "-E", "separator=/t",
+                                "-e", "profibus.service", "-e", "_ws.expert.message"}),
                         services);
         const Outcome whole = tshark(gateway, capture, {"-V"});
         EXPECT_NE(whole.out.find("PROFIBUS DP, Data_Exchange"), std::string::npos) << link_type;
         for (const char* word : {"Malformed", "Lua Error", "WTAP_ENCAP", "User encapsulation"})
             EXPECT_EQ(whole.out.find(word), std::string::npos) << link_type << ": " << word;
     }
+}
+
+/// Questions and answers of a drive line, and whether each is marked as sent, as dpctl and as tshark show
+/// them.
+void expect_frames(const Gateway& gateway, const std::string& field, const Arguments& words)
+{
+    const std::string capture = gateway.folder("drive.pcapng").string();
+    ASSERT_EQ(gateway.dpctl({"trace", "--drive", "p3", "--write", capture}).status, 0);
+    const Outcome shown = tshark(gateway, capture,
+                                 {"-T", "fields", "-E", "separator=/t", "-e", "frame.interface_name", "-e",
+                                  "frame.packet_flags_direction", "-e", field, "-e", "frame.comment"});
+    ASSERT_EQ(shown.status, 0) << shown.err;
+    EXPECT_NE(shown.out.find("drive p3\t"), std::string::npos) << shown.out;
+    for (const std::string& word : words)
+        EXPECT_NE(shown.out.find(word), std::string::npos) << word << " in\n" << shown.out;
+    const Outcome whole = tshark(gateway, capture, {"-V"});
+    for (const char* word : {"Malformed", "Lua Error", "User encapsulation"})
+        EXPECT_EQ(whole.out.find(word), std::string::npos) << word;
+}
+
+TEST(Wireshark, CallsTheFramesOfAnEiAsciiLineAsTheyAreWithTheirJudgement)
+{
+    if (!std::filesystem::exists(kTshark)) GTEST_SKIP() << "there is no tshark: apt-get install tshark";
+    Gateway gateway{{.units = {"00", "01"}, .present = {"00"}}};
+    Master master{gateway, {"--tags", "55,56w"}};
+    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(eventually([&] {
+        return gateway.dpctl({"trace", "--drive", "p3", "--bad"}).out.find("no answer") != std::string::npos;
+    }));
+
+    expect_frames(
+        gateway, "eiascii.service",
+        {"\t0x00000002\tread II at 00\t\n", "\t0x00000001\tvalue II = ", "\ttaken\n", "01: no answer"});
+}
+
+TEST(Wireshark, HandsTheFramesOfAModbusLineToItsOwnDissector)
+{
+    if (!std::filesystem::exists(kTshark)) GTEST_SKIP() << "there is no tshark: apt-get install tshark";
+    Gateway gateway{
+        {.profile = "2408f", .units = {"1"}, .protocol = "modbus-rtu", .keys = "ident = 0x0A0B\n"}};
+    Master master{gateway, {"--family", "controller", "--ident", "0x0A0B", "--tags", "1"}};
+    ASSERT_TRUE(master.does("start 30s"));
+
+    expect_frames(gateway, "modbus.func_code", {"\t0x00000002\t3\t\n", "\t0x00000001\t3\ttaken\n"});
 }
 
 } // namespace

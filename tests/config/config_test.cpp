@@ -44,6 +44,7 @@ TEST_F(ConfigFile, with_the_required_keys_only_has_the_defaults_of_the_sample)
     EXPECT_TRUE(config.realtime.lock_memory);
     EXPECT_EQ(config.trace.bus_kib, 4096U);
     EXPECT_EQ(config.trace.samples_kib, 256U);
+    EXPECT_EQ(config.trace.drive_kib, 128U);
     EXPECT_EQ(config.sysfs, "/sys");
     EXPECT_EQ(config.control.socket, "/run/dpslaved/control.sock");
     EXPECT_EQ(config.control.operator_group, "dpslaved");
@@ -348,21 +349,22 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     machine, BadConfigFile,
-    testing::Values(BadChange{"[control]", "[realtime]\npriority = 100\n[control]", "7:12: ", "from 0 to 99"},
-                    BadChange{"[control]", "[realtime]\ncpu = -2\n[control]", "7:7: ", "from -1 to 1023"},
-                    BadChange{"[control]", "[realtime]\nlock_memory = 1\n[control]",
-                              "7:15: ", "true or false"},
-                    BadChange{"[control]", "[realtime]\nprio = 1\n[control]",
-                              "7:1: ", "unknown key 'prio' in [realtime]"},
-                    BadChange{"[control]", "[trace]\nbus_kib = -1\n[control]", "7:11: ", "from 0 to 1048576"},
-                    BadChange{"[control]", "[leds]\nsysfs = \"\"\n[control]", "7:9: ", "is empty"},
-                    BadChange{"[control]", "[contorl]\na = 1\n[control]", "6:2: ", "did you mean 'control'?"},
-                    BadChange{"[control]",
-                              "[control]\nsocket = \"/tmp/"
-                              "012345678901234567890123456789012345678901234567890123456789012345678901234567"
-                              "8901234567890123456789"
-                              "012345\"",
-                              "7:10: ", "longer than the 107 octets"}));
+    testing::Values(
+        BadChange{"[control]", "[realtime]\npriority = 100\n[control]", "7:12: ", "from 0 to 99"},
+        BadChange{"[control]", "[realtime]\ncpu = -2\n[control]", "7:7: ", "from -1 to 1023"},
+        BadChange{"[control]", "[realtime]\nlock_memory = 1\n[control]", "7:15: ", "true or false"},
+        BadChange{"[control]", "[realtime]\nprio = 1\n[control]",
+                  "7:1: ", "unknown key 'prio' in [realtime]"},
+        BadChange{"[control]", "[trace]\nbus_kib = -1\n[control]", "7:11: ", "from 0 to 1048576"},
+        BadChange{"[control]", "[trace]\ndrive_kib = 1048577\n[control]", "7:13: ", "from 0 to 1048576"},
+        BadChange{"[control]", "[leds]\nsysfs = \"\"\n[control]", "7:9: ", "is empty"},
+        BadChange{"[control]", "[contorl]\na = 1\n[control]", "6:2: ", "did you mean 'control'?"},
+        BadChange{"[control]",
+                  "[control]\nsocket = \"/tmp/"
+                  "012345678901234567890123456789012345678901234567890123456789012345678901234567"
+                  "8901234567890123456789"
+                  "012345\"",
+                  "7:10: ", "longer than the 107 octets"}));
 
 INSTANTIATE_TEST_SUITE_P(samples, BadConfigFile,
                          testing::Values(BadChange{"[control]", "[trace]\nsamples_kib = 4097\n[control]",

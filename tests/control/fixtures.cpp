@@ -134,7 +134,7 @@ std::map<std::string, json> all()
         // Set_Prm of master 2 to station 5, its SC, a telegram with a wrong FCS, and a reply that was late.
         {"Trace",
          json::parse(
-             R"({"lost":3,"caught_up":true,"hold_back_ns":0,"now_ns":2000000000,"unix_ns":1700000002000000000,
+             R"({"line":null,"lost":3,"caught_up":true,"hold_back_ns":0,"now_ns":2000000000,"unix_ns":1700000002000000000,
             "records":"EgAAAAQAAAAAAAAAAAAAAADKmjsAAAAAAAAAAAAAAABoDAxohYJtPT6AAAALBTMAshYBAAIABAAAAAEAAAAAAAAAKGScOwAAAACgUJw7AAAAAOUGAAAABAAAAAIAAAAAAAAAAPfLPAAAAAAAAAAAAAAAABAFAklRFgAAAwEEBQAAAwAAAAAAAACAjWQ9AAAAAAAAAAAAAAAA"})")},
         {"ListIncidents",
          json::parse(

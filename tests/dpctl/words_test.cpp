@@ -84,6 +84,8 @@ INSTANTIATE_TEST_SUITE_P(
         Explained{"NoSuchStation", "org.dpslaved.Control.NoSuchStation",
                   R"({"station":"x","known":["unwinder","rewinder"]})",
                   "there is no station 'x'; there are: unwinder, rewinder"},
+        Explained{"NoSuchLine", "org.dpslaved.Control.NoSuchLine", R"({"line":"x","known":["p3","p4"]})",
+                  "there is no drive line 'x'; there are: p3, p4"},
         Explained{"StationRequired", "org.dpslaved.Control.StationRequired",
                   R"({"known":["unwinder","rewinder"]})",
                   "there are several stations, name one: unwinder, rewinder"},

@@ -55,7 +55,7 @@ constexpr std::array kDescribed{
     Described{"SetTec", "station?s parameter!s value!s yes?b", true},
     Described{"SetLogLevel", "level!s seconds?i", true},
     Described{"Reload", "dry_run?b", true},
-    Described{"Trace", "from?s", true},
+    Described{"Trace", "from?s line?s all?b", true},
     Described{"GetSamples", "station?s tag!i seconds?i after?i", false},
     Described{"ListIncidents", "", true},
     Described{"GetIncident", "number!i offset?i", true},

@@ -67,7 +67,8 @@ TEST_F(ModbusFrameReceiver, GivesNoFrameWithAParityFaultInIt)
     EXPECT_THAT(hears({good.begin() + 3, good.end()}), ElementsAre());
     EXPECT_THAT(hears(good), ElementsAre()) << "nothing counts until the line was silent";
 
-    EXPECT_EQ(receiver.silence(), Found::nothing) << "it was reported already";
+    EXPECT_EQ(receiver.silence(), Found::rest) << "it was reported as broken already";
+    EXPECT_EQ(receiver.piece().size(), 2 * good.size() - 3) << "all that was skipped";
     EXPECT_THAT(hears(good), ElementsAre(Found::frame));
 }
 

@@ -34,8 +34,8 @@ SCOPE = {
     "src/dp/state_table.hpp": DP, "src/dp/state_machine.cpp": DP, "src/dp/slave.cpp": DP, "src/dp/set_prm.cpp": DP,
     "src/dp/chk_cfg.cpp": DP, "src/dp/global_control.hpp": DP, "src/dp/process_data.cpp": DP, "src/dp/demand_data.cpp": DP,
     "src/dp/slave_diag.cpp": DP,
-    "src/drive/owed_answers.cpp": DRIVE + ["test_modbus"], "src/drive/ei_exchange.cpp": DRIVE, "src/drive/ei_ascii.cpp": DRIVE,
-    "src/drive/ei_forms.cpp": DRIVE, "src/drive/parameter.hpp": DRIVE, "src/drive/parameter.cpp": DRIVE,
+    "src/drive/owed_answers.cpp": DRIVE + ["test_modbus"], "src/drive/ei/ei_exchange.cpp": DRIVE, "src/drive/ei/ei_ascii.cpp": DRIVE,
+    "src/drive/ei/ei_forms.cpp": DRIVE, "src/drive/parameter.hpp": DRIVE, "src/drive/parameter.cpp": DRIVE,
     "src/modbus/exchange.cpp": MODBUS, "src/modbus/frame_receiver.cpp": MODBUS, "src/modbus/pdu.cpp": MODBUS,
 }
 PROGRAMS = ["test_fdl", "test_dp", "test_model", "test_drive", "test_drive_line", "test_modbus"]

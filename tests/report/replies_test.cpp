@@ -110,9 +110,9 @@ TEST(Replies, HaveAStructForEachErrorThatHasParameters)
     ASSERT_EQ(errors.erase("OnlyListens"), 1U);
     ASSERT_EQ(errors.erase("SamplesOff"), 1U);
 
-    EXPECT_EQ((described<NoSuchStation, StationRequired, NotPermitted, DriveRefused, BadValue, NoTecOption,
-                         BadTecValue, BadLogLevel, LineInUse, WouldSilence, IncidentsOff, NoSuchIncident,
-                         IncidentUnreadable>()),
+    EXPECT_EQ((described<NoSuchStation, NoSuchLine, StationRequired, NotPermitted, DriveRefused, BadValue,
+                         NoTecOption, BadTecValue, BadLogLevel, LineInUse, WouldSilence, IncidentsOff,
+                         NoSuchIncident, IncidentUnreadable>()),
               errors);
 }
 

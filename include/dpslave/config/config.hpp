@@ -57,6 +57,7 @@ struct TraceConfig {
     std::uint32_t bus_kib = 4096;
     std::uint32_t samples_kib = 256; ///< of each drive line
     bool incidents = true;           ///< what surrounds an incident is written to the state folder
+    std::uint32_t drive_kib = 128;   ///< of each drive line
     friend bool operator==(const TraceConfig&, const TraceConfig&) = default;
 };
 

@@ -2,6 +2,8 @@
 /// Settings of a drive line, for both protocols: how answers are assigned to requests.
 #pragma once
 
+#include "dpslave/drive/line_frames.hpp"
+
 #include <chrono>
 #include <cstdint>
 
@@ -22,6 +24,7 @@ struct LineRules {
     /// for as long.
     std::chrono::nanoseconds hold_back{0};
     EchoMode echo = EchoMode::off;
+    FrameListener* frames = nullptr; ///< is told each frame; outlives the client
 };
 
 } // namespace dpslave::drive

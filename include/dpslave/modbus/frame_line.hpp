@@ -5,6 +5,7 @@
 
 #include "dpslave/base/bytes.hpp"
 #include "dpslave/base/units.hpp"
+#include "dpslave/drive/line_frames.hpp"
 
 #include <cstdint>
 
@@ -16,6 +17,7 @@ public:
         frame,   ///< with a right check sum and without a parity fault: frame()
         silence, ///< until the time was over
         broken,  ///< octets that are no frame
+        rest,    ///< what came behind something broken, until the line was silent: it has no meaning
         gone,    ///< the port has vanished, or is not there yet
     };
 
@@ -28,6 +30,18 @@ public:
 
     /// The last frame of receive(): unit first, without check sum. Valid until the next call.
     virtual Bytes frame() const = 0;
+
+    /// What the last receive() gave a frame, something broken or a rest for, as it was on the wire.
+    struct Piece {
+        Bytes octets;            ///< with check sum, valid until the next call; a bad character is 00
+        drive::Judgement flaw{}; ///< of something broken
+        Instant read_at{};       ///< when the last of them was read
+    };
+    /// By default of a line that has no more to show than its frames.
+    virtual Piece piece() const
+    {
+        return {.octets = frame(), .flaw = drive::Judgement::no_frame, .read_at = now()};
+    }
 
     /// The monotonic clock that receive() waits by.
     virtual Instant now() const = 0;

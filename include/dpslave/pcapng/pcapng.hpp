@@ -18,6 +18,8 @@ namespace dpslave::pcapng {
 /// What a packet is. Source: tcpdump.org, list of link-layer header types.
 enum class LinkType : std::uint16_t {
     user0 = 147,       ///< telegrams for programs that do not know 257
+    user1 = 148,       ///< what is on a drive line with EI-ASCII
+    user2 = 149,       ///< what is on a drive line with Modbus RTU
     profibus_dl = 257, ///< a telegram from start delimiter to end delimiter; or what was heard in its place
 };
 
@@ -54,6 +56,8 @@ using Octets = std::vector<std::uint8_t>;
 /// The beginning of a file: section header, then one block for each interface.
 Octets file_header(std::string_view program, std::string_view comment,
                    const std::vector<Interface>& interfaces);
+/// One more interface; before its first packet.
+Octets block(const Interface& interface);
 Octets block(const Packet& packet);
 Octets block(const Statistics& statistics);
 

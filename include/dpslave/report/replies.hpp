@@ -90,10 +90,11 @@ struct SetLogLevelReply {
 };
 struct TraceReply {
     std::string records{};
+    std::optional<std::string> line{};
     std::int64_t lost = 0;
     bool caught_up = false;
     std::int64_t hold_back_ns = 0, now_ns = 0, unix_ns = 0;
-    DPSLAVE_FIELDS(records, lost, caught_up, hold_back_ns, now_ns, unix_ns)
+    DPSLAVE_FIELDS(records, line, lost, caught_up, hold_back_ns, now_ns, unix_ns)
 };
 struct ListIncidentsReply {
     std::string folder{};
@@ -164,6 +165,11 @@ struct NoSuchStation {
     std::string station{};
     std::vector<std::string> known{};
     DPSLAVE_FIELDS(station, known)
+};
+struct NoSuchLine {
+    std::string line{};
+    std::vector<std::string> known{};
+    DPSLAVE_FIELDS(line, known)
 };
 struct StationRequired {
     std::vector<std::string> known{};

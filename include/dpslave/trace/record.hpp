@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// One entry of the recorder: what the bus thread heard, sent or decided, with its time. It records octets as
-/// it read them; telegrams are made of them later (trace/telegrams.hpp), off that thread.
-/// docs/internals/trace.md has the format.
+/// One entry of the recorder: what a thread heard, sent or decided, with its time. The bus thread records
+/// octets as it read them; telegrams are made of them later (trace/telegrams.hpp), off that thread. A drive
+/// thread records frames with their judgement. docs/internals/trace.md has the format.
 #pragma once
 
 #include "dpslave/base/bytes.hpp"
@@ -17,18 +17,21 @@ enum class Kind : std::uint8_t {
     sent,          ///< a reply of ours, as it was handed to the port
     unanswered,    ///< a request to one of our addresses that gets no reply; detail: fdl::Unanswered::Why
     rate,          ///< the bus goes on at another rate; no octets
+    asked,         ///< a question to a drive, as it was handed to the port
+    answered,      ///< octets of a drive line that were judged together; detail: drive::Judgement
+    no_answer,     ///< the wait for the answer of a drive is over; no octets
 };
-inline constexpr std::uint8_t kKinds = 5;
+inline constexpr std::uint8_t kKinds = 8;
 
 /// A record without its octets.
 struct Head {
     Kind kind = Kind::heard;
     std::uint8_t detail = 0;
-    std::uint8_t rate = 0;     ///< of the bus: index into kBauds
+    std::uint8_t rate = 0;     ///< of the bus: index into kBauds; of a drive line: drive::LineProtocol
     bool more_follows = false; ///< of `heard`: the next record belongs to the same read
-    std::uint8_t address = 0;  ///< of `unanswered`: who was asked
+    std::uint8_t address = 0;  ///< of `unanswered` and of a drive line: who was asked
     Instant at{};              ///< when the read or the write had ended, or the decision was made
-    Instant begun{};           ///< of `sent`: before the write
+    Instant begun{};           ///< of `sent`: before the write; of a drive line: as drive::LineFrame
 };
 
 struct Record {

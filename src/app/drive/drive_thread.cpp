@@ -58,7 +58,7 @@ DriveThread::DriveThread(config::LineConfig line, std::unique_ptr<LineBackend> b
                          const std::vector<DriveUnit>& units, LineLink& link)
     : line_(std::move(line)),
       link_(link),
-      port_(std::move(backend), link.port_open),
+      port_(std::move(backend), link.port_open, *link.trace),
       units_(units.begin(), units.end()),
       poller_(poller_settings(units, line_), LineBackend::block_rule(line_)),
       troubles_(log_, link.troubles),

@@ -16,7 +16,7 @@ modbus::RtuSettings rtu_settings(const config::LineConfig& line)
     settings.parity = line.format.parity;
     settings.stop_bits = line.format.stop_bits;
     settings.timeout = line.timeout;
-    settings.rules = {.settle = line.settle, .hold_back = {}, .echo = line.echo};
+    settings.rules = {.settle = line.settle, .hold_back = {}, .echo = line.echo, .frames = nullptr};
     return settings;
 }
 
@@ -30,12 +30,14 @@ drive::BlockRule LineBackend::block_rule(const config::LineConfig& line)
                                                : drive::BlockRule{};
 }
 
-Result<std::unique_ptr<LineBackend>, std::string> LineBackend::open(const config::LineConfig& line,
-                                                                    std::atomic<bool>& is_open)
+Result<std::unique_ptr<LineBackend>, std::string>
+LineBackend::open(const config::LineConfig& line, std::atomic<bool>& is_open, drive::FrameListener& frames)
 {
     auto made = std::make_unique<LineBackend>();
     if (line.protocol == config::kModbusRtu) {
-        auto opened = modbus::ModbusRtu::open(rtu_settings(line), is_open);
+        modbus::RtuSettings settings = rtu_settings(line);
+        settings.rules.frames = &frames;
+        auto opened = modbus::ModbusRtu::open(settings, is_open);
         if (!opened) return Failure{opened.error()};
         made->modbus_ = opened->get();
         made->backend_ = std::move(*opened);
@@ -50,7 +52,7 @@ Result<std::unique_ptr<LineBackend>, std::string> LineBackend::open(const config
     auto port = io::Port::open(line.port, settings);
     if (!port) return Failure{port.error()};
     const drive::LineRules rules{
-        .settle = line.settle, .hold_back = port->tty().hold_back(), .echo = line.echo};
+        .settle = line.settle, .hold_back = port->tty().hold_back(), .echo = line.echo, .frames = &frames};
     made->tty_ = std::make_unique<TtyLine>(*std::move(port), is_open);
     auto client = std::make_unique<drive::EiAsciiClient>(
         *made->tty_, drive::EiTiming{.baud = line.baud, .timeout = line.timeout, .rules = rules},

@@ -20,9 +20,10 @@ namespace dpslave::app {
 class LineBackend {
 public:
     /// Opens the port. `is_open` says when it vanishes and returns in service, not that it was opened
-    /// now, which may be a trial; it outlives the back-end. The error is a sentence.
-    static Result<std::unique_ptr<LineBackend>, std::string> open(const config::LineConfig& line,
-                                                                  std::atomic<bool>& is_open);
+    /// now, which may be a trial; `frames` is told each frame. Both outlive the back-end. The error is a
+    /// sentence.
+    static Result<std::unique_ptr<LineBackend>, std::string>
+    open(const config::LineConfig& line, std::atomic<bool>& is_open, drive::FrameListener& frames);
 
     /// Of the back-end that this line has, or will have once its port can be opened.
     static drive::BlockRule block_rule(const config::LineConfig& line);

@@ -9,8 +9,9 @@
 
 namespace dpslave::app {
 
-LinePort::LinePort(std::unique_ptr<LineBackend> backend, std::atomic<bool>& is_open)
-    : backend_(std::move(backend)), is_open_(is_open)
+LinePort::LinePort(std::unique_ptr<LineBackend> backend, std::atomic<bool>& is_open,
+                   drive::FrameListener& frames)
+    : backend_(std::move(backend)), is_open_(is_open), frames_(frames)
 {
     is_open_.store(true, std::memory_order_relaxed);
     if (!backend_) awaited_until_ = io::monotonic_now() + kPatience;
@@ -27,7 +28,7 @@ bool LinePort::open(const config::LineConfig& line)
     if (backend_) return true;
     const Instant now = io::monotonic_now();
     if (now < next_open_) return false;
-    auto opened = LineBackend::open(line, is_open_);
+    auto opened = LineBackend::open(line, is_open_, frames_);
     if (!opened && is_awaited(now)) return false;
     next_open_ = now + kOpenAgainAfter;
     if (!opened) {

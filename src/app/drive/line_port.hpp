@@ -18,8 +18,8 @@ public:
     /// How long a port is waited for that another line still has: that one may leave its drives first.
     static constexpr std::chrono::seconds kPatience{3};
 
-    /// `backend`: as LineWork has it. `is_open` outlives the object.
-    LinePort(std::unique_ptr<LineBackend> backend, std::atomic<bool>& is_open);
+    /// `backend`: as LineWork has it. The others are of LineBackend::open() and outlive the object.
+    LinePort(std::unique_ptr<LineBackend> backend, std::atomic<bool>& is_open, drive::FrameListener& frames);
 
     /// The drives from now on.
     void set_units(std::vector<DriveUnit> units);
@@ -38,6 +38,7 @@ private:
 
     std::unique_ptr<LineBackend> backend_;
     std::atomic<bool>& is_open_;
+    drive::FrameListener& frames_;
     std::vector<DriveUnit> units_;
     Instant next_open_{};
     Instant awaited_until_{};

@@ -14,11 +14,11 @@ namespace {
 
 /// Each question has a back-end of its own, which is owed nothing, and an answer counts when it comes twice:
 /// what answers late could be taken for the answer of the next unit.
-bool answers_twice(const config::LineConfig& trial, drive::UnitAddress address)
+bool answers_twice(const config::LineConfig& trial, drive::UnitAddress address, drive::FrameListener& frames)
 {
     const auto answers_once = [&] {
         std::atomic<bool> is_open{false}; // a trial is no event of the port
-        const auto backend = LineBackend::open(trial, is_open);
+        const auto backend = LineBackend::open(trial, is_open, frames);
         return backend && (*backend)->backend().probe(address);
     };
     return answers_once() && answers_once();
@@ -50,7 +50,7 @@ ProbeReport run_probe(const ProbeOrder& order, const config::LineConfig& line, c
             if (is_ended()) break;
             if (is_of_another(address)) continue;
             link.probe_tried.store(++report.tried, std::memory_order_relaxed);
-            if (answers_twice(trial, address) && report.count < report.answers.size())
+            if (answers_twice(trial, address, *link.trace) && report.count < report.answers.size())
                 report.answers[report.count++] = {one.baud, one.format, address};
         }
         if (report.count != 0 || is_ended()) break; // what answers at one rate answers at no other

@@ -89,6 +89,7 @@ std::string trace_differences(const config::TraceConfig& a, const config::TraceC
     Differences keys;
     keys.look(a.bus_kib, b.bus_kib, "bus_kib");
     keys.look(a.samples_kib, b.samples_kib, "samples_kib");
+    keys.look(a.drive_kib, b.drive_kib, "drive_kib");
     return keys.names();
 }
 

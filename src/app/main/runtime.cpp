@@ -98,7 +98,8 @@ std::optional<std::string> Runtime::open(const config::Config& config)
     std::vector<std::unique_ptr<LineBackend>> backends;
     for (const config::LineConfig& line : config.lines) {
         lines_.push_back(std::make_shared<DriveLine>(line, config.trace));
-        auto backend = LineBackend::open(line, lines_.back()->link.port_open);
+        LineLink& link = lines_.back()->link;
+        auto backend = LineBackend::open(line, link.port_open, *link.trace);
         if (!backend) return not_opened(config, line, backend.error());
         backends.push_back(std::move(*backend));
     }
@@ -175,7 +176,8 @@ std::optional<std::string> Runtime::make_lines(const Plan& plan, Next& next) con
                                             : std::make_shared<DriveLine>(config, plan.config.trace));
         next.backends.emplace_back();
         if (!opens_for_a_trial(plan, i)) continue;
-        auto backend = LineBackend::open(config, next.lines[i]->link.port_open);
+        LineLink& link = next.lines[i]->link;
+        auto backend = LineBackend::open(config, link.port_open, *link.trace);
         if (!backend) return not_opened(plan.config, config, backend.error());
         next.backends[i] = std::move(*backend);
     }

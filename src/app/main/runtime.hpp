@@ -26,7 +26,8 @@ namespace dpslave::app {
 /// A drive line and its thread, which ends with it.
 struct DriveLine {
     DriveLine(config::LineConfig line, const config::TraceConfig& trace)
-        : config(std::move(line)), link(std::size_t{trace.samples_kib} * 1024)
+        : config(std::move(line)),
+          link(std::size_t{trace.drive_kib} * 1024, std::size_t{trace.samples_kib} * 1024)
     {}
     void request_stop();
 

@@ -1,20 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The method Trace: what is in the ring of the bus, then what comes into it. Main thread only.
+/// The method Trace: what is in the rings of the bus and of the drive lines, then what comes into them. Main
+/// thread only.
 #pragma once
 
 #include "app/links.hpp"
 #include "app/main/replies.hpp"
+#include "app/main/runtime.hpp"
 
 #include "dpslave/report/replies.hpp"
 
 #include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace dpslave::app {
 
 class Traces {
 public:
-    /// Both outlive this object.
-    Traces(const BusLink& bus, Replies& replies) : bus_(bus), replies_(replies) {}
+    /// All outlive this object.
+    Traces(const BusLink& bus, const Runtime& runtime, Replies& replies)
+        : bus_(bus), runtime_(runtime), replies_(replies)
+    {}
 
     control::Reply add(const control::Json& parameters, const control::Caller& caller);
     /// Sends what has been recorded. A caller that is slow gets no more until it has fetched what waits for
@@ -24,15 +32,25 @@ public:
     bool empty() const { return traces_.empty(); }
 
 private:
-    struct Trace {
+    using From = trace::Ring::Reader::From;
+    /// One ring that a caller reads.
+    struct Source {
         trace::Ring::Reader reader;
-        std::uint64_t lost = 0; ///< as told already
+        std::optional<std::string> line;        ///< none: the bus
+        std::shared_ptr<const LineTrace> keeps; ///< the ring of a line, which may be taken away meanwhile
+        std::uint64_t lost = 0;                 ///< as told already
+    };
+    struct Trace {
+        std::vector<Source> sources;
+        std::size_t at = 0; ///< whose turn it is
         bool told_caught_up = false;
     };
+    std::vector<Source> sources_of(const control::Json& parameters) const;
     /// The next part; `is_due` false: there is nothing to say.
     report::TraceReply part(Trace& trace, bool& is_due) const;
 
     const BusLink& bus_;
+    const Runtime& runtime_;
     Replies& replies_;
     std::map<std::uint64_t, Trace> traces_; ///< by the number of the stream
 };

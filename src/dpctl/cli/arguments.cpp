@@ -281,20 +281,24 @@ void trace_arguments(CLI::App& app, Options& options)
     auto* const list =
         app.add_flag("--incidents", options.incidents, "List what the daemon has kept of incidents")
             ->excludes(follow);
-    app.add_option("--incident", options.incident, "The telegrams around this incident")
-        ->type_name("NUMBER")
+    auto* const incident =
+        app.add_option("--incident", options.incident, "The telegrams around this incident");
+    incident->type_name("NUMBER")
         ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()).description(""))
         ->excludes(follow)
         ->excludes(list);
-    app.add_option("--station", options.station, "Only telegrams from or to this name or address")
-        ->type_name("STATION");
+    auto* const station =
+        app.add_option("--station", options.station, "Only telegrams from or to this name or address")
+            ->type_name("STATION");
     app.add_option("--service", options.service, "Only services whose name has this part, as in \"diag\"")
         ->type_name("NAME");
-    app.add_flag("--bad", options.bad, "Only what is no telegram, and requests without a reply");
-    app.add_option("--stop-on", options.stop_on,
-                   "End behind the first telegram for which this holds: bad, unanswered, service=NAME, "
-                   "station=STATION, from=ADDRESS, to=ADDRESS; several with commas")
-        ->type_name("CONDITION");
+    app.add_flag("--bad", options.bad,
+                 "Only what is no telegram or was not taken, and requests without a reply");
+    auto* const stop_on =
+        app.add_option("--stop-on", options.stop_on,
+                       "End behind the first telegram for which this holds: bad, unanswered, service=NAME, "
+                       "station=STATION, from=ADDRESS, to=ADDRESS; several with commas")
+            ->type_name("CONDITION");
     auto* const file =
         app.add_option("--write", options.file, "Write a capture (pcapng) in place of the text")
             ->type_name("FILE");
@@ -307,6 +311,14 @@ void trace_arguments(CLI::App& app, Options& options)
         app.add_flag("--decode", options.decode,
                      "Below each telegram what it says: parameters, tags by name, values, diagnosis")
             ->excludes(file);
+    app.add_option("--drive", options.drive,
+                   "The frames of this drive line in place of the bus, with the judgement of each answer")
+        ->type_name("LINE")
+        ->excludes(station)
+        ->excludes(list)
+        ->excludes(incident)
+        ->excludes(stop_on)
+        ->excludes(decode);
     app.add_option("--gsd", options.gsd_folder,
                    "Folder of GSD files: texts of the diagnosis of other devices")
         ->type_name("DIR")

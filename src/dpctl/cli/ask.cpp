@@ -39,7 +39,9 @@ int print_error(const control::ReplyMessage& error, const Options& options, Term
     if (shown.error == "org.dpslaved.Control.StationRequired" && !known.empty())
         terminal.err << "Add its name to the command, for example: "
                      << (options.station_is_option ? "--station " : "") << known[0] << '\n';
-    return error.error == "org.dpslaved.Control.NoSuchStation" ? kUsage : kNo;
+    const bool is_usage = error.error == "org.dpslaved.Control.NoSuchStation" ||
+                          error.error == "org.dpslaved.Control.NoSuchLine";
+    return is_usage ? kUsage : kNo;
 }
 
 int print_only_listens(const Options& options, Terminal& terminal)

@@ -66,6 +66,7 @@ constexpr std::array kCommands = std::to_array<Command>({
      "dpctl trace --follow --station 5       from now on, only from and to address 5\n"
      "dpctl trace --decode --service prm     what each Set_Prm says, octet by octet\n"
      "dpctl trace --follow --stop-on unanswered,to=5    until address 5 does not answer a request\n"
+     "dpctl trace --drive p3                 what the drives of line p3 were asked and answered\n"
      "dpctl trace --write bus.pcapng         into a capture for Wireshark\n"
      "dpctl trace --incidents                what went wrong, and what is kept of it\n"
      "dpctl trace --incident 7               the seconds before and after it",

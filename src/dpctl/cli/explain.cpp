@@ -46,6 +46,10 @@ std::string no_such_station(const report::NoSuchStation& p)
 {
     return fmt::format("there is no station '{}'; there are: {}", p.station, joined(p.known, ", "));
 }
+std::string no_such_line(const report::NoSuchLine& p)
+{
+    return fmt::format("there is no drive line '{}'; there are: {}", p.line, joined(p.known, ", "));
+}
 std::string station_required(const report::StationRequired& p)
 {
     return fmt::format("there are several stations, name one: {}", joined(p.known, ", "));
@@ -106,7 +110,9 @@ std::string read_only(const Json&)
 }
 std::string trace_off(const Json&)
 {
-    return "the daemon records nothing: set bus_kib in [trace] of its configuration, and restart it";
+    return "the daemon records nothing of it: set bus_kib, of a drive line drive_kib, in [trace] of its "
+           "configuration, "
+           "and restart it";
 }
 std::string samples_off(const Json&)
 {
@@ -153,6 +159,7 @@ struct Row {
 };
 constexpr std::array kSentences = std::to_array<Row>({
     {"org.dpslaved.Control.NoSuchStation", said<report::NoSuchStation, no_such_station>},
+    {"org.dpslaved.Control.NoSuchLine", said<report::NoSuchLine, no_such_line>},
     {"org.dpslaved.Control.StationRequired", said<report::StationRequired, station_required>},
     {"org.dpslaved.Control.OnlyListens", only_listens},
     {"org.dpslaved.Control.NotPermitted", said<report::NotPermitted, not_permitted>},

@@ -13,7 +13,6 @@
 namespace dpslave::dpctl {
 namespace {
 
-using profile::Sighting;
 using profile::Survey;
 
 std::vector<std::uint16_t> silent_tags(const Survey& seen)

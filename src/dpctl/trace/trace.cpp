@@ -67,6 +67,24 @@ public:
     /// The condition of --stop-on has held: nothing more is printed.
     bool has_stopped() const { return has_stopped_; }
 
+    /// The bus is among what is asked for.
+    void expect_bus()
+    {
+        if (file_ != nullptr) file_->add_bus();
+    }
+
+    void print(const LineEntry& entry, UnixOffset offset)
+    {
+        const std::string words = words_of(entry);
+        const auto before = std::exchange(before_, entry.last);
+        if (!passes(filter_, entry, words)) return;
+        if (file_ != nullptr) return file_->add(entry, offset);
+        if (json_)
+            terminal_.out << printable_json(json_of(entry, words, offset).dump()) << '\n';
+        else
+            terminal_.out << line_of(entry, words, offset, before) << '\n';
+    }
+
     /// `note`: where it is not an entry of the wire.
     void print(const trace::Entry& entry, UnixOffset offset, std::string_view note = {})
     {
@@ -110,6 +128,8 @@ public:
     {
         if (const auto address = layout_changed_by(entry)) changed_.set(*address);
     }
+    void print(const LineEntry& /*entry*/, UnixOffset /*offset*/) {}
+    void expect_bus() {}
     static bool has_stopped() { return false; }
     const std::bitset<128>& changed() const { return changed_; }
 
@@ -117,10 +137,32 @@ private:
     std::bitset<128> changed_;
 };
 
+/// What one reply brings of a drive line. False: its records cannot be read.
+template <class Taker>
+bool take_line(const report::TraceReply& reply, Taker& printer)
+{
+    const UnixOffset offset{reply.unix_ns - reply.now_ns};
+    const auto octets = from_base64(reply.records);
+    if (!octets) return false;
+    Bytes rest = *octets;
+    bool is_first = true;
+    while (const auto record = trace::take_record(rest)) {
+        const auto entry = line_entry_of(*record, *reply.line);
+        if (!entry) return false;
+        // The gap has the protocol of what comes behind it: its interface in a capture.
+        if (std::exchange(is_first, false) && reply.lost > 0)
+            printer.print(gap_before(*entry, static_cast<std::uint64_t>(reply.lost)), offset);
+        printer.print(*entry, offset);
+    }
+    return rest.empty();
+}
+
 /// What one reply brings. False: its records cannot be read.
 template <class Taker>
 bool take(const report::TraceReply& reply, trace::Telegrams& telegrams, Taker& printer)
 {
+    if (reply.line) return take_line(reply, printer);
+    printer.expect_bus();
     const UnixOffset offset{reply.unix_ns - reply.now_ns};
     const Instant now{std::chrono::nanoseconds{reply.now_ns}};
     const auto octets = from_base64(reply.records);
@@ -139,15 +181,26 @@ bool take(const report::TraceReply& reply, trace::Telegrams& telegrams, Taker& p
     return rest.empty();
 }
 
+/// A capture has the drive lines as well, unless it is of some telegrams only. The past of a line is read
+/// behind that of the bus, where --stop-on has ended it already.
+bool has_all(const Options& options)
+{
+    const bool is_of_some = !options.drive.empty() || !options.station.empty() || !options.service.empty();
+    return !options.file.empty() && !is_of_some && (options.follow || options.stop_on.empty());
+}
+
 /// Until all is printed, without an end with --follow. Gives the exit code.
 template <class Taker>
 int run(const Options& options, Taker& printer, std::int64_t& ended_at, Terminal& terminal)
 {
-    const Json from = options.follow ? Json{{"from", "newest"}} : Json::object();
+    Json wanted = Json::object();
+    if (options.follow) wanted["from"] = "newest";
+    if (!options.drive.empty()) wanted["line"] = options.drive;
+    if (has_all(options)) wanted["all"] = true;
     std::optional<trace::Telegrams> telegrams;
     bool is_read = true;
     const int code =
-        follow_replies(options, terminal, "Trace", from, [&](const control::ReplyMessage& reply) {
+        follow_replies(options, terminal, "Trace", wanted, [&](const control::ReplyMessage& reply) {
             const auto part = report::read<report::TraceReply>(reply.parameters);
             if (!telegrams) telegrams.emplace(std::chrono::nanoseconds{part.hold_back_ns});
             is_read = take(part, *telegrams, printer);
@@ -196,9 +249,10 @@ int do_trace(const Options& options, Terminal& terminal)
     if (!sources) return sources.error();
     std::optional<TraceFile> file;
     if (!options.file.empty()) {
-        auto made =
-            TraceFile::create(options.file, options.link_type == "user0" ? pcapng::LinkType::user0
-                                                                         : pcapng::LinkType::profibus_dl);
+        auto made = TraceFile::create(
+            options.file,
+            options.link_type == "user0" ? pcapng::LinkType::user0 : pcapng::LinkType::profibus_dl,
+            options.follow ? TraceFile::Order::as_they_come : TraceFile::Order::by_time);
         if (!made) {
             terminal.err << "dpctl: " << made.error() << '\n';
             return kNo;
@@ -210,6 +264,7 @@ int do_trace(const Options& options, Terminal& terminal)
                     file ? &*file : nullptr, options,          terminal};
     std::int64_t ended_at = 0;
     const auto print = [&](const trace::Entry& entry, UnixOffset offset, std::string_view note) {
+        printer.expect_bus();
         if (!printer.has_stopped()) printer.print(entry, offset, note);
     };
     int code = options.incident != 0 ? print_incident(options, terminal, print, ended_at)

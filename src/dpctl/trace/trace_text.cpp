@@ -16,19 +16,6 @@ namespace {
 using trace::Entry;
 using What = Entry::What;
 
-std::int64_t unix_ns(Instant at, UnixOffset offset)
-{
-    return (at.time_since_epoch() + offset).count();
-}
-
-/// Local time of day to the microsecond.
-std::string time_of(Instant at, UnixOffset offset)
-{
-    using Clock = std::chrono::system_clock;
-    return time_of_day(
-        Clock::time_point{std::chrono::duration_cast<Clock::duration>(at.time_since_epoch() + offset)}, 6);
-}
-
 std::string address_text(std::optional<std::uint8_t> address)
 {
     return address ? std::to_string(*address) : std::string{"-"};
@@ -81,6 +68,20 @@ std::optional<fdl::Telegram> telegram_of(const Entry& entry)
     return telegram ? std::optional{*telegram} : std::nullopt;
 }
 
+std::int64_t unix_ns(Instant at, UnixOffset offset)
+{
+    return (at.time_since_epoch() + offset).count();
+}
+
+std::string time_columns(Instant first, UnixOffset offset, std::optional<Instant> before)
+{
+    using Clock = std::chrono::system_clock;
+    const Clock::time_point at{
+        std::chrono::duration_cast<Clock::duration>(first.time_since_epoch() + offset)};
+    const double since = before ? std::chrono::duration<double>(std::max(first - *before, {})).count() : 0.0;
+    return fmt::format("{} {:>+10.6f}", time_of_day(at, 6), since);
+}
+
 TraceWords words_of(const Entry& entry)
 {
     switch (entry.what) {
@@ -113,9 +114,7 @@ bool passes(const TraceFilter& filter, const Entry& entry, const TraceWords& wor
 std::string line_of(const Entry& entry, const TraceWords& words, UnixOffset offset,
                     std::optional<Instant> before)
 {
-    const double since =
-        before ? std::chrono::duration<double>(std::max(entry.first - *before, {})).count() : 0.0;
-    std::string line = fmt::format("{} {:>+10.6f} {:>3} > {:<3} {}", time_of(entry.first, offset), since,
+    std::string line = fmt::format("{} {:>3} > {:<3} {}", time_columns(entry.first, offset, before),
                                    address_text(words.from), address_text(words.to), words.service);
     if (!entry.octets.empty()) line += fmt::format("  [{}] {}", entry.octets.size(), hex(entry.octets));
     return line;

@@ -35,6 +35,9 @@ bool passes(const TraceFilter& filter, const trace::Entry& entry, const TraceWor
 
 /// From the clock of the records to CLOCK_REALTIME.
 using UnixOffset = std::chrono::nanoseconds;
+std::int64_t unix_ns(Instant at, UnixOffset offset);
+/// The first two columns of a line: local time of day to the microsecond, and the seconds since `before`.
+std::string time_columns(Instant first, UnixOffset offset, std::optional<Instant> before);
 
 /// One line: time, seconds since the entry before, sender > receiver, service, octets. `before`: the last
 /// character of the entry before.

@@ -33,8 +33,9 @@ struct ReplayScript {
     bool is_modbus = false; ///< the drive frames are Modbus RTU, else EI-ASCII
 };
 
-/// Link types, besides those of pcapng::LinkType.
-inline constexpr std::uint16_t kEiAsciiLink = 148, kModbusLink = 149; ///< USER1, USER2
+/// Link types of the drive line, as numbers.
+inline constexpr auto kEiAsciiLink = static_cast<std::uint16_t>(pcapng::LinkType::user1);
+inline constexpr auto kModbusLink = static_cast<std::uint16_t>(pcapng::LinkType::user2);
 
 /// The directions of the packets say which of them the gateway sent. The failure is a sentence: what the
 /// capture lacks. A pause is an hour at most, the whole a year, and a time that goes back is no pause.

@@ -125,10 +125,12 @@ TEST(Trace, WritesACaptureWithTheDirectionOfEachTelegram)
     ASSERT_TRUE(capture) << capture.error();
     EXPECT_EQ(capture->interfaces.at(0).link_type, 257);
     const auto sent = std::count_if(capture->packets.begin(), capture->packets.end(), [](const auto& one) {
-        return one.direction == pcapng::Direction::outbound;
+        return one.interface == 0 && one.direction == pcapng::Direction::outbound;
     });
     EXPECT_EQ(static_cast<std::size_t>(sent), count(entries_of(gateway), "what", "reply"));
-    EXPECT_EQ(capture->statistics.at(0).received, capture->packets.size());
+    const auto of_the_bus = std::count_if(capture->packets.begin(), capture->packets.end(),
+                                          [](const auto& one) { return one.interface == 0; });
+    EXPECT_EQ(capture->statistics.at(0).received, static_cast<std::uint64_t>(of_the_bus));
     EXPECT_EQ(capture->statistics.at(0).dropped, 0U);
 }
 
@@ -171,6 +173,70 @@ TEST(Trace, DecodesTheDataOfOurStationByTheLayoutThatTheMasterHasChosen)
     EXPECT_THAT(gateway.dpctl(follow).out, HasSubstr("    55 Example: speed feedback  12.50\n"));
 }
 
+TEST(Trace, OfADriveLineShowsQuestionsAnswersAndWaitsWithTheirJudgement)
+{
+    Gateway gateway{{.units = {"00", "01"}, .present = {"00"}}};
+    Master master{gateway, {"--tags", "55,56w"}};
+    ASSERT_TRUE(master.does("start 30s"));
+
+    EXPECT_TRUE(eventually([&] {
+        const auto entries = entries_of(gateway, {"--drive", "p3"});
+        return count(entries, "judgement", "taken") > 0 && count(entries, "what", "silence") > 0;
+    }));
+    const auto entries = entries_of(gateway, {"--drive", "p3"});
+    EXPECT_GT(count(entries, "what", "question"), 0U);
+    for (const Json& one : entries) {
+        EXPECT_EQ(one.at("line"), "p3");
+        EXPECT_EQ(one.at("protocol"), "ei-ascii");
+        EXPECT_TRUE(one.at("what") != "silence" || one.at("drive") == "01") << "00 is there: " << one;
+    }
+    for (const Json& one : entries_of(gateway, {"--drive", "p3", "--bad"}))
+        EXPECT_NE(one.at("judgement"), "taken");
+    const Outcome unknown = gateway.dpctl({"trace", "--drive", "p4"});
+    EXPECT_EQ(unknown.status, 2);
+    EXPECT_THAT(unknown.err, HasSubstr("there is no drive line 'p4'; there are: p3"));
+}
+
+TEST(Trace, OfADriveLineFollowsUntilCtrlC)
+{
+    Gateway gateway{
+        {.profile = "2408f", .units = {"1"}, .protocol = "modbus-rtu", .keys = "ident = 0x0A0B\n"}};
+    Master master{gateway, {"--family", "controller", "--ident", "0x0A0B", "--tags", "1"}};
+    ASSERT_TRUE(master.does("start 30s"));
+
+    Process follower{gateway.dpctl_command({"trace", "--drive", "p3", "--follow"})};
+    EXPECT_TRUE(follower.says("> 1   read register"));
+    EXPECT_TRUE(follower.says("CRC right: taken"));
+
+    follower.send(SIGINT);
+    EXPECT_EQ(follower.wait(), 0);
+}
+
+TEST(Trace, WritesTheBusAndTheDriveLinesIntoOneCaptureByTheirTimes)
+{
+    Gateway gateway;
+    Master master{gateway, {"--tags", "55,56w"}};
+    ASSERT_TRUE(master.does("start 30s"));
+    const std::string path = gateway.folder("all.pcapng").string();
+
+    ASSERT_EQ(gateway.dpctl({"trace", "--write", path}).status, 0);
+
+    std::ifstream file{path, std::ios::binary};
+    const std::vector<std::uint8_t> octets{std::istreambuf_iterator<char>{file}, {}};
+    const auto capture = pcapng::read(octets);
+    ASSERT_TRUE(capture) << capture.error();
+    ASSERT_EQ(capture->interfaces.size(), 2U);
+    EXPECT_EQ(capture->interfaces.at(1).name, "drive p3");
+    EXPECT_EQ(capture->interfaces.at(1).link_type, 148);
+    EXPECT_TRUE(std::is_sorted(capture->packets.begin(), capture->packets.end(),
+                               [](const auto& a, const auto& b) { return a.unix_ns < b.unix_ns; }));
+    const auto is_taken = [](const pcapng::Packet& one) {
+        return one.interface == 1 && one.direction == pcapng::Direction::inbound &&
+               one.comments == std::vector<std::string>{"taken"};
+    };
+    EXPECT_GT(std::count_if(capture->packets.begin(), capture->packets.end(), is_taken), 0);
+}
+
 TEST(Trace, OfARecorderThatIsOffSaysHowToSwitchItOn)
 {
     Gateway gateway{{.started = false}};
@@ -181,6 +247,7 @@ TEST(Trace, OfARecorderThatIsOffSaysHowToSwitchItOn)
 
     EXPECT_EQ(outcome.status, 1);
     EXPECT_THAT(outcome.err, HasSubstr("bus_kib"));
+    EXPECT_EQ(gateway.dpctl({"trace", "--drive", "p3"}).status, 0) << "that one is on";
 }
 
 } // namespace

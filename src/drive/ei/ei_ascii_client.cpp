@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpslave/drive/ei_ascii_client.hpp"
 
-#include "digits.hpp"
+#include "drive/digits.hpp"
 #include "ei_access.hpp"
 #include "ei_forms.hpp"
 

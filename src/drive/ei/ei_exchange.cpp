@@ -33,6 +33,39 @@ bool is_noise(char octet)
     return octet == '\0' || octet == '\x7F' || octet == '\xFF';
 }
 
+/// EI-ASCII has a parity bit: an octet with a fault in it comes as 00.
+Judgement judgement_of(Flaw flaw)
+{
+    switch (flaw) {
+        case Flaw::none: return Judgement::truncated;
+        case Flaw::bad_bcc: return Judgement::bad_checksum;
+        case Flaw::bad_text: return Judgement::bad_character;
+        case Flaw::unexpected_start:
+        case Flaw::too_long:
+        case Flaw::octets_after: break;
+    }
+    return Judgement::no_frame;
+}
+
+Judgement judgement_of(Verdict verdict)
+{
+    switch (verdict) {
+        case Verdict::answer: return Judgement::taken;
+        case Verdict::answer_or_older: return Judgement::older;
+        case Verdict::before_write: return Judgement::before_write;
+        case Verdict::owed: return Judgement::late;
+        case Verdict::duplicate: return Judgement::duplicate;
+        case Verdict::foreign: break;
+    }
+    return Judgement::foreign;
+}
+
+std::chrono::nanoseconds characters(std::size_t count, std::uint32_t baud)
+{
+    return std::chrono::nanoseconds{
+        static_cast<std::int64_t>(count * 10 * std::uint64_t{1'000'000'000} / std::max(baud, 1U))};
+}
+
 std::chrono::nanoseconds settle_of(const EiTiming& timing)
 {
     const auto settle = timing.rules.settle;
@@ -54,7 +87,7 @@ void EchoFilter::sent(Bytes request)
     matched_ = 0;
 }
 
-void EchoFilter::feed(std::uint8_t octet, std::string& out)
+bool EchoFilter::feed(std::uint8_t octet, std::string& out)
 {
     const char c = static_cast<char>(octet);
     if (expected_.empty()) {
@@ -63,9 +96,11 @@ void EchoFilter::feed(std::uint8_t octet, std::string& out)
         silence(out);
         out += c;
     } else if (++matched_ == expected_.size()) {
-        expected_.clear();
+        echo_ = std::exchange(expected_, {});
         matched_ = 0;
+        return true;
     }
+    return false;
 }
 
 void EchoFilter::silence(std::string& out)
@@ -95,15 +130,13 @@ Exchange::Exchange(SerialLine& line, EiTiming timing)
     : line_(line),
       timing_(timing),
       owed_(OwedAnswers::Names::tag, settle_of(timing)),
-      echo_(timing.rules.echo)
-{
-    timing_.baud = std::max<std::uint32_t>(timing_.baud, 1);
-}
+      echo_(timing.rules.echo),
+      notes_(timing.rules.frames, LineProtocol::ei_ascii, characters(1, timing.baud))
+{}
 
-std::chrono::nanoseconds Exchange::duration_of(std::size_t characters) const
+std::chrono::nanoseconds Exchange::duration_of(std::size_t count) const
 {
-    return std::chrono::nanoseconds{
-        static_cast<std::int64_t>(characters * 10 * std::uint64_t{1'000'000'000} / timing_.baud)};
+    return ei::characters(count, timing_.baud);
 }
 
 /// After this silence a drive has no more to say.
@@ -163,10 +196,12 @@ Exchange::End Exchange::ask(const Question& question, Bytes request, WaitsFor wh
         return End::damaged;
     }
     asked_ = question.drive; // what came until now was of the one before
+    const Instant begun = line_.now();
     if (!line_.write(request)) {
         trouble_ = "the line does not accept the request";
         return End::silence;
     }
+    notes_.sent(static_cast<std::uint8_t>(question.drive >> 4 | (question.drive & 0xF)), request, begun);
     const Instant sent_at = line_.now() + duration_of(request.size()); // write() need not wait for the wire
     owed_.asked(question, sent_at);
     echo_.sent(request);
@@ -188,13 +223,14 @@ Exchange::End Exchange::wait(Instant begins_by, WaitsFor what)
         const Instant until = in_frame() ? std::min(now + gap(), ends_by) : begins_by;
         const std::size_t got = now < until ? line_.read(buffer, until - now) : 0;
         octets.clear();
+        if (got != 0) heard_at_ = line_.now();
         hear(Bytes{buffer}.first(got), octets);
         if (got == 0 && echo_.withholds()) echo_.silence(octets);
-        if (got != 0) heard_at_ = line_.now();
         if (const auto end = take(octets, what)) return *end;
         if (got != 0 || !octets.empty()) continue;
         if (parser_) return *broken(until < ends_by ? Flaw::none : Flaw::too_long, WaitsFor::value);
         skips_ = false;
+        notes_.no_answer(line_.now());
         if (trouble_.empty()) trouble_ = noise ? "noise and no answer" : "no answer";
         return End::silence;
     }
@@ -214,6 +250,7 @@ bool Exchange::fall_silent()
         if (got == 0) {
             parser_.reset();
             skips_ = false;
+            notes_.silence();
             echo_.sent({});
             owed_.settle(line_.now()); // all that has come is judged
             return true;
@@ -230,50 +267,67 @@ bool Exchange::fall_silent()
 void Exchange::hear(Bytes octets, std::string& out)
 {
     for (const std::uint8_t octet : octets) {
-        echo_.feed(octet, out);
+        if (echo_.feed(octet, out)) {
+            notes_.came(echo_.echo(), heard_at_);
+            notes_.judge(Judgement::echo);
+        }
         if (timing_.rules.echo == EchoMode::off && echo_watch_.feed(octet)) owed_.came_back(asked_);
     }
 }
 
 std::optional<Exchange::End> Exchange::take(std::string_view octets, WaitsFor what)
 {
-    for (std::size_t i = 0; i < octets.size() && !skips_; ++i) {
-        if (!parser_ && is_noise(octets[i])) continue;
-        if (!parser_) parser_.emplace(octets[i] == kAck ? AnswerParser::To::select : AnswerParser::To::poll);
+    std::optional<End> end;
+    std::size_t i = 0;
+    for (; i < octets.size() && !skips_ && !end; ++i) {
+        if (!parser_ && !is_noise(octets[i])) {
+            notes_.silence(); // the noise before it is no part of it
+            parser_.emplace(octets[i] == kAck ? AnswerParser::To::select : AnswerParser::To::poll);
+        }
+        notes_.came(bytes_of(octets.substr(i, 1)), heard_at_);
+        if (!parser_) continue;
         const auto status = parser_->feed(static_cast<std::uint8_t>(octets[i]));
         if (status == AnswerParser::Status::more) continue;
         const std::string_view rest = octets.substr(i + 1);
+        const bool is_alone = std::all_of(rest.begin(), rest.end(), is_noise);
         const AnswerParser done = *parser_;
         parser_.reset();
-        const auto end =
-            status == AnswerParser::Status::broken
-                ? broken(done.flaw(), what)
-                : take_frame(done.answer(), std::all_of(rest.begin(), rest.end(), is_noise), what);
-        if (!end) continue;
-        skips_ = skips_ || !std::all_of(rest.begin(), rest.end(), is_noise);
-        return end;
+        end = status == AnswerParser::Status::broken ? broken(done.flaw(), what)
+                                                     : take_frame(done.answer(), is_alone, what);
+        if (end) skips_ = skips_ || !is_alone;
     }
-    return std::nullopt;
+    notes_.came(bytes_of(octets.substr(i)), heard_at_);
+    return end;
 }
 
 std::optional<Exchange::End> Exchange::take_frame(const Answer& frame, bool is_alone, WaitsFor what)
 {
     if (frame.kind == Answer::Kind::value) return take_value(frame, what);
-    if (what == WaitsFor::nothing) return std::nullopt;
+    if (what == WaitsFor::nothing) {
+        notes_.judge(Judgement::unclear);
+        return std::nullopt;
+    }
     const bool fits =
         frame.kind == Answer::Kind::nak || (frame.kind == Answer::Kind::ack) == (what == WaitsFor::ack);
     if (!fits) { // of an older question, or of none
+        notes_.judge(Judgement::foreign);
         owed_.foreign(asked_);
         return std::nullopt;
     }
     if (!is_alone) return broken(Flaw::octets_after, what); // it may be a part of something else
-    if (frame.kind == Answer::Kind::ack) return owed_.take_ack() ? End::ack : End::doubtful;
-    return End::refused;
+    if (frame.kind != Answer::Kind::ack) {
+        notes_.judge(Judgement::refused);
+        return End::refused;
+    }
+    const bool is_taken = owed_.take_ack();
+    notes_.judge(is_taken ? Judgement::taken : Judgement::doubtful);
+    return is_taken ? End::ack : End::doubtful;
 }
 
 std::optional<Exchange::End> Exchange::take_value(const Answer& frame, WaitsFor what)
 {
     const Verdict verdict = owed_.heard(form_of(frame.mnemonic), bytes_of(frame.text), line_.now());
+    notes_.judge(judgement_of(verdict));
     switch (verdict) {
         case Verdict::answer:
         case Verdict::answer_or_older:
@@ -297,6 +351,10 @@ std::optional<Exchange::End> Exchange::broken(Flaw flaw, WaitsFor what)
 {
     skips_ = flaw != Flaw::none;
     parser_.reset();
+    if (skips_)
+        notes_.judge_until_silence(judgement_of(flaw));
+    else
+        notes_.judge(judgement_of(flaw));
     owed_.damaged(asked_);
     if (flaw == Flaw::bad_bcc) owed_.bad_checksum(asked_);
     if (what == WaitsFor::nothing) return std::nullopt;

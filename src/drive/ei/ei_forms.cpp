@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ei_forms.hpp"
 
-#include "digits.hpp"
+#include "drive/digits.hpp"
 
 #include "dpslave/drive/ei_ascii.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ei_access.hpp"
 
-#include "digits.hpp"
+#include "drive/digits.hpp"
 
 #include <algorithm>
 #include <array>

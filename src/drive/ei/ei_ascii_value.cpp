@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The text form of values on an EI-ASCII line (EI-ASCII reference, section 2).
-#include "digits.hpp"
+#include "drive/digits.hpp"
 
 #include "dpslave/drive/ei_ascii.hpp"
 

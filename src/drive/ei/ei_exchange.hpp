@@ -19,14 +19,17 @@ public:
     explicit EchoFilter(EchoMode mode) : mode_(mode) {}
 
     void sent(Bytes request);
-    void feed(std::uint8_t octet, std::string& out); ///< appends what is no echo
-    void silence(std::string& out);                  ///< what looked like an echo until now was none
+    /// Appends what is no echo. True: this was the last octet of the echo.
+    bool feed(std::uint8_t octet, std::string& out);
+    void silence(std::string& out); ///< what looked like an echo until now was none
     bool withholds() const { return matched_ > 0; }
+    Bytes echo() const { return bytes_of(echo_); } ///< the last one that was heard whole
 
 private:
     EchoMode mode_;
     std::string expected_; ///< empty = there is none any more
     std::size_t matched_ = 0;
+    std::string echo_;
 };
 
 DriveNumber number_of(UnitAddress unit);
@@ -86,7 +89,7 @@ private:
     std::optional<End> take_value(const Answer& frame, WaitsFor what);
     std::optional<End> broken(Flaw flaw, WaitsFor what);
     bool in_frame() const { return parser_.has_value() || skips_ || echo_.withholds(); }
-    std::chrono::nanoseconds duration_of(std::size_t characters) const;
+    std::chrono::nanoseconds duration_of(std::size_t count) const;
     std::chrono::nanoseconds gap() const;
 
     SerialLine& line_;
@@ -94,6 +97,7 @@ private:
     OwedAnswers owed_;
     EchoFilter echo_;
     EchoWatch echo_watch_;
+    FrameNotes notes_;
     std::optional<AnswerParser> parser_; ///< of a frame that has begun
     bool skips_ = false;                 ///< what comes until the next gap is the rest of something broken
     DriveNumber asked_ = 0;

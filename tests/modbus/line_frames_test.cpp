@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Each frame of a Modbus line is noted once, with its judgement, as it was on the wire. The line has the
+/// only clock; its octets go through the receiver of the real one.
+#include "modbus/frame_receiver.hpp"
+#include "scripted_slave.hpp"
+
+#include "dpslave/modbus/modbus_client.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace dpslave::modbus::test {
+namespace {
+
+using namespace std::chrono_literals;
+using drive::LineFrame;
+using testing::Contains;
+using testing::ElementsAre;
+
+class Recorder final : public drive::FrameListener {
+public:
+    void on_frame(const LineFrame& frame) override
+    {
+        const std::string drive = std::to_string(frame.drive);
+        switch (frame.what) {
+            case LineFrame::What::sent: lines.push_back("sent " + drive + ": " + hex(frame.octets)); break;
+            case LineFrame::What::heard:
+                lines.push_back(std::string{drive::name(frame.judgement)} + " " + drive + ": " +
+                                hex(frame.octets));
+                break;
+            case LineFrame::What::silence: lines.push_back("silence " + drive); break;
+        }
+    }
+    std::vector<std::string> lines;
+};
+
+/// Gives what it is told after the next request, in one read each.
+class WireLine final : public FrameLine {
+public:
+    struct Chunk {
+        Octets octets;
+        std::chrono::nanoseconds after = 10ms; ///< the request
+        bool bad_behind = false;               ///< a character with wrong parity follows
+    };
+    std::deque<Chunk> answers;
+    bool echoes = false;
+    Instant time{1h};
+
+    bool send(std::uint8_t unit, Bytes pdu) override
+    {
+        receiver_.sent(unit, pdu);
+        if (echoes) {
+            Octets echo{unit};
+            echo.insert(echo.end(), pdu.begin(), pdu.end());
+            const std::uint16_t crc = crc16(echo);
+            echo.push_back(low(crc));
+            echo.push_back(high(crc));
+            coming_.push_back({std::move(echo), time + 1ms, false});
+        }
+        for (Chunk& one : answers)
+            coming_.push_back({std::move(one.octets), time + one.after, one.bad_behind});
+        answers.clear();
+        return true;
+    }
+    Heard receive(Instant until) override
+    {
+        constexpr auto kGap = 20ms;
+        for (;;) {
+            if (const auto heard = take()) return *heard;
+            const bool in_frame = receiver_.in_frame();
+            const Instant end = in_frame ? time + kGap : until;
+            if (coming_.empty() || coming_.front().at > end) {
+                time = std::max(time, end);
+                if (!in_frame) return Heard::silence;
+                const auto found = receiver_.silence();
+                if (found == FrameReceiver::Found::broken) return Heard::broken;
+                if (found == FrameReceiver::Found::rest) return Heard::rest;
+                continue;
+            }
+            time = std::max(time, coming_.front().at);
+            read_.insert(read_.end(), coming_.front().octets.begin(), coming_.front().octets.end());
+            bad_behind_ = coming_.front().bad_behind;
+            coming_.pop_front();
+        }
+    }
+    Bytes frame() const override { return receiver_.frame(); }
+    Piece piece() const override
+    {
+        return {.octets = receiver_.piece(), .flaw = receiver_.flaw(), .read_at = time};
+    }
+    Instant now() const override { return time; }
+
+private:
+    struct Coming {
+        Octets octets;
+        Instant at{};
+        bool bad_behind = false;
+    };
+    std::optional<Heard> take()
+    {
+        while (!read_.empty() || bad_behind_) {
+            auto found = FrameReceiver::Found::nothing;
+            if (read_.empty()) {
+                bad_behind_ = false;
+                found = receiver_.fault();
+            } else {
+                found = receiver_.feed(read_.front());
+                read_.pop_front();
+            }
+            if (found == FrameReceiver::Found::frame) return Heard::frame;
+            if (found == FrameReceiver::Found::broken) return Heard::broken;
+        }
+        return std::nullopt;
+    }
+    FrameReceiver receiver_;
+    std::deque<Coming> coming_;
+    std::deque<std::uint8_t> read_;
+    bool bad_behind_ = false;
+};
+
+constexpr const char* kAsk = "sent 1: 01 03 00 01 00 01 D5 CA";
+
+class ModbusLineFrames : public testing::Test {
+protected:
+    explicit ModbusLineFrames(drive::EchoMode echo = drive::EchoMode::off)
+    {
+        ClientSettings settings;
+        settings.timeout = 600ms;
+        settings.rules.echo = echo;
+        settings.rules.frames = &recorder;
+        client.emplace(line, settings);
+    }
+    /// All that is noted of a read of register 1 that is answered so, and of what comes behind it.
+    std::vector<std::string> noted(std::deque<WireLine::Chunk> answers)
+    {
+        line.answers = std::move(answers);
+        std::uint16_t word = 0;
+        drive::Tag tag;
+        tag.number = 1;
+        client->read({.unit = 1}, tag, {&word, 1});
+        line.time += 1s;
+        client->listen();
+        return std::exchange(recorder.lines, {});
+    }
+    WireLine line;
+    Recorder recorder;
+    std::optional<ModbusClient> client;
+};
+class ModbusLineFramesWithEcho : public ModbusLineFrames {
+protected:
+    ModbusLineFramesWithEcho() : ModbusLineFrames(drive::EchoMode::on) { line.echoes = true; }
+};
+
+TEST_F(ModbusLineFrames, ARequestAndItsAnswerHaveTheirCheckSums)
+{
+    EXPECT_THAT(noted({{octets("01 03 02 00 00 B8 44")}}),
+                ElementsAre(kAsk, "taken 1: 01 03 02 00 00 B8 44"));
+}
+
+TEST_F(ModbusLineFrames, AnExceptionIsARefusal)
+{
+    EXPECT_THAT(noted({{framed("01 83 02")}}), ElementsAre(kAsk, "refused 1: 01 83 02 C0 F1"));
+}
+
+TEST_F(ModbusLineFrames, AWrongCheckSumAPieceAndABadCharacterAreNamed)
+{
+    EXPECT_THAT(noted({{octets("01 03 02 00 00 B8 45")}}),
+                ElementsAre(kAsk, "bad_checksum 1: 01 03 02 00 00 B8 45"));
+    line.time += 1h; // all is settled
+    EXPECT_THAT(noted({{octets("01 03 02")}}), ElementsAre(kAsk, "truncated 1: 01 03 02"));
+    line.time += 1h;
+    EXPECT_THAT(noted({{octets("01 03"), 10ms, true}, {octets("00 00 B8 44"), 11ms}}),
+                ElementsAre(kAsk, "bad_character 1: 01 03 00", "no_frame 1: 00 00 B8 44"));
+}
+
+TEST_F(ModbusLineFrames, AWaitWithoutAnswerIsASilenceAndItsAnswerIsLate)
+{
+    EXPECT_THAT(noted({{framed("01 03 02 00 00"), 1300ms}}),
+                ElementsAre(kAsk, "silence 1", "late 1: 01 03 02 00 00 B8 44"));
+}
+
+TEST_F(ModbusLineFrames, AnotherUnitIsForeignAndASecondCopyADuplicate)
+{
+    const Octets answer = framed("01 03 02 00 00");
+    EXPECT_THAT(noted({{framed("02 03 02 00 00"), 5ms}, {answer, 10ms}, {answer, 12ms}}),
+                ElementsAre(kAsk, testing::StartsWith("foreign 1: 02 03 02 00 00"),
+                            "taken 1: 01 03 02 00 00 B8 44", "duplicate 1: 01 03 02 00 00 B8 44"));
+}
+
+TEST_F(ModbusLineFramesWithEcho, TheEchoIsNotedBeforeTheAnswer)
+{
+    EXPECT_THAT(noted({{framed("01 03 02 00 00")}}),
+                ElementsAre(kAsk, "echo 1: 01 03 00 01 00 01 D5 CA", "taken 1: 01 03 02 00 00 B8 44"));
+}
+
+} // namespace
+} // namespace dpslave::modbus::test
