@@ -45,7 +45,8 @@ void Telegrams::add(const Record& record)
         case Kind::rate: done_.push_back(simple(Entry::What::rate, record.head.at)); break;
         case Kind::asked:
         case Kind::answered:
-        case Kind::no_answer: break; // of a drive line: they are no telegrams
+        case Kind::no_answer:
+        case Kind::line: break; // of a drive line: they are no telegrams
     }
 }
 

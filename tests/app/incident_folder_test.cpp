@@ -54,7 +54,7 @@ protected:
     }
     void write(std::int64_t number) const
     {
-        const auto failure = write_incident(folder, head(number), ring, kStretch);
+        const auto failure = write_incident(folder, head(number), ring, lines, kStretch);
         ASSERT_FALSE(failure) << *failure;
     }
     static std::string content(const fs::path& path)
@@ -67,19 +67,26 @@ protected:
         fs::create_directories(folder);
         std::ofstream{folder / name, std::ios::binary} << text;
     }
-    std::vector<Instant> times_in(std::uint64_t number) const
+    std::vector<trace::Record> records_in(std::uint64_t number) const
     {
         const std::string text = content(folder / (std::to_string(number) + ".incident"));
         const auto file = trace::read_incident(bytes_of(text));
-        std::vector<Instant> times;
-        if (!file) return times;
+        std::vector<trace::Record> records;
+        if (!file) return records;
         for (Bytes rest = file->records; const auto record = trace::take_record(rest);)
-            times.push_back(record->head.at);
+            records.push_back(*record);
+        return records;
+    }
+    std::vector<Instant> times_in(std::uint64_t number) const
+    {
+        std::vector<Instant> times;
+        for (const trace::Record& record : records_in(number)) times.push_back(record.head.at);
         return times;
     }
 
     fs::path top, folder;
     trace::Ring ring{4 * 1024 * 1024};
+    std::vector<LineRing> lines;
 };
 
 TEST_F(IncidentFolder, HasTheRecordsOfTheSecondsAroundTheIncident)
@@ -104,6 +111,47 @@ TEST_F(IncidentFolder, KeepsWhatIsNearestToTheIncidentWhereThereIsTooMuch)
         ASSERT_EQ(times[i] - times[i - 1], milliseconds{1}) << "without a gap";
     EXPECT_LT(times.front(), kAt);
     EXPECT_GT(times.back(), kAt);
+}
+
+TEST_F(IncidentFolder, HasTheFramesOfEachDriveLineBehindTheTelegrams)
+{
+    record(kAt);
+    trace::Ring p3{64 * 1024}, p4{64 * 1024};
+    const std::vector<std::uint8_t> frame{0x04, 0x30};
+    p3.put({.kind = trace::Kind::asked, .at = kAt - seconds{4}}, frame);
+    p3.put({.kind = trace::Kind::asked, .at = kAt + seconds{1}}, frame);
+    p4.put({.kind = trace::Kind::no_answer, .at = kAt - seconds{1}}, {});
+    lines = {{"p3", &p3}, {"p4", &p4}};
+    write(1);
+
+    const auto records = records_in(1);
+    ASSERT_EQ(records.size(), 5U);
+    EXPECT_EQ(records[0].head.kind, trace::Kind::heard);
+    EXPECT_EQ(records[1].head.kind, trace::Kind::line);
+    EXPECT_THAT(Bytes{records[1].octets}, ElementsAre('p', '3'));
+    EXPECT_EQ(records[2].head.kind, trace::Kind::asked);
+    EXPECT_EQ(records[2].number, 1U);
+    EXPECT_THAT(Bytes{records[3].octets}, ElementsAre('p', '4'));
+    EXPECT_EQ(records[4].head.kind, trace::Kind::no_answer);
+}
+
+TEST_F(IncidentFolder, OfManyDriveLinesIsNotLarger)
+{
+    std::vector<std::unique_ptr<trace::Ring>> rings;
+    const std::vector<std::uint8_t> frame(100, 0x30);
+    for (int i = 0; i < 31; ++i) {
+        rings.push_back(std::make_unique<trace::Ring>(128 * 1024));
+        for (int n = 0; n < 400; ++n)
+            rings.back()->put({.kind = trace::Kind::asked, .at = kAt + milliseconds{n - 200}}, frame);
+        lines.push_back({"line " + std::to_string(i), rings.back().get()});
+    }
+    write(1);
+
+    EXPECT_LE(fs::file_size(folder / "1.incident"), kMostOfLinesBefore + kMostOfLinesBehind + 4096);
+    const auto records = records_in(1);
+    const auto is_name = [](const trace::Record& record) { return record.head.kind == trace::Kind::line; };
+    EXPECT_EQ(std::count_if(records.begin(), records.end(), is_name), 31);
+    EXPECT_GT(records.size(), 31U * 30U) << "each has those that are nearest";
 }
 
 TEST_F(IncidentFolder, IsFoundAgainWithItsCountsAndNumbers)
@@ -172,7 +220,7 @@ TEST_F(IncidentFolder, SkipsCountsThatAreNoJsonAndHeadsOfAnUnknownKind)
 {
     auto newer = head(2);
     newer.what.kind = "eclipse";
-    ASSERT_FALSE(write_incident(folder, newer, ring, kStretch));
+    ASSERT_FALSE(write_incident(folder, newer, ring, lines, kStretch));
     write(1);
     put("counts.json", "{\"next\": ");
 
@@ -196,7 +244,7 @@ TEST_F(IncidentFolder, ThatIsAFileIsSaid)
     std::ofstream{folder} << "in the way";
 
     EXPECT_THAT(find_incidents(folder).faults, ElementsAre(HasSubstr("incidents are not kept")));
-    EXPECT_THAT(write_incident(folder, head(1), ring, kStretch).value_or(""),
+    EXPECT_THAT(write_incident(folder, head(1), ring, lines, kStretch).value_or(""),
                 HasSubstr("1.incident cannot be written: "));
 }
 
@@ -227,8 +275,8 @@ TEST_F(IncidentFolder, OnAFullDiskKeepsWhatWasThereAndLeavesNothingHalf)
     for (int i = 0; i < 1000; ++i) record(kAt, 100);
     {
         const FullDisk full{1000};
-        EXPECT_TRUE(write_incident(folder, head(1), ring, kStretch));
-        EXPECT_TRUE(write_incident(folder, head(2), ring, kStretch));
+        EXPECT_TRUE(write_incident(folder, head(1), ring, lines, kStretch));
+        EXPECT_TRUE(write_incident(folder, head(2), ring, lines, kStretch));
     }
     EXPECT_EQ(content(folder / "1.incident"), before);
     EXPECT_EQ(std::distance(fs::directory_iterator{folder}, {}), 1);

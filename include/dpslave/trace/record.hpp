@@ -20,8 +20,9 @@ enum class Kind : std::uint8_t {
     asked,         ///< a question to a drive, as it was handed to the port
     answered,      ///< octets of a drive line that were judged together; detail: drive::Judgement
     no_answer,     ///< the wait for the answer of a drive is over; no octets
+    line,          ///< in the file of an incident: what follows is of the drive line with this name
 };
-inline constexpr std::uint8_t kKinds = 8;
+inline constexpr std::uint8_t kKinds = 9;
 
 /// A record without its octets.
 struct Head {

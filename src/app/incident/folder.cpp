@@ -155,14 +155,67 @@ void take_counts(const fs::path& folder, FoundIncidents& found)
             }
 }
 
-/// The records of a stretch, in their order, each handed to `use` with whether it lies behind the moment.
+/// A file of an incident on its way to the disk.
+class Writer {
+public:
+    explicit Writer(const fs::path& path) : file_(path) {}
+
+    void write(Bytes octets)
+    {
+        crc_.add(octets);
+        file_.write(octets);
+    }
+    /// The records of a stretch, in their order; of more than that what is nearest to the moment.
+    void write(const trace::Ring& ring, const Stretch& stretch, std::size_t most_before,
+               std::size_t most_behind);
+    std::optional<std::string> finish()
+    {
+        file_.write(trace::checksum_octets(crc_));
+        return file_.finish();
+    }
+
+private:
+    io::NewFile file_;
+    trace::Crc32 crc_;
+};
+
+/// Each record of a stretch as octets, handed to `use` with whether it lies behind the moment.
 template <class Use>
 void for_each_record(const trace::Ring& ring, const Stretch& stretch, Use use)
 {
     trace::Ring::Reader reader{ring};
     trace::Record record;
-    while (reader.next(record) && record.head.at <= stretch.to)
-        if (record.head.at >= stretch.from) use(record, record.head.at > stretch.at);
+    std::vector<std::uint8_t> octets;
+    while (reader.next(record) && record.head.at <= stretch.to) {
+        if (record.head.at < stretch.from) continue;
+        octets.clear();
+        append(record, octets);
+        use(Bytes{octets}, record.head.at > stretch.at);
+    }
+}
+
+void Writer::write(const trace::Ring& ring, const Stretch& stretch, std::size_t most_before,
+                   std::size_t most_behind)
+{
+    constexpr std::size_t kBuffered = 16 * 1024;
+    std::size_t before = 0, behind = 0; // octets
+    for_each_record(ring, stretch, [&](Bytes octets, bool is_behind) {
+        if (!is_behind) before += octets.size();
+    });
+    std::size_t skipped = before - std::min(before, most_before);
+    std::vector<std::uint8_t> buffer;
+    for_each_record(ring, stretch, [&](Bytes octets, bool is_behind) {
+        const bool is_wanted = is_behind ? behind + octets.size() <= most_behind : skipped == 0;
+        if (is_behind)
+            behind += octets.size();
+        else
+            skipped -= std::min(skipped, octets.size());
+        if (is_wanted) buffer.insert(buffer.end(), octets.begin(), octets.end());
+        if (buffer.size() < kBuffered) return;
+        write(buffer);
+        buffer.clear();
+    });
+    write(buffer);
 }
 
 } // namespace
@@ -199,43 +252,24 @@ FoundIncidents find_incidents(const fs::path& folder)
 }
 
 std::optional<std::string> write_incident(const fs::path& folder, const report::IncidentHead& head,
-                                          const trace::Ring& ring, const Stretch& stretch)
+                                          const trace::Ring& bus, const std::vector<LineRing>& lines,
+                                          const Stretch& stretch)
 {
-    constexpr std::size_t kBuffered = 16 * 1024;
-    std::size_t before = 0, behind = 0; // octets
-    std::vector<std::uint8_t> buffer;
-    for_each_record(ring, stretch, [&](const trace::Record& record, bool is_behind) {
-        buffer.clear();
-        append(record, buffer);
-        if (!is_behind) before += buffer.size();
-    });
-    std::size_t skipped = before - std::min(before, kMostBefore);
-
     std::error_code ignored; // the file says what is wrong
     fs::create_directories(folder, ignored);
-    io::NewFile file{path_of(folder, static_cast<std::uint64_t>(head.number))};
-    trace::Crc32 crc;
-    const auto write = [&](Bytes octets) {
-        crc.add(octets);
-        file.write(octets);
-    };
-    write(
+    Writer file{path_of(folder, static_cast<std::uint64_t>(head.number))};
+    file.write(
         bytes_of(trace::incident_begin(json_of(head).dump(-1, ' ', false, Json::error_handler_t::replace))));
-    buffer.clear();
-    for_each_record(ring, stretch, [&](const trace::Record& record, bool is_behind) {
-        const std::size_t was = buffer.size();
-        append(record, buffer);
-        const std::size_t length = buffer.size() - was;
-        const bool is_wanted = is_behind ? behind + length <= kMostBehind : skipped == 0;
-        if (is_behind) behind += length;
-        if (!is_behind) skipped -= std::min(skipped, length);
-        if (!is_wanted) buffer.resize(was);
-        if (buffer.size() < kBuffered) return;
-        write(buffer);
-        buffer.clear();
-    });
-    write(buffer);
-    file.write(trace::checksum_octets(crc));
+    file.write(bus, stretch, kMostBefore, kMostBehind);
+    for (const LineRing& line : lines) {
+        trace::Record name{.head = {.kind = trace::Kind::line, .at = stretch.at}};
+        const std::size_t length = std::min(line.name.size(), trace::Record::kMostOctets);
+        name.octets.assign(bytes_of(line.name).first(length));
+        std::vector<std::uint8_t> octets;
+        append(name, octets);
+        file.write(octets);
+        file.write(*line.ring, stretch, kMostOfLinesBefore / lines.size(), kMostOfLinesBehind / lines.size());
+    }
     return file.finish();
 }
 

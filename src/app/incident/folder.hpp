@@ -29,12 +29,19 @@ FoundIncidents find_incidents(const std::filesystem::path& folder);
 struct Stretch {
     Instant from{}, at{}, to{}; ///< `at`: the moment of the incident
 };
-/// Octets of records before and behind the moment, in a file: what is nearest to it is kept.
+/// The ring of a drive line, which stands while it is read.
+struct LineRing {
+    std::string name;
+    const trace::Ring* ring = nullptr;
+};
+/// Octets of records before and behind the moment, in a file: what is nearest to it is kept. The drive lines
+/// share theirs.
 inline constexpr std::size_t kMostBefore = 512 * 1024, kMostBehind = 256 * 1024;
-/// The failure is a sentence.
+inline constexpr std::size_t kMostOfLinesBefore = 128 * 1024, kMostOfLinesBehind = 64 * 1024;
+/// The records of the bus, then those of each line behind a record with its name. The failure is a sentence.
 std::optional<std::string> write_incident(const std::filesystem::path& folder,
-                                          const report::IncidentHead& head, const trace::Ring& ring,
-                                          const Stretch& stretch);
+                                          const report::IncidentHead& head, const trace::Ring& bus,
+                                          const std::vector<LineRing>& lines, const Stretch& stretch);
 std::optional<std::string> write_counts(const std::filesystem::path& folder,
                                         const report::IncidentCounts& counts);
 void remove_incident(const std::filesystem::path& folder, std::uint64_t number);

@@ -68,10 +68,11 @@ std::string reason_to_be_off(const config::TraceConfig& config, const std::files
 
 } // namespace
 
-Incidents::Incidents(const Monitor& monitor, const BusLink& bus, Replies& replies,
+Incidents::Incidents(const Monitor& monitor, const BusLink& bus, const Runtime& runtime, Replies& replies,
                      const std::filesystem::path& state)
     : monitor_(monitor),
       bus_(bus),
+      runtime_(runtime),
       replies_(replies),
       folder_(state / "incidents"),
       off_because_(reason_to_be_off(monitor.config().trace, state))
@@ -250,9 +251,15 @@ bool Incidents::start_writing()
     if (to_write_.empty()) return false;
     const Instant at{std::chrono::nanoseconds{to_write_.front().head.at_ns}};
     const Stretch stretch{.from = at - IncidentBook::kBefore, .at = at, .to = at + IncidentBook::kAfter};
+    // The job keeps the rings of lines: a reload may take a line away while it reads.
+    std::vector<std::pair<std::string, std::shared_ptr<const LineTrace>>> lines;
+    for (const auto& line : runtime_.lines())
+        if (line->link.trace->ring().is_on()) lines.emplace_back(line->config.name, line->link.trace);
     const bool is_started =
-        job_.start([this, folder = folder_, writing = to_write_.front(), stretch]() -> SideJob::Then {
-            const auto failure = write_incident(folder, writing.head, bus_.trace, stretch);
+        job_.start([this, folder = folder_, writing = to_write_.front(), stretch, lines]() -> SideJob::Then {
+            std::vector<LineRing> rings;
+            for (const auto& [name, trace] : lines) rings.push_back({name, &trace->ring()});
+            const auto failure = write_incident(folder, writing.head, bus_.trace, rings, stretch);
             return [this, failure, number = static_cast<std::uint64_t>(writing.head.number),
                     is_first = !writing.is_complete] {
                 if (is_written(failure) || !is_first) return;

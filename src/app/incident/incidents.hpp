@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The flight recorder: notices incidents, has what surrounds them written from the ring of the trace into
+/// The flight recorder: notices incidents, has what surrounds them written from the rings of the trace into
 /// files, and answers ListIncidents and GetIncident. Main thread only; the files are read and written by a
 /// SideJob.
 #pragma once
@@ -24,7 +24,7 @@ class Incidents {
 public:
     /// `state`: the folder for what outlives the program; empty: there is none, so nothing is kept. All
     /// outlive this object.
-    Incidents(const Monitor& monitor, const BusLink& bus, Replies& replies,
+    Incidents(const Monitor& monitor, const BusLink& bus, const Runtime& runtime, Replies& replies,
               const std::filesystem::path& state);
 
     /// An event of a station, as it comes from the bus thread; `text`: its sentence.
@@ -87,6 +87,7 @@ private:
 
     const Monitor& monitor_;
     const BusLink& bus_;
+    const Runtime& runtime_;
     Replies& replies_;
     std::filesystem::path folder_;
     std::string off_because_; ///< a sentence; empty: incidents are kept

@@ -36,7 +36,7 @@ MainThread::MainThread(config::Config config, const std::filesystem::path& profi
       monitor_(std::move(config), runtime, bus),
       file_(monitor_.config(), profiles, io::monotonic_now()),
       traces_(bus, runtime, replies_),
-      incidents_(monitor_, bus, replies_, state),
+      incidents_(monitor_, bus, runtime, replies_, state),
       methods_({monitor_, lamps_, file_, accesses_, probes_, watchers_, traces_, incidents_, reload_, events_,
                 event_streams_, log_level_},
                io::monotonic_now())

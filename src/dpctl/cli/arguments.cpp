@@ -281,9 +281,8 @@ void trace_arguments(CLI::App& app, Options& options)
     auto* const list =
         app.add_flag("--incidents", options.incidents, "List what the daemon has kept of incidents")
             ->excludes(follow);
-    auto* const incident =
-        app.add_option("--incident", options.incident, "The telegrams around this incident");
-    incident->type_name("NUMBER")
+    app.add_option("--incident", options.incident, "The telegrams around this incident")
+        ->type_name("NUMBER")
         ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()).description(""))
         ->excludes(follow)
         ->excludes(list);
@@ -316,7 +315,6 @@ void trace_arguments(CLI::App& app, Options& options)
         ->type_name("LINE")
         ->excludes(station)
         ->excludes(list)
-        ->excludes(incident)
         ->excludes(stop_on)
         ->excludes(decode);
     app.add_option("--gsd", options.gsd_folder,

@@ -111,8 +111,7 @@ std::string read_only(const Json&)
 std::string trace_off(const Json&)
 {
     return "the daemon records nothing of it: set bus_kib, of a drive line drive_kib, in [trace] of its "
-           "configuration, "
-           "and restart it";
+           "configuration, and restart it";
 }
 std::string samples_off(const Json&)
 {

@@ -51,13 +51,9 @@ struct Options {
     bool decode = false;       ///< what each telegram says beneath it
     std::string gsd_folder;    ///< with `decode`: GSD files of other devices; empty = none
     std::string stop_on;       ///< as read_condition() reads it; empty = no condition
+    std::string drive;         ///< a drive line in place of the bus; empty = not said
 
-    bool csv = false;      ///< `plot`: a table
-    std::string file;      ///< a capture that is written; empty = text
-    std::string link_type; ///< of it: "profibus" or "user0"
-    std::string service;   ///< a part of its name; empty = all
-    bool bad = false;      ///< only what is no telegram or was not answered
-    std::string drive;     ///< a drive line in place of the bus; empty = not said
+    bool csv = false; ///< `plot`: a table
 
     // Of the subcommands that need no daemon.
     std::vector<std::string> words; ///< query, numbers or octets; `read`: tags

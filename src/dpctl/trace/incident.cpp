@@ -21,6 +21,8 @@ namespace {
 
 using Octets = std::vector<std::uint8_t>;
 
+constexpr std::uint8_t kSetPrm = 61; // its SAP
+
 std::string moment(std::int64_t unix_ns)
 {
     using std::chrono::system_clock;
@@ -32,10 +34,12 @@ std::string moment(std::int64_t unix_ns)
 Octets octets_of(std::string_view text)
 {
     Octets octets;
-    for (std::size_t at = 0; at + 2 <= text.size(); at += 3) {
+    if (text.size() % 3 != 2) return octets;
+    for (std::size_t at = 0; at < text.size(); at += 3) {
         std::uint8_t octet = 0;
         const char* const end = text.data() + at + 2;
-        if (std::from_chars(text.data() + at, end, octet, 16).ptr != end) return {};
+        const bool is_one = std::from_chars(text.data() + at, end, octet, 16).ptr == end;
+        if (!is_one || (at + 2 < text.size() && text[at + 2] != ' ')) return {};
         octets.push_back(octet);
     }
     return octets;
@@ -73,26 +77,100 @@ trace::Entry entry_of(trace::Entry::What what, const fdl::Frame& frame, Baud bau
     return entry;
 }
 
-/// The entries of the wire, each after `begin` was called with the rate and time of the first record.
-void print_records(Bytes rest, std::chrono::nanoseconds hold_back,
-                   const std::function<void(Baud, Instant)>& begin,
-                   const std::function<void(const trace::Entry&)>& print)
+/// The entries of the bus. Ends before the first record that names a drive line.
+std::vector<trace::Entry> take_bus(Bytes& rest, std::chrono::nanoseconds hold_back)
 {
     trace::Telegrams telegrams{hold_back};
-    std::optional<std::uint64_t> expected;
+    std::vector<trace::Entry> entries;
+    std::uint64_t expected = 0; // number of the next record; 0: not known
     Instant last{};
-    for (auto record = trace::take_record(rest); record; record = trace::take_record(rest)) {
+    Bytes ahead = rest;
+    for (auto record = trace::take_record(ahead); record && record->head.kind != trace::Kind::line;
+         record = trace::take_record(ahead)) {
+        rest = ahead;
         last = record->head.at;
-        if (!expected)
-            begin(kBauds[record->head.rate], last);
-        else if (record->number > *expected)
-            telegrams.lost(record->number - *expected, last);
+        if (expected != 0 && record->number > expected) telegrams.lost(record->number - expected, last);
         expected = record->number + 1;
         telegrams.add(*record);
-        while (const auto entry = telegrams.take()) print(*entry);
     }
     telegrams.pass_time(last + std::chrono::seconds{1});
-    while (const auto entry = telegrams.take()) print(*entry);
+    while (auto entry = telegrams.take()) entries.push_back(*std::move(entry));
+    return entries;
+}
+
+/// What the first telegrams of a master to a slave say of what was before them.
+struct Before {
+    bool is_exchange = false; ///< the first is Data_Exchange and not Set_Prm
+    bool next_fcb = false;    ///< of the first that has one
+};
+
+Before before(const std::vector<trace::Entry>& entries, std::uint8_t da, std::uint8_t sa)
+{
+    std::optional<bool> fcb, exchange;
+    for (const trace::Entry& entry : entries) {
+        if (entry.what != trace::Entry::What::telegram) continue;
+        const auto telegram = telegram_of(entry);
+        if (!telegram || !telegram->is_request() || telegram->da != da || telegram->sa != sa) continue;
+        if (!fcb && telegram->fcv()) fcb = telegram->fcb();
+        const bool is_exchange = !telegram->dsap && telegram->delimiter != fdl::kSD1;
+        if (is_exchange || telegram->dsap == kSetPrm) exchange = is_exchange;
+        if (exchange) break;
+    }
+    return {exchange.value_or(false), fcb.value_or(false)};
+}
+
+/// Set_Prm and Chk_Cfg of the exchange that the telegrams `behind` go on with. Nothing if there was none, or
+/// they are not known.
+void add_start_up(const report::IncidentStation& station, const std::vector<trace::Entry>& behind,
+                  std::vector<fdl::Frame>& to)
+{
+    constexpr std::uint8_t kChkCfg = 62, kMasterSap = 62;
+    constexpr std::uint8_t kSrdHigh = 0x5D, kFcb = 0x20;
+    const Octets prm = octets_of(station.set_prm), cfg = octets_of(station.chk_cfg);
+    const bool is_known = station.master && *station.master >= 0 && *station.master <= 126 &&
+                          station.address >= 0 && station.address <= 126 && !prm.empty() && !cfg.empty() &&
+                          prm.size() <= 244 && cfg.size() <= 244;
+    if (!is_known || behind.empty() || station.state != "Data_Exch") return;
+    const auto da = static_cast<std::uint8_t>(station.address),
+               sa = static_cast<std::uint8_t>(*station.master);
+    const auto [is_exchange, next_fcb] = before(behind, da, sa);
+    if (!is_exchange) return;
+    // A slave takes a request with the bit of the one before it for a repeat.
+    const auto of_cfg = static_cast<std::uint8_t>(next_fcb ? kSrdHigh : kSrdHigh | kFcb);
+    const auto of_prm = static_cast<std::uint8_t>(of_cfg ^ kFcb);
+    to.push_back(fdl::encode_sd2(da, sa, of_prm, kSetPrm, kMasterSap, prm));
+    to.push_back(fdl::encode_sd2(da, sa, of_cfg, kChkCfg, kMasterSap, cfg));
+}
+
+/// The frames of the drive lines. Gives the names of the lines.
+std::vector<std::string> print_lines(Bytes rest, const std::function<void(const LineEntry&)>& print)
+{
+    std::vector<std::string> lines;
+    std::uint64_t expected = 0; // number of the next record; 0: not known
+    while (const auto record = trace::take_record(rest)) {
+        if (record->head.kind == trace::Kind::line) {
+            const Bytes name = record->octets;
+            lines.emplace_back(name.begin(), name.end());
+            expected = 0;
+            continue;
+        }
+        const auto entry = lines.empty() ? std::nullopt : line_entry_of(*record, lines.back());
+        if (!entry) continue;
+        if (expected != 0 && record->number > expected) print(gap_before(*entry, record->number - expected));
+        expected = record->number + 1;
+        print(*entry);
+    }
+    return lines;
+}
+
+void print_head(const report::IncidentHead& head, const Options& options, Terminal& terminal)
+{
+    if (!options.json) {
+        terminal.out << render_incident(head);
+        return;
+    }
+    const Json json{{"what", "incident"}, {"incident", json_of(head)}};
+    terminal.out << printable_json(json.dump(-1, ' ', false, Json::error_handler_t::replace)) << '\n';
 }
 
 } // namespace
@@ -131,29 +209,20 @@ std::string render_incident(const report::IncidentHead& head)
     return out;
 }
 
-std::vector<trace::Entry> start_up(const report::IncidentStation& station, Baud baud, Instant before)
+std::vector<trace::Entry> start_up(const std::vector<report::IncidentStation>& stations,
+                                   const std::vector<trace::Entry>& behind)
 {
-    constexpr std::uint8_t kSetPrm = 61, kChkCfg = 62, kMasterSap = 62;
-    constexpr std::uint8_t kSrdHigh = 0x5D, kSrdHighNext = 0x7D; // the frame count bit alternates
-    const Octets prm = octets_of(station.set_prm), cfg = octets_of(station.chk_cfg);
-    const bool is_known = station.master && *station.master >= 0 && *station.master <= 126 &&
-                          station.address >= 0 && station.address <= 126 && !prm.empty() && !cfg.empty() &&
-                          prm.size() <= 244 && cfg.size() <= 244;
-    if (!is_known || station.state != "Data_Exch") return {};
-    const auto da = static_cast<std::uint8_t>(station.address),
-               sa = static_cast<std::uint8_t>(*station.master);
-    using What = trace::Entry::What;
+    std::vector<fdl::Frame> requests;
+    for (const report::IncidentStation& station : stations) add_start_up(station, behind, requests);
+    if (requests.empty()) return {};
     constexpr std::chrono::milliseconds kPause{300}; // more than the longest telegram at any rate
-    const std::pair<What, fdl::Frame> all[] = {
-        {What::telegram, fdl::encode_sd2(da, sa, kSrdHigh, kSetPrm, kMasterSap, prm)},
-        {What::reply, fdl::encode_sc()},
-        {What::telegram, fdl::encode_sd2(da, sa, kSrdHighNext, kChkCfg, kMasterSap, cfg)},
-        {What::reply, fdl::encode_sc()}};
     std::vector<trace::Entry> entries;
-    Instant at = before - kPause * std::size(all);
-    for (const auto& [what, frame] : all) {
-        entries.push_back(entry_of(what, frame, baud, at));
-        at += kPause;
+    Instant at = behind.front().first - kPause * 2 * static_cast<int>(requests.size());
+    for (const fdl::Frame& request : requests) {
+        entries.push_back(entry_of(trace::Entry::What::telegram, request, behind.front().baud, at));
+        entries.push_back(
+            entry_of(trace::Entry::What::reply, fdl::encode_sc(), behind.front().baud, at + kPause));
+        at += kPause * 2;
     }
     return entries;
 }
@@ -165,7 +234,7 @@ int list_incidents(const Options& options, Terminal& terminal)
     });
 }
 
-int print_incident(const Options& options, Terminal& terminal, const PrintEntry& print,
+int print_incident(const Options& options, Terminal& terminal, const IncidentPrinter& print,
                    std::int64_t& ended_at)
 {
     const auto octets = fetch(options, terminal);
@@ -178,25 +247,27 @@ int print_incident(const Options& options, Terminal& terminal, const PrintEntry&
     }
     const Json json = Json::parse(file->head, nullptr, false);
     const auto head = report::read<report::IncidentHead>(json.is_object() ? json : Json::object());
-    if (options.file.empty() && options.json)
-        terminal.out << printable_json(Json{{"what", "incident"}, {"incident", json_of(head)}}.dump(
-                            -1, ' ', false, Json::error_handler_t::replace))
-                     << '\n';
-    if (options.file.empty() && !options.json) terminal.out << render_incident(head);
+    if (options.file.empty()) print_head(head, options, terminal);
     const UnixOffset offset{head.unix_ns - head.at_ns};
     ended_at = head.unix_ns;
-    print_records(
-        file->records, std::chrono::nanoseconds{head.hold_back_ns},
-        [&](Baud baud, Instant first) {
-            if (head.stations.empty()) return;
-            for (const trace::Entry& entry : start_up(head.stations.front(), baud, first))
-                print(entry, offset, "from the head of the incident: it was before");
-        },
-        [&](const trace::Entry& entry) {
-            print(entry, offset, {});
-            ended_at = (entry.last.time_since_epoch() + offset).count();
-        });
-    return kFine;
+    const auto ends = [&](Instant last) { ended_at = std::max(ended_at, unix_ns(last, offset)); };
+    Bytes records = file->records;
+    const auto telegrams = take_bus(records, std::chrono::nanoseconds{head.hold_back_ns});
+    for (const trace::Entry& entry : start_up(head.stations, telegrams))
+        print.telegram(entry, offset, "from the head of the incident: it was before");
+    for (const trace::Entry& entry : telegrams) {
+        print.telegram(entry, offset, {});
+        ends(entry.last);
+    }
+    const auto lines = print_lines(records, [&](const LineEntry& entry) {
+        print.frame(entry, offset);
+        ends(entry.last);
+    });
+    if (options.drive.empty() || std::find(lines.begin(), lines.end(), options.drive) != lines.end())
+        return kFine;
+    terminal.err << fmt::format("dpctl: incident {} has no drive line '{}'; it has: {}\n", options.incident,
+                                printable(options.drive), printable(joined(lines, ", ")));
+    return kUsage;
 }
 
 } // namespace dpslave::dpctl

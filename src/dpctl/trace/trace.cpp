@@ -232,6 +232,32 @@ Result<std::optional<TraceSources>, int> sources_of(const Options& options, Term
     return std::optional<TraceSources>{*std::move(sources)};
 }
 
+/// Of --write; nothing: without it. The failure is an exit code; why is printed.
+Result<std::optional<TraceFile>, int> file_of(const Options& options, Terminal& terminal)
+{
+    if (options.file.empty()) return std::optional<TraceFile>{};
+    auto made = TraceFile::create(
+        options.file, options.link_type == "user0" ? pcapng::LinkType::user0 : pcapng::LinkType::profibus_dl,
+        options.follow ? TraceFile::Order::as_they_come : TraceFile::Order::by_time);
+    if (made) return std::optional{*std::move(made)};
+    terminal.err << "dpctl: " << made.error() << '\n';
+    return Failure{int{kNo}};
+}
+
+/// What prints an incident: the bus, or the line of --drive, or into a capture both.
+IncidentPrinter incident_printer(const Options& options, Printer& printer)
+{
+    const auto print_telegram = [&](const trace::Entry& entry, UnixOffset offset, std::string_view note) {
+        if (!options.drive.empty()) return;
+        printer.expect_bus();
+        if (!printer.has_stopped()) printer.print(entry, offset, note);
+    };
+    const auto print_frame = [&](const LineEntry& entry, UnixOffset offset) {
+        if (has_all(options) || entry.line == options.drive) printer.print(entry, offset);
+    };
+    return {.telegram = print_telegram, .frame = print_frame};
+}
+
 } // namespace
 
 int do_trace(const Options& options, Terminal& terminal)
@@ -247,28 +273,16 @@ int do_trace(const Options& options, Terminal& terminal)
     if (!stop) return stop.error();
     auto sources = sources_of(options, terminal);
     if (!sources) return sources.error();
-    std::optional<TraceFile> file;
-    if (!options.file.empty()) {
-        auto made = TraceFile::create(
-            options.file,
-            options.link_type == "user0" ? pcapng::LinkType::user0 : pcapng::LinkType::profibus_dl,
-            options.follow ? TraceFile::Order::as_they_come : TraceFile::Order::by_time);
-        if (!made) {
-            terminal.err << "dpctl: " << made.error() << '\n';
-            return kNo;
-        }
-        file.emplace(*std::move(made));
-    }
+    auto opened = file_of(options, terminal);
+    if (!opened) return opened.error();
+    std::optional<TraceFile>& file = *opened;
     std::optional<TraceSources>& known = *sources;
     Printer printer{std::move(filter),       *std::move(stop), known ? &known->decoder : nullptr,
                     file ? &*file : nullptr, options,          terminal};
     std::int64_t ended_at = 0;
-    const auto print = [&](const trace::Entry& entry, UnixOffset offset, std::string_view note) {
-        printer.expect_bus();
-        if (!printer.has_stopped()) printer.print(entry, offset, note);
-    };
-    int code = options.incident != 0 ? print_incident(options, terminal, print, ended_at)
-                                     : run(options, printer, ended_at, terminal);
+    int code = options.incident != 0
+                   ? print_incident(options, terminal, incident_printer(options, printer), ended_at)
+                   : run(options, printer, ended_at, terminal);
     if (code == kFine && !options.stop_on.empty() && !printer.has_stopped()) code = kNo;
     if (!file) return code;
     if (const auto trouble = file->finish(ended_at)) {

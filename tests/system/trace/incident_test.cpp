@@ -47,6 +47,8 @@ protected:
         for (std::string line; std::getline(lines, line);) all.push_back(Json::parse(line));
         return all;
     }
+    /// Longer than the time before an incident that is kept: the start-up is not in it.
+    static constexpr const char* kLongExchange = "wait 3500ms";
     /// A station that was in exchange and that its master has released.
     static void release(Gateway& gateway, const char* after = "wait 1s")
     {
@@ -67,7 +69,7 @@ protected:
 TEST_F(Incidents, OfAStationThatLeftHaveItsParametersAndTheTelegramsAroundIt)
 {
     Gateway gateway{wiring()};
-    release(gateway);
+    release(gateway, kLongExchange);
 
     const Json one = list(gateway).at("incidents").at(0);
     EXPECT_EQ(one.at("number"), 1);
@@ -146,7 +148,7 @@ TEST_F(Incidents, OutliveKillMinus9WithTheirNumbers)
 TEST_F(Incidents, BecomeACaptureThatBeginsWithTheStartUp)
 {
     Gateway gateway{wiring()};
-    release(gateway);
+    release(gateway, kLongExchange);
     const std::string path = gateway.folder("incident.pcapng").string();
 
     EXPECT_EQ(gateway.dpctl({"trace", "--incident", "1", "--write", path}).status, 0);
@@ -159,6 +161,42 @@ TEST_F(Incidents, BecomeACaptureThatBeginsWithTheStartUp)
     EXPECT_THAT(capture->packets[0].comments.at(0), HasSubstr("from the head"));
     EXPECT_EQ(capture->packets[0].octets.at(7), 61) << "Set_Prm";
     EXPECT_EQ(capture->packets[2].octets.at(7), 62) << "Chk_Cfg";
+}
+
+TEST_F(Incidents, HaveTheFramesOfTheDriveLines)
+{
+    Gateway gateway{wiring()};
+    release(gateway);
+    ASSERT_GT(lines_of(gateway, "1").size(), 5U);
+
+    const Outcome frames = gateway.dpctl({"trace", "--incident", "1", "--drive", "p3"});
+    EXPECT_EQ(frames.status, 0) << frames.err;
+    EXPECT_THAT(frames.out, HasSubstr("BCC right: taken"));
+    EXPECT_THAT(frames.out, testing::Not(HasSubstr("Data_Exchange"))) << "in place of the telegrams";
+    EXPECT_THAT(gateway.dpctl({"trace", "--incident", "1"}).out, testing::Not(HasSubstr("taken")));
+    const Outcome unknown = gateway.dpctl({"trace", "--incident", "1", "--drive", "p4"});
+    EXPECT_EQ(unknown.status, 2);
+    EXPECT_THAT(unknown.err, HasSubstr("incident 1 has no drive line 'p4'; it has: p3"));
+}
+
+TEST_F(Incidents, AreReplayedToAnotherDaemonWithoutADifference)
+{
+    const Folder captures;
+    for (const char* exchange : {kLongExchange, "wait 100ms"}) { // without the start-up in it, and with it
+        const std::string path = (captures / exchange).string();
+        {
+            Gateway gateway{wiring()};
+            std::filesystem::remove_all(incidents());
+            release(gateway, exchange);
+            ASSERT_GT(lines_of(gateway, "1").size(), 5U);
+            ASSERT_EQ(gateway.dpctl({"trace", "--incident", "1", "--write", path}).status, 0);
+        }
+        const Gateway other;
+        const Outcome outcome = run({DPSIM_PROGRAM, "replay", path, "--port", other.bus_end().string(),
+                                     "--baud", std::to_string(other.bus_baud())});
+        EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+        EXPECT_THAT(outcome.out, HasSubstr(": no difference"));
+    }
 }
 
 TEST_F(Incidents, ThatCannotBeWrittenAreSaidOnceAndHinderNothing)
