@@ -121,5 +121,27 @@ def pcapng():
     yield bytes([0, 3, 5]) + b"bus" + bytes([6, 0x10, 5, 2, 0x49, 0x50, 0x16, 3, 2, 0x41, 0x42]) + bytes(range(40))
 
 
+def trace():
+    """An incident with its head; a start-up and exchange of two devices, with replies; drive frames; noise."""
+    station = '"stations":[{"name":"a","address":5,"profile":"box","state":"Data_Exch","master":2,"set_prm":"B8 01 01 0B 16 49 00 00 00 00 07","chk_cfg":"50"}]'
+    head = ('{"number":7,"what":{"kind":"left","text":"a: left"},"at_ns":1,"unix_ns":2,' + station + "}\n").encode()
+
+    def record(kind, octets, detail=0, rate=4, address=5, pause=500):
+        return bytes([kind, detail, rate, address]) + pause.to_bytes(2, "big") + counted(octets)
+
+    for slave in (5, 6):
+        to, back = bytes([slave | 0x80, 0x82, 0x5D]), bytes([0x82, slave | 0x80, 0x08])
+        prm = record(0x20, to + b"\x3D\x3E\xB8\x01\x01\x0B\x16\x49\x00\x00\x00\x00\x07") + record(2, b"\xE5")
+        cfg = record(0x20, to + b"\x3E\x3E\x73\x50") + record(2, b"\xE5")
+        diag = record(0x20, to + b"\x3C\x3E") + record(0x22, back + b"\x3E\x3C\x00\x0C\x00\x02\x16\x49\x04\x00\x12\x00")
+        data = record(0x20, bytes([slave, 2, 0x7D]) + bytes([0x10, 1] + [0] * 6))
+        reply = record(0x22, bytes([2, slave, 8]) + bytes([0x10, 1, 0, 0, 0, 0, 4, 0x4C, 0x13, 0xBA]))
+        yield head + b"\x00\x40" + prm + cfg + diag + data + reply + record(0x20, bytes([0x7F | 0x80, 0x82, 0x46]) + b"\x3A\x3E\x20\x01")
+    drive = record(5, b"\x0400 11PV\x05", rate=0) + record(6, b"\x02PV1.5\x03\x21", rate=0) + record(7, b"", rate=1)
+    yield b"{}\n\x00\x09" + record(8, b"p3") + drive + record(5, bytes.fromhex("01 03 00 01 00 01 D5 CA"), rate=1)
+    yield b"\n\x00\x00" + b"".join(record(0, octets) for octets in golden())
+    yield b"\n\x00\x01" + record(0x10, b"\x10\x05") + record(1, b"") + record(4, b"", rate=6) + record(3, b"", detail=2) + record(0, b"\x02\x49\x50\x16")
+
+
 for number, octets in enumerate(globals()[target]()):
     (folder / f"seed-{number:03}").write_bytes(octets)
