@@ -21,7 +21,7 @@ _dpsim()
                 master) words='--port --baud --master --slave --family --ident --prm --tags --prm-length --cfg --no-demand
                                --watchdog --no-watchdog --min-tsdr --group --no-sync-freeze --cycle --slot-ms --retries
                                --sd3 --script --help' ;;
-                replay) words='--port --baud --drive --drive-baud --fast --retries --slot-ms --help'
+                replay) words='--port --baud --drive --line --drive-baud --fast --retries --slot-ms --help'
                     [ "${cur:0:1}" = - ] || { compopt -o filenames 2>/dev/null
                         mapfile -t COMPREPLY < <(compgen -f -- "$cur"); return; } ;;
             esac

@@ -166,6 +166,9 @@ void add_replay(CLI::App& app, ReplayOptions& o)
     replay.add_option("--baud", o.baud, "9600, 19200, 45450, 93750, 187500, 500000 or 1500000")->required();
     auto* const drive = replay.add_option(
         "--drive", o.drive, "end of the gateway's drive line: the drive frames of the capture answer there");
+    replay.add_option("--line", o.line, "the drive line whose frames answer, where the capture has several")
+        ->type_name("NAME")
+        ->needs(drive);
     replay.add_option("--drive-baud", o.drive_baud, "bit/s of that line")
         ->capture_default_str()
         ->needs(drive)

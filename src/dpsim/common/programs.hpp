@@ -47,6 +47,7 @@ struct ReplayOptions {
     std::string file, port;
     std::uint32_t baud = 187'500; ///< of PROFIBUS
     std::string drive;            ///< where the gateway's drive line ends; empty: its drive is another one
+    std::string line;             ///< which one of the capture; empty: it has one
     std::uint32_t drive_baud = 9600;
     bool fast = false; ///< without the pauses of the capture
     unsigned retries = 3;

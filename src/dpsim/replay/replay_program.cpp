@@ -15,7 +15,7 @@ namespace {
 /// Of a capture: it is read as a whole. A busy bus at 187.5 kbit/s fills this in an hour.
 constexpr std::size_t kMostOfACapture = 256U << 20;
 
-Result<ReplayScript, std::string> read_script(const std::string& path)
+Result<ReplayScript, std::string> read_script(const std::string& path, const std::string& line)
 {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored)) return Failure{path + ": is no file"};
@@ -31,9 +31,21 @@ Result<ReplayScript, std::string> read_script(const std::string& path)
         return Failure{path + ": cannot be read"};
     const auto capture = pcapng::read(octets);
     if (!capture) return Failure{path + ": " + capture.error()};
-    auto script = script_of(*capture);
+    auto script = script_of(*capture, line);
     if (!script) return Failure{path + ": " + script.error()};
     return script;
+}
+
+/// What is wrong with --drive and --line for this capture, a clause; nothing: all is well.
+std::optional<std::string> fault_of_drive(const ReplayScript& script, const ReplayOptions& options)
+{
+    const std::string lines = fmt::format("{}", fmt::join(script.drive_lines, ", "));
+    if (options.drive.empty()) return std::nullopt;
+    if (script.drive_lines.empty()) return "it has no frames of a drive line: leave out --drive";
+    if (script.drive.empty()) return "it has no drive line " + options.line + "; it has: " + lines;
+    if (script.drive_lines.size() > 1 && options.line.empty())
+        return "it has several drive lines, name one with --line: " + lines;
+    return std::nullopt;
 }
 
 class ReplaySession {
@@ -108,13 +120,13 @@ int run_replay(const ReplayOptions& options)
             "--baud {}: PROFIBUS has 9600, 19200, 45450, 93750, 187500, 500000 and 1500000", options.baud));
         return kUsage;
     }
-    const auto script = read_script(options.file);
+    const auto script = read_script(options.file, options.line);
     if (!script) {
         print_error(script.error());
         return kUsage;
     }
-    if (!options.drive.empty() && script->drive.empty()) {
-        print_error(options.file + ": it has no frames of a drive line: leave out --drive");
+    if (const auto fault = fault_of_drive(*script, options)) {
+        print_error(options.file + ": " + *fault);
         return kUsage;
     }
     const Signals signals;

@@ -21,6 +21,12 @@ bool is_drive(std::uint16_t link_type)
     return link_type == kEiAsciiLink || link_type == kModbusLink;
 }
 
+/// `dpctl trace` calls the interface of the line p3 "drive p3".
+bool is_called(const pcapng::Interface& interface, const std::string& line)
+{
+    return interface.name == line || interface.name == "drive " + line;
+}
+
 /// Times of the packets since the first one, in their order. A file may have any times.
 class Clock {
 public:
@@ -55,8 +61,14 @@ public:
             script.steps.push_back({.octets = packet.octets, .packet = number, .at = at, .pause = pause});
     }
 
-    void drive(const pcapng::Packet& packet, std::uint16_t link_type, nanoseconds at)
+    void drive(const pcapng::Packet& packet, const pcapng::Interface& interface, nanoseconds at,
+               const std::string& line)
     {
+        auto& lines = script.drive_lines;
+        if (std::find(lines.begin(), lines.end(), interface.name) == lines.end())
+            lines.push_back(interface.name);
+        if (line.empty() ? interface.name != lines.front() : !is_called(interface, line)) return;
+        const std::uint16_t link_type = interface.link_type;
         script.is_modbus = link_type == kModbusLink;
         script.drive.push_back(
             {.octets = packet.octets, .to_drive = packet.direction == pcapng::Direction::outbound, .at = at});
@@ -80,18 +92,18 @@ private:
 
 } // namespace
 
-Result<ReplayScript, std::string> script_of(const pcapng::Capture& capture)
+Result<ReplayScript, std::string> script_of(const pcapng::Capture& capture, const std::string& line)
 {
     Builder builder;
     Clock clock;
     std::optional<std::uint32_t> bus;
     for (std::size_t i = 0; i < capture.packets.size(); ++i) {
         const pcapng::Packet& packet = capture.packets[i];
-        const std::uint16_t link_type = capture.interfaces.at(packet.interface).link_type;
+        const pcapng::Interface& interface = capture.interfaces.at(packet.interface);
         const nanoseconds at = clock.at(packet.unix_ns);
         if (packet.octets.empty()) continue; // only a comment
-        if (is_drive(link_type)) builder.drive(packet, link_type, at);
-        if (!is_bus(link_type)) continue;
+        if (is_drive(interface.link_type)) builder.drive(packet, interface, at, line);
+        if (!is_bus(interface.link_type)) continue;
         if (bus && *bus != packet.interface)
             return Failure{std::string{"it has two buses: keep the packets of one of them"}};
         bus = packet.interface;

@@ -8,6 +8,8 @@
 #include "dpslave/pcapng/pcapng.hpp"
 
 #include <chrono>
+#include <string>
+#include <vector>
 
 namespace dpslave::sim {
 
@@ -31,14 +33,18 @@ struct ReplayScript {
     std::vector<ReplayStep> steps{};
     std::vector<DriveFrame> drive{};
     bool is_modbus = false; ///< the drive frames are Modbus RTU, else EI-ASCII
+    /// Names of the interfaces that have such frames, in the order of their first one. With two of them
+    /// `drive` has the frames of the first.
+    std::vector<std::string> drive_lines{};
 };
 
 /// Link types of the drive line, as numbers.
 inline constexpr auto kEiAsciiLink = static_cast<std::uint16_t>(pcapng::LinkType::user1);
 inline constexpr auto kModbusLink = static_cast<std::uint16_t>(pcapng::LinkType::user2);
 
-/// The directions of the packets say which of them the gateway sent. The failure is a sentence: what the
+/// The directions of the packets say which of them the gateway sent. `line`: whose drive frames, by the name
+/// of the interface, also without "drive " before it; empty: the first. The failure is a sentence: what the
 /// capture lacks. A pause is an hour at most, the whole a year, and a time that goes back is no pause.
-Result<ReplayScript, std::string> script_of(const pcapng::Capture& capture);
+Result<ReplayScript, std::string> script_of(const pcapng::Capture& capture, const std::string& line = {});
 
 } // namespace dpslave::sim

@@ -43,6 +43,41 @@ TEST(ReplayScript, APauseRunsFromThePacketOfTheBusBefore)
     EXPECT_EQ(made.steps[1].pause, 6ms);
 }
 
+/// A capture of a gateway with two drive lines, "drive p3" and "drive p4".
+pcapng::Capture of_two_lines()
+{
+    auto packets =
+        std::vector{bus_in(0, kFdlStatus), bus_out(1, kFdlStatusOk), drive_out(2, "04"), drive_out(3, "15")};
+    packets[3].interface = 2;
+    auto capture = capture_of(std::move(packets), 148);
+    capture.interfaces.at(1).name = "drive p3";
+    capture.interfaces.push_back({.link_type = 149, .name = "drive p4", .description = {}});
+    return capture;
+}
+
+TEST(ReplayScript, HasTheFramesOfTheDriveLineThatIsNamed)
+{
+    for (const char* name : {"p4", "drive p4"}) {
+        const auto made = script_of(of_two_lines(), name);
+        ASSERT_TRUE(made);
+        ASSERT_EQ(made->drive.size(), 1U);
+        EXPECT_EQ(made->drive[0].octets, wire("15"));
+        EXPECT_TRUE(made->is_modbus);
+    }
+    EXPECT_TRUE(script_of(of_two_lines(), "p5")->drive.empty());
+}
+
+TEST(ReplayScript, OfSeveralDriveLinesTakesTheFirstAndNamesAll)
+{
+    const auto made = script_of(of_two_lines());
+
+    ASSERT_TRUE(made);
+    ASSERT_EQ(made->drive.size(), 1U);
+    EXPECT_EQ(made->drive[0].octets, wire("04"));
+    EXPECT_FALSE(made->is_modbus);
+    EXPECT_THAT(made->drive_lines, testing::ElementsAre("drive p3", "drive p4"));
+}
+
 TEST(ReplayScript, OddTimesMakeNoLongPauses)
 {
     auto packets = std::vector{bus_in(100, kFdlStatus), bus_out(50, kFdlStatusOk), bus_in(60, kDiagRequest),
