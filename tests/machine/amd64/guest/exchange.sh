@@ -53,6 +53,25 @@ noise_is_survived() {
     dpctl counters
 }
 
+# A year on, two years back, and a year on again: in the end the clock is right. `eventually` goes by this clock, so it
+# is asked between the steps.
+clock_steps_are_not_noticed() {
+    local pid step value=700
+    pid=$(main_pid)
+    mark_log
+    for step in "+1 year" "-2 years" "+1 year"; do
+        date -s "$step"
+        goes_on
+        exchanging
+        value=$((value + 100))
+        send_to_master "out 1 = $value"
+        eventually grep -q "tag 56 written ${value%??}.00" "$bench/drive.log"
+    done
+    expect_equal "the process" "$(main_pid)" "$pid"
+    expect_no_text "$(service_log)" "Wait_Prm"
+    expect_no_text "$(service_log)" "does not answer"
+}
+
 returns_after_kill() {
     local pid
     pid=$(main_pid)
@@ -97,6 +116,8 @@ prove "given a UART, when the service has it, then it is asked for low latency" 
 prove "given data exchange, when the line breaks, then the break is counted and the exchange goes on" breaks_are_survived
 prove "given data exchange, when random octets come between the telegrams, then they are counted and the exchange goes on" \
     noise_is_survived
+prove "F32: given data exchange, when the clock is set a year on, two back and one on, then bus and drive notice nothing" \
+    clock_steps_are_not_noticed
 prove "given data exchange, when the process is killed, then systemd starts another and the master has it in Data_Exch again" \
     returns_after_kill
 leave_master
