@@ -181,19 +181,28 @@ TEST_F(Incidents, HaveTheFramesOfTheDriveLines)
 
 TEST_F(Incidents, AreReplayedToAnotherDaemonWithoutADifference)
 {
+    Wiring slow = wiring();
+    slow.bus_baud = 19'200; // a busy machine tears few telegrams into pieces
     const Folder captures;
+    // False: the machine was too busy, a request of the master was not answered.
+    const auto record = [&](const char* exchange, const std::string& path) {
+        std::filesystem::remove_all(incidents());
+        Gateway gateway{slow};
+        release(gateway, exchange);
+        const auto lines = lines_of(gateway, "1");
+        EXPECT_GT(lines.size(), 5U);
+        EXPECT_EQ(gateway.dpctl({"trace", "--incident", "1", "--write", path}).status, 0);
+        return std::none_of(lines.begin(), lines.end(), [](const Json& line) {
+            return line.at("what") == "unanswered" || line.at("what") == "piece";
+        });
+    };
     for (const char* exchange : {kLongExchange, "wait 100ms"}) { // without the start-up in it, and with it
         const std::string path = (captures / exchange).string();
-        {
-            Gateway gateway{wiring()};
-            std::filesystem::remove_all(incidents());
-            release(gateway, exchange);
-            ASSERT_GT(lines_of(gateway, "1").size(), 5U);
-            ASSERT_EQ(gateway.dpctl({"trace", "--incident", "1", "--write", path}).status, 0);
-        }
-        const Gateway other;
+        ASSERT_TRUE(record(exchange, path) || record(exchange, path) || record(exchange, path));
+
+        const Gateway other{{.bus_baud = slow.bus_baud}};
         const Outcome outcome = run({DPSIM_PROGRAM, "replay", path, "--port", other.bus_end().string(),
-                                     "--baud", std::to_string(other.bus_baud())});
+                                     "--baud", std::to_string(other.bus_baud()), "--slot-ms", "200"});
         EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
         EXPECT_THAT(outcome.out, HasSubstr(": no difference"));
     }
