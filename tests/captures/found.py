@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Faults that were found in this project, as far as a capture can show them, each with the commit that mended it. Each answer is
+the right one: the daemon of before gave another one, none, or asked the drive for something that is not in the file."""
+import wire
+from wire import Capture, Master, octets, words
+from worked import IN_1234, OUT_0000, OUT_A501, controller, demand, example_starts, option_board, with_demand_data
+
+LEFT_OUT = [
+    "", "A capture says what was on the line and in which order. So these kinds of faults are not here:", "",
+    "- a reply that began too late, or one that other octets overtook (70a9bfa, 16617b5, c665fd8): `tests/fdl`",
+    "- the search of the rate (cbb3342, 9638f84): `tests/fdl/baud`",
+    "- answers of a drive that are late, or that depend on the questions before them (8926287, a8f48db, 8b2cb7e, 4afc8c6): "
+    "`tests/drive_line`",
+    "- what only `dpctl`, the log or the lamps show"]
+
+
+def example(name, shows, source):
+    return Capture("example", name, shows, source)
+
+
+def lost_octet():
+    """The third octet behind the header is not heard. The slot time of the master is over, and it repeats."""
+    c = example("lost-octet", "a request of which an octet was lost does not cost its retry", "0b1fa51")
+    example_starts(c)
+    c.hears(OUT_0000, IN_1234)
+    for request, lost in ((OUT_A501, 5), (OUT_0000, 8), (OUT_A501, 9)):
+        telegram = octets(request)
+        c.hears(telegram[:lost] + telegram[lost + 1:])
+        c.hears(telegram, IN_1234)
+    for value in ("o1", "0000"), ("o1", "A501"):
+        c.writes(value[0], ">" + value[1])
+    return c
+
+
+def stump():
+    """Its first octet is lost, and it ends in DC 16: no token, whose last octet would be the 68 of the retry."""
+    c = example("stump", "the end of a damaged request is not taken for a token that swallows each retry", "0b1fa51")
+    example_starts(c)
+    c.hears(OUT_0000, IN_1234)
+    telegram = wire.sd(5, 2, 0x7D, words(0x0058))
+    assert telegram.endswith(octets("DC 16"))
+    c.hears(telegram[1:])
+    c.hears(telegram[-2:])
+    c.hears(telegram, IN_1234)
+    c.hears(OUT_0000, IN_1234)
+    c.writes("o1", ">0058")
+    return c
+
+
+def sync_first():
+    """The drive is asked for nothing: no write is in the file."""
+    c = example("sync-first", "under Sync the drive gets no 0 that no master has sent", "a9acc4d")
+    example_starts(c, tags=(2,), identifiers="21", status="B8")
+    owner, other = Master(c, 5, 2, 0x4711), Master(c, 5, 9, 0x4711)
+    owner.fc = 0x7D
+    owner.control(0x20)  # Sync, all
+    owner.exchange(words(0xBEED), b"")
+    c.pause(300)
+    owner.exchange(words(0xBEED), b"")
+    other.rd_outp(words(0))
+    c.pause(300)
+    owner.unlock()
+    c.pause(300)
+    owner.diag("02 05 00 FF")
+    return c
+
+
+def never_written():
+    """Set_Prm, Chk_Cfg and no Data_Exchange: no write is in the file."""
+    c = example("never-written", "outputs that a master never sent are not set to 0 when it leaves", "f336f77")
+    example_starts(c, tags=(2,), identifiers="21")
+    owner = Master(c, 5, 2, 0x4711)
+    owner.fc = 0x7D
+    c.pause(300)
+    owner.unlock()
+    c.pause(300)
+    owner.diag("02 05 00 FF")
+    return c
+
+
+def inputs_590(name, shows, source, instead):
+    """Tags 55 and 56, 12.50 and 34.00; then each question for tag 55 gets something else."""
+    c, master = option_board(name, shows, "")
+    c.source = source
+    held = words(1250, 3400)
+
+    def drive():
+        c.identity()
+        c.reads("bj", "12.5")
+        c.reads("bk", "34.")
+
+    master.starts_up(words(55, 56).ljust(24, b"\0"), "50 50", drive=drive)
+    master.exchange(b"", held)
+    c.drive(wire.ei_read("bj"), instead)
+    for _ in range(4):
+        c.pause(150)
+        master.exchange(b"", held)
+    return c
+
+
+def unknown_scale():
+    """No table has tag 59, and 12.5 does not say how many decimals it has: 0, and not ready."""
+    c, master = option_board("unknown-scale", "a number whose decimals are not known is not put on the bus", "")
+    c.source = "d4bd2b8, row X-49"
+    master.diag("02 05 00 FF")
+    master.set_prm(words(59).ljust(24, b"\0"))
+    master.chk_cfg("50")
+    master.diag("00 0E 00 02")
+    c.identity()
+    c.reads("bn", "12.5")
+    for _ in range(2):
+        c.pause(300)
+        master.diag("00 0E 00 02")
+        master.exchange(b"", words(0), high=True)
+    return c
+
+
+def not_kept():
+    """The drive takes 1.00 and then holds 0.50: it has refused nothing, so the answer is 1 and not 7."""
+    c, master = option_board("not-kept", "a write that the drive takes and does not keep is no refusal", "")
+    c.source = "018f410"
+    master.starts_up(bytes(24), "73")
+    none = words(0, 0, 0, 0)
+    master.exchange(none, none)
+    c.identity()
+    c.writes("bl", "1.")
+    c.reads("bl", "0.5")
+    demand(master, none, 0x2000 + 57, 100, 0x1000 + 57, 100)
+    return c
+
+
+def exception_0():
+    """A write of tag 270 gets an exception with code 0, which no answer has: it is no transfer, and no code stands for it."""
+    c, master = controller("exception-0", "a Modbus exception with code 0 is no good answer to a write", "")
+    c.source = "754eb02"
+    none = with_demand_data(c, master)
+    c.drive(wire.rtu(1, 6, *words(270, 1)), wire.rtu(1, 0x86, 0))
+    for _ in range(3):
+        master.exchange(words(0x2000 + 270, 0, 0, 1), none)
+        c.pause(150)
+    return c
+
+
+def refused_block():
+    """101 and 103 are read in one block. The controller has no 102."""
+    c, master = controller("refused-block", "a refused block is cut where it holds a tag that is not read", "")
+    c.source = "9f07c50"
+
+    def drive():
+        for function in (3, 4):
+            c.drive(wire.rtu(1, function, *words(101, 3)), wire.rtu(1, 0x80 | function, 2))
+        c.registers(101, 1111)
+        c.registers(103, 3333)
+        c.registers(403, 0)
+
+    master.starts_up(words(101, 103), "50 50", "03 00 00", drive)
+    master.exchange(b"", words(1111, 3333))
+    return c
+
+
+def captures():
+    return [lost_octet(), stump(), sync_first(), never_written(),
+            inputs_590("stray-eot", "an EOT in place of an answer does not deny a tag", "f67f531", wire.EOT),
+            inputs_590("other-tag", "the answer of another tag is not taken", "deed511", wire.ei_text("bk", "34.")),
+            unknown_scale(), not_kept(), exception_0(), refused_block()]
