@@ -196,7 +196,8 @@ def identifiers_590():
 
 
 def ident_590():
-    c, master = option_board("ident", "a Set_Prm with another Ident_Number than 0533 is refused", "chapter 6, Identification Number")
+    c, master = option_board("ident", "a Set_Prm with another Ident_Number than 0533 is refused",
+                             "chapter 6, Identification Number")
     master.diag("02 05 00 FF")
     master.ident = 0x0534
     master.set_prm(PRM_590)
@@ -281,7 +282,8 @@ def encoding_6053():
 
 
 def diagnosis_6053():
-    c, master = box("diagnosis", "Link Overvolts and EXT DIAGNOSTIC 6AB5, announced by a reply of high priority", "PROFIBUS Diagnostics", 1)
+    c, master = box("diagnosis", "Link Overvolts and EXT DIAGNOSTIC 6AB5, announced by a reply of high priority",
+                    "PROFIBUS Diagnostics", master=1)
     none = words(0, 0, 0, 0)
     monitored(c)
     master.starts_up(b"", "73", QUIET_BOX)
@@ -361,7 +363,8 @@ def autotune_2400f():
 
 
 def refused_2400f():
-    c, master = controller("autotune-refused", "the controller refuses the autotune: 28942 and a code", "chapter 7, worked example 1, X-09")
+    c, master = controller("autotune-refused", "the controller refuses the autotune: 28942 and code 0",
+                           "chapter 7, worked example 1, X-09")
     none = with_demand_data(c, master)
     c.drive(wire.rtu(1, 6, *words(270, 1)), wire.rtu(1, 0x86, 2))
     demand(master, none, 8462, 1, 28942, 0)
