@@ -27,8 +27,8 @@ def lost_octet():
         telegram = octets(request)
         c.hears(telegram[:lost] + telegram[lost + 1:])
         c.hears(telegram, IN_1234)
-    for value in ("o1", "0000"), ("o1", "A501"):
-        c.writes(value[0], ">" + value[1])
+    for value in "0000", "A501":
+        c.outputs("o1", ">" + value)
     return c
 
 
@@ -42,7 +42,7 @@ def stump():
     c.hears(telegram[1:])
     c.hears(telegram, IN_1234)
     c.hears(OUT_0000, IN_1234)
-    c.writes("o1", ">0058")
+    c.outputs("o1", ">0058")
     return c
 
 

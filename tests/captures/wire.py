@@ -7,7 +7,7 @@ import struct
 
 DIAG, PRM, CFG, GET_CFG, CONTROL, RD_OUTP, RD_INP = 60, 61, 62, 59, 58, 57, 56
 SC = "E5"
-ACK, NAK, EOT = "06", "15", "04"
+ACK, EOT = "06", "04"
 STEP = 2_000_000  # ns between two packets
 BEGIN = 1_767_225_600 * 1_000_000_000  # 2026-01-01 UTC
 
@@ -23,12 +23,6 @@ def sd(da, sa, fc, unit=b"", sap=None):
     body = bytes([da, sa, fc]) + unit
     head = bytes([0x68, len(body), len(body), 0x68]) if unit else b"\x10"
     return head + body + bytes([sum(body) & 0xFF, 0x16])
-
-
-def sd3(telegram):
-    """The same as SD3: a data unit of eight octets."""
-    assert telegram[1] == 11
-    return b"\xA2" + telegram[4:]
 
 
 def ei_read(mnemonic, unit="01"):
@@ -90,8 +84,13 @@ class Capture:
     def reads(self, mnemonic, text):
         self.drive(ei_read(mnemonic), ei_text(mnemonic, text))
 
-    def writes(self, mnemonic, text, answer=ACK):
-        self.drive(ei_write(mnemonic, text), answer)
+    def writes(self, mnemonic, text):
+        self.drive(ei_write(mnemonic, text), ACK)
+
+    def outputs(self, mnemonic, text):
+        """A write, and the read that proves it where its ACK was late."""
+        self.writes(mnemonic, text)
+        self.reads(mnemonic, text)
 
     def identity(self):
         """What is asked where a word is in doubt: who the drive is, and its last error."""

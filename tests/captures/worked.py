@@ -38,7 +38,7 @@ def example_starts(capture, tags=(1, 2), identifiers="11 21", value="1234", stat
 
 
 def output_is_written(capture, value, mnemonic="o1"):
-    capture.writes(mnemonic, ">" + value)
+    capture.outputs(mnemonic, ">" + value)
     capture.pause(20)
 
 
@@ -152,7 +152,7 @@ def fixed_length():
     c.hears("A2 05 02 7D 01 02 03 04 05 06 07 08 A8 16", wire.SC)
     Master(c, 5, 9, 0x4711).rd_outp(octets("01 02 03 04 05 06 07 08"))
     for mnemonic, value in (("o1", "0102"), ("o2", "0304"), ("o3", "0506"), ("o4", "0708")):
-        c.writes(mnemonic, ">" + value)
+        c.outputs(mnemonic, ">" + value)
     return c
 
 
@@ -177,7 +177,7 @@ def tags_590():
     master.starts_up(PRM_590, "50 50 60", drive=lambda: drive_590(c))
     master.get_cfg("50 50 60")
     master.exchange(words(100), words(1250, -300 & 0xFFFF))
-    c.writes("i0", "1.")
+    c.outputs("i0", "1.")
     c.pause(50)
     master.exchange(words(100), words(1250, -300 & 0xFFFF))
     return c
@@ -188,8 +188,8 @@ def identifiers_590():
     master.starts_up(words(55, 56, 288, 57).ljust(24, b"\0"), "50 50 60 60", drive=lambda: drive_590(c))
     master.get_cfg("50 50 60 60")
     master.exchange(words(100, 200), words(1250, -300 & 0xFFFF))
-    c.writes("i0", "1.")
-    c.writes("bl", "2.")
+    c.outputs("i0", "1.")
+    c.outputs("bl", "2.")
     c.pause(50)
     master.exchange(words(100, 200), words(1250, -300 & 0xFFFF))
     return c
@@ -209,7 +209,7 @@ def ident_590():
 def demand(master, before, command, value, reply, answer, tag=0):
     """An order of Demand Data: the answer of before, and then its own one."""
     master.exchange(words(command, tag, 0, value), before)
-    master.capture.pause(150)
+    master.capture.pause(300)
     new = words(reply, tag, 0, answer)
     master.exchange(words(command, tag, 0, value), new)
     return new
@@ -261,8 +261,8 @@ def tags_6053(name, shows, user):
     master.starts_up(user, "60 60 50 50", QUIET_BOX, drive)
     master.get_cfg("60 60 50 50")
     master.exchange(words(1151, 500), words(3, 1250))
-    c.writes("hj", "11.51")
-    c.writes("hh", "5.")
+    c.outputs("hj", "11.51")
+    c.outputs("hh", "5.")
     c.pause(50)
     master.exchange(words(1151, 500), words(3, 1250))
     return c
@@ -289,7 +289,7 @@ def diagnosis_6053():
     master.starts_up(b"", "73", QUIET_BOX)
     master.exchange(none, none)
     monitored(c, "0001", "6AB5")
-    c.pause(600)
+    c.pause(1500)
     master.exchange(none, none, high=True)
     master.diag("00 0C 00 01", "04 01 6A B5")
     master.exchange(none, none)
@@ -341,7 +341,7 @@ def diagnosis_2400f():
     c, master = controller("diagnosis", "manual mode, sensor break and IP1 fault: 4030", "chapter 4, Diagnostics Example")
     none = with_demand_data(c, master)
     c.registers(403, 0x4030)
-    c.pause(600)
+    c.pause(1500)
     master.exchange(none, none, high=True)
     master.diag("00 0C 00 24", "03 40 30")
     master.exchange(none, none)
@@ -357,7 +357,7 @@ def autotune_2400f():
     c.registers(76, 0x1000)
     two = demand(master, one, 4172, 0, 4172, 0x1000)
     c.registers(76, 0)
-    c.pause(600)
+    c.pause(1500)
     demand(master, two, 4172, 0, 4172, 0)
     return c
 
