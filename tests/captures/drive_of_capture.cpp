@@ -119,7 +119,7 @@ std::optional<Frame> DriveOfACapture::next_answer(std::size_t step, bool (*is_it
 {
     for (std::size_t i = step; i < script_.steps.size(); ++i) {
         if (i > step && begins_layout(script_.steps[i])) break;
-        const auto answer = frame_of(script_.steps[i].answer);
+        auto answer = frame_of(script_.steps[i].answer);
         if (answer && is_it(*answer)) return answer;
     }
     return std::nullopt;
