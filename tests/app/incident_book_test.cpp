@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 namespace dpslave::app {
 namespace {
 
@@ -67,6 +69,116 @@ TEST_F(IncidentBookTest, KeepsAnIncidentOfTwelveHoursAgoThroughAStormOfOthers)
     ASSERT_EQ(book.kept().size(), IncidentBook::kFirst + IncidentBook::kLast);
     EXPECT_EQ(book.kept()[0].key.reason, "watchdog");
     EXPECT_GT(book.not_kept(), 0U);
+}
+
+/// What a book has that has been there for long: its first places are taken, and a day without incidents.
+class IncidentOfTwelveHoursAgo : public IncidentBookTest {
+protected:
+    void SetUp() override
+    {
+        happen(8, "of last year ");
+        pass(hours{24 * 300});
+        ASSERT_EQ(happens("watchdog"), Verdict::opened);
+        pass(hours{12});
+    }
+    /// One a second, each of them another one of `different`.
+    void storm(seconds time, int different, const std::string& name)
+    {
+        for (int i = 0; i < time.count(); ++i) {
+            happens(name + std::to_string(i % different));
+            pass(seconds{1});
+        }
+    }
+    bool is_kept(const std::string& reason) const
+    {
+        return std::any_of(book.kept().begin(), book.kept().end(),
+                           [&](const Incident& one) { return one.key.reason == reason; });
+    }
+};
+
+TEST_F(IncidentOfTwelveHoursAgo, IsKeptThroughADayOfCalmTraffic)
+{
+    for (int second = 0; second < 24 * 3600; ++second) pass(seconds{1});
+
+    EXPECT_TRUE(is_kept("watchdog"));
+}
+
+TEST_F(IncidentOfTwelveHoursAgo, IsKeptThroughAStormOfDifferentOnesHoweverLong)
+{
+    storm(hours{28}, 1'000'000, "storm ");
+
+    EXPECT_TRUE(is_kept("watchdog"));
+    EXPECT_TRUE(is_kept("storm 0")) << "what it began with";
+    EXPECT_TRUE(is_kept(book.kept().back().key.reason));
+    EXPECT_EQ(book.kept().size(), IncidentBook::kFirst + IncidentBook::kLast);
+}
+
+TEST_F(IncidentOfTwelveHoursAgo, IsKeptThroughAStormOfHundredsOfAFewKinds)
+{
+    storm(hours{28}, 300, "storm ");
+
+    EXPECT_TRUE(is_kept("watchdog"));
+}
+
+TEST_F(IncidentOfTwelveHoursAgo, IsKeptThroughStormAfterStorm)
+{
+    for (int one = 0; one < 20; ++one) {
+        storm(minutes{40}, 1'000'000, "storm " + std::to_string(one) + " ");
+        pass(hours{2});
+    }
+
+    EXPECT_TRUE(is_kept("watchdog"));
+}
+
+TEST_F(IncidentOfTwelveHoursAgo, IsKeptIfItWasInTheMiddleOfAStormAndAnotherOneComes)
+{
+    happen(6, "the same ");
+    ASSERT_EQ(happens("in the middle"), Verdict::opened);
+    pass(minutes{2});
+    happen(4, "the same too ");
+    pass(hours{12});
+    storm(hours{28}, 1'000'000, "storm ");
+
+    EXPECT_TRUE(is_kept("in the middle"));
+    EXPECT_TRUE(is_kept("watchdog"));
+}
+
+TEST_F(IncidentOfTwelveHoursAgo, IsKeptThroughAStormThatGoesOnAfterARestart)
+{
+    storm(hours{3}, 1'000'000, "before ");
+    const std::vector<Incident> of_the_folder = book.kept();
+    book = IncidentBook{};
+    book.restore(of_the_folder, 0);
+    storm(hours{28}, 1'000'000, "behind ");
+
+    EXPECT_TRUE(is_kept("watchdog"));
+    EXPECT_TRUE(is_kept("before 0"));
+    EXPECT_FALSE(is_kept("behind 0")) << "it is the same storm";
+}
+
+TEST_F(IncidentOfTwelveHoursAgo, IsKeptHoweverOtherOnesAreSpreadOverTheseHours)
+{
+    for (const auto distance : {seconds{61}, seconds{3599}, seconds{3600}, seconds{3601}}) {
+        const std::string name = std::to_string(distance.count());
+        ASSERT_EQ(happens("of " + name), Verdict::opened);
+        for (auto time = distance; time <= hours{12}; time += distance) {
+            pass(distance);
+            happens(name + " other " + std::to_string(time.count()));
+        }
+        EXPECT_TRUE(is_kept("of " + name));
+        pass(hours{12});
+    }
+}
+
+TEST_F(IncidentOfTwelveHoursAgo, MakesRoomWhen24OthersHaveComeEachAfterAnHourOfCalm)
+{
+    for (int i = 0; i < 23; ++i, pass(hours{1}))
+        ASSERT_EQ(happens("rare " + std::to_string(i)), Verdict::opened);
+    EXPECT_TRUE(is_kept("watchdog"));
+    ASSERT_EQ(happens("rare 23"), Verdict::opened);
+
+    EXPECT_FALSE(is_kept("watchdog"));
+    EXPECT_TRUE(is_kept("rare 0"));
 }
 
 TEST_F(IncidentBookTest, KeepsTheFirst8AndTheLast24AndSaysWhichFilesCanGo)

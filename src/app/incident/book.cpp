@@ -9,6 +9,15 @@ namespace {
 
 constexpr std::array<std::string_view, 5> kCodes{"left", "refused", "flaws", "drive", "answer"};
 
+/// By CLOCK_REALTIME, which is all that is known of a run before. A clock that was set back ends no storm.
+std::uint64_t storm_of(const Incident& one, const Incident* before)
+{
+    const bool goes_on =
+        before != nullptr &&
+        std::chrono::nanoseconds{one.first_unix_ns - before->first_unix_ns} < IncidentBook::kCalm;
+    return goes_on ? before->storm : one.number;
+}
+
 } // namespace
 
 std::string_view code(IncidentKind kind) noexcept
@@ -42,11 +51,13 @@ IncidentBook::Verdict IncidentBook::happened(const IncidentKey& key, std::string
         ++not_kept_;
         return Verdict::not_kept;
     }
-    kept_.push_back({.number = next_++,
-                     .key = key,
-                     .text = std::string{text},
-                     .first_unix_ns = unix_ns,
-                     .last_unix_ns = unix_ns});
+    Incident one{.number = next_++,
+                 .key = key,
+                 .text = std::string{text},
+                 .first_unix_ns = unix_ns,
+                 .last_unix_ns = unix_ns};
+    one.storm = storm_of(one, kept_.empty() ? nullptr : &kept_.back());
+    kept_.push_back(std::move(one));
     open_ = kept_.back().number;
     open_until_ = now + kAfter;
     drop_surplus();
@@ -71,14 +82,31 @@ bool IncidentBook::may_open(Instant now)
     return true;
 }
 
-/// The newest stays, whatever is kept: it is among the last.
 void IncidentBook::drop_surplus()
 {
     while (kept_.size() > kFirst + kLast) {
-        const auto oldest_of_last = kept_.begin() + kFirst;
-        dropped_.push_back(oldest_of_last->number);
-        kept_.erase(oldest_of_last);
+        const auto one = surplus();
+        dropped_.push_back(one->number);
+        kept_.erase(one);
     }
+}
+
+/// Of the last: the oldest of the largest storm, but not the one that began it, and not the newest. If each
+/// stands for another storm, the oldest.
+std::vector<Incident>::iterator IncidentBook::surplus()
+{
+    const auto last = kept_.begin() + kFirst;
+    auto found = last;
+    std::ptrdiff_t most = 1;
+    for (auto one = last; one + 1 != kept_.end(); ++one) {
+        if (one->storm == one->number) continue;
+        const auto of_its_storm = std::count_if(
+            last, kept_.end(), [&](const Incident& other) { return other.storm == one->storm; });
+        if (of_its_storm <= most) continue;
+        found = one;
+        most = of_its_storm;
+    }
+    return found;
 }
 
 const Incident* IncidentBook::opened() const
@@ -98,6 +126,11 @@ void IncidentBook::restore(std::vector<Incident> kept, std::uint64_t next_number
     kept_ = std::move(kept);
     std::sort(kept_.begin(), kept_.end(),
               [](const Incident& one, const Incident& other) { return one.number < other.number; });
+    const Incident* before = nullptr;
+    for (Incident& one : kept_) {
+        one.storm = storm_of(one, before);
+        before = &one;
+    }
     next_ = std::max(next_, next_number);
     if (!kept_.empty()) next_ = std::max(next_, kept_.back().number + 1);
     drop_surplus();

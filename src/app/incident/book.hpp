@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Which incidents are kept: the first 8 and the last 24. Equal ones are counted on the one that is kept, and
-/// what happens within the time that an incident covers belongs to it. Pure; main thread only. The telegrams
-/// are in files (incident_folder.hpp), not here.
+/// Which incidents are kept: the first 8 and the last 24, of which those of a storm push out each other
+/// before what was there when it began. Equal ones are counted on the one that is kept, and what happens
+/// within the time that an incident covers belongs to it. Pure; main thread only. The telegrams are in files
+/// (folder.hpp), not here.
 #pragma once
 
 #include "dpslave/base/units.hpp"
@@ -43,6 +44,7 @@ struct Incident {
     std::int64_t last_unix_ns = 0;   ///< of the newest equal one
     std::uint64_t count = 1;         ///< with those that were equal
     std::vector<IncidentKey> also{}; ///< what else happened within its time; kMostAlso at most
+    std::uint64_t storm = 0;         ///< number of the incident that began the storm it belongs to
 };
 
 class IncidentBook {
@@ -51,6 +53,9 @@ public:
     static constexpr std::size_t kMostAlso = 16;
     /// What an incident covers, around its first moment.
     static constexpr std::chrono::seconds kBefore{3}, kAfter{2};
+    /// A storm ends when so long none was opened. An incident that begins one is kept for 23 times as long at
+    /// least: only what begins a later storm, and the newest, can push it out.
+    static constexpr std::chrono::hours kCalm{1};
     /// So many in a row, then one in each kPause: files are written, and a flash memory wears out.
     static constexpr unsigned kInARow = 8;
     static constexpr std::chrono::seconds kPause{60};
@@ -87,6 +92,7 @@ private:
     Incident* equal_of(const IncidentKey& key);
     bool may_open(Instant now);
     void drop_surplus();
+    std::vector<Incident>::iterator surplus();
 
     std::vector<Incident> kept_;
     std::vector<std::uint64_t> dropped_;
