@@ -16,11 +16,11 @@ _dpsim()
         *)
             case $command in
                 '') words='line drive master replay --help --version' ;;
-                line) words='--baud --bits --a --b --any-rate --errors --delay --seed --help' ;;
+                line) words='--baud --bits --a --b --any-rate --errors --delay --seed --log-a --log-b --help' ;;
                 drive) words='--profile --port --baud --unit --table --turnaround --programs --parity --fault --log --help' ;;
                 master) words='--port --baud --master --slave --family --ident --prm --tags --prm-length --cfg --no-demand
                                --watchdog --no-watchdog --min-tsdr --group --no-sync-freeze --cycle --slot-ms --retries
-                               --sd3 --script --help' ;;
+                               --others --sd3 --script --help' ;;
                 replay) words='--port --baud --drive --line --drive-baud --fast --retries --slot-ms --help'
                     [ "${cur:0:1}" = - ] || { compopt -o filenames 2>/dev/null
                         mapfile -t COMPREPLY < <(compgen -f -- "$cur"); return; } ;;

@@ -38,6 +38,9 @@ void add_line(CLI::App& app, LineOptions& o)
         ->check(CLI::Range(0, 10'000'000));
     line.add_option("--seed", o.seed, "seed of the random bit errors");
     line.add_flag("--any-rate", o.any_rate, "the ends may be set to any rate");
+    line.add_option("--log-a", o.log_a,
+                    "file for each octet that arrives at end a, as it is; whole after stats and at the end");
+    line.add_option("--log-b", o.log_b, "the same of end b");
     line.footer(
         "Prints 'ready PATH PATH' when both ends can be opened.\n"
         "Commands on standard input: " +
@@ -141,6 +144,11 @@ void add_master(CLI::App& app, MasterOptions& o, MasterTexts& t)
     master.add_option("--retries", o.settings.retries, "repetitions of a request without answer")
         ->capture_default_str()
         ->check(CLI::Range(0, 15));
+    master
+        .add_option("--others", o.settings.others,
+                    "exchanges of other stations before each request, from address 90 on: the bus is busy")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 32));
     master.add_flag("--sd3", t.sd3, "SD3 telegrams for data units of eight octets");
     master.add_option("--script", o.script,
                       "file of commands, - for standard input; ends at the first failure");

@@ -133,5 +133,16 @@ TEST(MasterOptions, ThatCannotBeAreExplained)
     EXPECT_THAT(fault_of(texts), HasSubstr("same address"));
 }
 
+TEST(MasterOptions, RefuseAnAddressThatIsOneOfTheOtherStations)
+{
+    MasterSettings settings;
+    settings.others = 4;
+    MasterTexts texts;
+    texts.slave = 93;
+    EXPECT_THAT(complete(settings, texts), HasSubstr("--others 4: they have the addresses 90 to 93"));
+    texts.slave = 94;
+    EXPECT_EQ(complete(settings, texts), "");
+}
+
 } // namespace
 } // namespace dpslave::sim

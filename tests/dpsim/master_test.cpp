@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The DP master against a slave of hand-written octets (wire reference 4.2, 2.6, 4.10, 6.4).
+#include "dpsim/common/bus_times.hpp"
 #include "master_bench.hpp"
 
 #include <gmock/gmock.h>
@@ -259,6 +260,39 @@ TEST(MasterSettingsTest, NeverMakeTheWatchdogShorterThanAsked)
         EXPECT_GE(got, ms);
         EXPECT_LE(got, ms + ms / 20 + 10) << ms;
     }
+}
+
+/// A master that is not alone on its bus.
+class MasterOfABusyBus : public MasterBench {
+protected:
+    MasterOfABusyBus() : MasterBench(settings()) {}
+    static MasterSettings settings()
+    {
+        MasterSettings s = reference_settings();
+        s.others = 2;
+        return s;
+    }
+};
+
+TEST_F(MasterOfABusyBus, SendsTheTelegramsOfTheOthersBeforeEachRequestNeverTheSameTwice)
+{
+    master.start();
+
+    const std::string first = hex(*next());
+    EXPECT_TRUE(
+        first.starts_with("68 0B 0B 68 5A 02 5D 00 00 00 00 00 00 00 00 B9 16 68 23 23 68 02 5A 08 00"));
+    EXPECT_NE(first.find("68 0B 0B 68 5B 02 7D 00 00 00 01 00 00 00 00 DB 16"), std::string::npos);
+    EXPECT_TRUE(first.ends_with(" 10 05 02 49 50 16"));
+    idle_out();
+    EXPECT_NE(hex(*next()).find("68 0B 0B 68 5A 02 5D 00 00 00 02 00 00 00 00 BB 16"), std::string::npos);
+}
+
+TEST_F(MasterOfABusyBus, WaitsForAnAnswerUntilTheTelegramsOfTheOthersAreOnTheLine)
+{
+    master.start();
+    const std::size_t octets = next()->size();
+
+    EXPECT_GE(master.next_deadline(), now + duration_of(characters(octets), Baud::k187_5));
 }
 
 struct CfgCase {

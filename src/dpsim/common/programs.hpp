@@ -17,7 +17,8 @@ struct LineOptions {
     double errors = 0;
     std::uint32_t delay_us = 0;
     std::uint64_t seed = 1;
-    bool any_rate = false; ///< the ends may be set to any rate
+    bool any_rate = false;    ///< the ends may be set to any rate
+    std::string log_a, log_b; ///< files for what arrives at each end; empty: none
 };
 inline constexpr std::string_view kLineCommands =
     "cut | restore | baud N | errors P | delay US | stats | quit";

@@ -8,7 +8,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <fstream>
 #include <mutex>
+#include <optional>
+#include <stdexcept>
 #include <thread>
 
 namespace dpslave::sim {
@@ -36,9 +39,12 @@ bool is_understood(std::uint32_t sent, std::uint32_t heard)
 /// that is set to another rate than the line's own sends and reads garbage, unless `any_rate`.
 class Direction {
 public:
-    Direction(Pty& from, Pty& to, Pacer pacer, bool any_rate)
-        : from_(from), to_(to), pacer_(std::move(pacer)), any_rate_(any_rate)
+    /// `log`: for what arrives; an empty name: none.
+    Direction(Pty& from, Pty& to, Pacer pacer, bool any_rate, const std::string& log)
+        : from_(from), to_(to), pacer_(std::move(pacer)), any_rate_(any_rate), has_log_(!log.empty())
     {
+        if (has_log_) log_.open(log, std::ios::binary | std::ios::trunc);
+        if (has_log_ && !log_) throw std::runtime_error{log + " cannot be written"};
         thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
     }
 
@@ -51,11 +57,13 @@ public:
     std::string stats()
     {
         const std::lock_guard lock(mutex_);
+        const bool is_logged = !has_log_ || log_.flush();
         return fmt::format(
             "{} octets passed, {} spoilt, {} lost while cut, {} lost because they were not read, {} "
             "sent and {} read "
-            "at another rate",
-            pacer_.passed(), pacer_.spoilt(), pacer_.lost(), unread_, sent_wrong_, read_wrong_);
+            "at another rate{}",
+            pacer_.passed(), pacer_.spoilt(), pacer_.lost(), unread_, sent_wrong_, read_wrong_,
+            is_logged ? "" : ", the log cannot be written");
     }
 
 private:
@@ -90,7 +98,9 @@ private:
                 pacer_.take(as_sent(*octets), monotonic_now());
         const Octets due = as_read(pacer_.due_by(monotonic_now()));
         if (due.empty()) return;
-        std::size_t put = write_all(to_.master.get(), due, 0ms);
+        const std::size_t put = write_all(to_.master.get(), due, 0ms);
+        if (has_log_)
+            log_.write(reinterpret_cast<const char*>(due.data()), static_cast<std::streamsize>(put));
         if (put < due.size()) { // it is not read there: the oldest are lost, as in a UART that overruns
             discard_unread(to_);
             unread_ += due.size() - put;
@@ -138,6 +148,8 @@ private:
     std::mutex mutex_;
     Pacer pacer_;
     bool any_rate_;
+    bool has_log_;
+    std::ofstream log_;              ///< what was written to `to_`
     std::optional<Listener> reader_; ///< an end that reads at another rate
     std::uint64_t unread_ = 0, sent_wrong_ = 0, read_wrong_ = 0;
     std::jthread thread_;
@@ -198,8 +210,14 @@ int run_line(const LineOptions& options)
         made.set_delay(std::chrono::microseconds{options.delay_us});
         return made;
     };
-    Direction ab{*a, *b, pacer(options.seed), options.any_rate};
-    Direction ba{*b, *a, pacer(options.seed + 1), options.any_rate};
+    std::optional<Direction> ab, ba;
+    try {
+        ab.emplace(*a, *b, pacer(options.seed), options.any_rate, options.log_b);
+        ba.emplace(*b, *a, pacer(options.seed + 1), options.any_rate, options.log_a);
+    } catch (const std::runtime_error& error) {
+        print_error(error.what());
+        return kNoPort;
+    }
     print_line(fmt::format("ready {} {}", options.a, options.b));
 
     LineReader input{STDIN_FILENO};
@@ -208,7 +226,7 @@ int run_line(const LineOptions& options)
         wait_readable({signals.fd(), input.fd()}, kNever);
         if (readable(input.fd())) input.read();
         while (const auto line = input.take()) {
-            const auto said = command(*line, ab, ba);
+            const auto said = command(*line, *ab, *ba);
             if (!said) return kFine;
             if (!said->empty()) print_line(*said);
         }

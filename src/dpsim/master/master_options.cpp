@@ -2,6 +2,7 @@
 #include "master_options.hpp"
 
 #include "dpsim/common/values.hpp"
+#include "other_stations.hpp"
 
 #include <fmt/format.h>
 
@@ -54,6 +55,12 @@ std::string complete(MasterSettings& s, const MasterTexts& t)
     s.address = static_cast<std::uint8_t>(t.address);
     s.slave = static_cast<std::uint8_t>(t.slave);
     if (s.address == s.slave) return "--master and --slave are the same address";
+    const auto is_of_others = [&](std::uint8_t address) {
+        return address >= kFirstOther && address < kFirstOther + s.others;
+    };
+    if (is_of_others(s.address) || is_of_others(s.slave))
+        return fmt::format("--others {}: they have the addresses {} to {}, as --master or --slave", s.others,
+                           kFirstOther, kFirstOther + s.others - 1);
     const bool option_board = t.family == "option-board";
     if (t.ident.empty() && !option_board)
         return "--family " + t.family + " needs --ident: the number in the GSD that the master uses";

@@ -44,6 +44,7 @@ std::vector<std::string> in_words(const MasterCounters& c)
                                                "refusals, {} times out of data exchange",
                                                c.diagnosis_reads, c.diagnosis_pending, c.refused,
                                                c.exchanges_lost)};
+    if (c.others > 0) lines.push_back(fmt::format("{} exchanges of other stations", c.others));
     if (c.cycles > 0)
         lines.push_back(fmt::format(
             "Data_Exchange, request handed over until answer whole: min {:.0f}, mean {:.0f}, max {:.0f} us",

@@ -24,6 +24,7 @@ struct MasterSettings {
     std::uint8_t group = 0x01;  ///< Group_Ident, a bit per group
     bool sync_freeze = true;    ///< ask for Sync and Freeze in Set_Prm
     Fixed fixed = Fixed::never; ///< SD3 for data units of eight octets
+    unsigned others = 0;        ///< exchanges of other stations before each request
     unsigned retries = 1;       ///< repetitions of a request that got no valid answer
     std::chrono::nanoseconds cycle = std::chrono::milliseconds{10}; ///< from one cyclic request to the next
     /// On top of the slot time, for the jitter of a host.
@@ -81,6 +82,7 @@ struct Answer {
 };
 
 struct MasterCounters {
+    std::uint64_t others = 0;         ///< exchanges of other stations
     std::uint64_t cycles = 0;         ///< Data_Exchange with a valid answer
     std::uint64_t retries = 0;        ///< requests sent again
     std::uint64_t missing = 0;        ///< requests without a valid answer after all retries
@@ -94,7 +96,7 @@ struct MasterCounters {
     std::chrono::nanoseconds answer_min{0}, answer_max{0}, answer_sum{0};
 };
 
-/// The counters in two or three lines.
+/// The counters in two to four lines.
 std::vector<std::string> in_words(const MasterCounters& counters);
 
 } // namespace dpslave::sim

@@ -56,13 +56,16 @@ std::optional<Octets> Requester::take_transmit(Instant now)
     to_send_ = false;
     rx_.clear();
     rx_flaw_.clear();
-    pending_->sent = now;
-    const Instant end = now + duration_of(characters(pending_->wire.size()), settings_.baud);
+    Octets octets = others_.exchanges(settings_.address, settings_.others);
+    counters_.others += settings_.others;
+    pending_->sent = now + duration_of(characters(octets.size()), settings_.baud);
+    const Instant end = pending_->sent + duration_of(characters(pending_->wire.size()), settings_.baud);
     pending_->give_up =
         pending_->answered
             ? end + duration_of(slot_time(settings_.baud) + kCharacter, settings_.baud) + settings_.allowance
             : end + duration_of(pause_after_sdn(settings_.baud), settings_.baud);
-    return pending_->wire;
+    octets.insert(octets.end(), pending_->wire.begin(), pending_->wire.end());
+    return octets;
 }
 
 std::optional<Requester::Outcome> Requester::on_bytes(Bytes octets, Instant now)

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "master_settings.hpp"
+#include "other_stations.hpp"
 
 namespace dpslave::sim {
 
@@ -70,6 +71,7 @@ private:
     MasterCounters& counters_;
     bool first_ = true; ///< the next counted request starts a sequence (FCB 1, FCV 0)
     bool fcb_ = false;  ///< of the next counted request
+    OtherStations others_;
     std::optional<Pending> pending_;
     bool to_send_ = false;
     Octets rx_, heard_;

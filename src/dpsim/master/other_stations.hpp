@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What the other stations of a busy bus say: exchanges of the same master with slaves from address
+/// kFirstOther on. Each telegram has a running number, so that none is like one before. Pure.
+#pragma once
+
+#include "dpsim/common/telegram.hpp"
+
+namespace dpslave::sim {
+
+inline constexpr std::uint8_t kFirstOther = 90;
+
+class OtherStations {
+public:
+    /// `count` exchanges, each a request and its reply, without a pause. `count` up to 32.
+    Octets exchanges(std::uint8_t master, unsigned count);
+
+private:
+    std::uint32_t number_ = 0; ///< of the next exchange
+};
+
+} // namespace dpslave::sim
