@@ -4,6 +4,7 @@
 #include "incident.hpp"
 #include "trace_condition.hpp"
 #include "trace_file.hpp"
+#include "trace_gaps.hpp"
 #include "trace_sources.hpp"
 
 #include "dpslave/base/base64.hpp"
@@ -66,6 +67,13 @@ public:
 
     /// The condition of --stop-on has held: nothing more is printed.
     bool has_stopped() const { return has_stopped_; }
+
+    /// What was printed until now reaches who reads it.
+    void flush()
+    {
+        if (file_ != nullptr) file_->flush();
+        terminal_.out << std::flush;
+    }
 
     /// The bus is among what is asked for.
     void expect_bus()
@@ -130,6 +138,7 @@ public:
     }
     void print(const LineEntry& /*entry*/, UnixOffset /*offset*/) {}
     void expect_bus() {}
+    void flush() {}
     static bool has_stopped() { return false; }
     const std::bitset<128>& changed() const { return changed_; }
 
@@ -137,48 +146,65 @@ private:
     std::bitset<128> changed_;
 };
 
+/// What one reply brings.
+struct Part {
+    std::vector<trace::Record> records;
+    std::vector<std::uint64_t> lost_before; ///< of each record
+};
+/// Nothing: its records cannot be read.
+std::optional<Part> part_of(const report::TraceReply& reply)
+{
+    const auto octets = from_base64(reply.records);
+    if (!octets) return std::nullopt;
+    Part part;
+    std::vector<std::uint64_t> numbers;
+    Bytes rest = *octets;
+    while (const auto record = trace::take_record(rest)) {
+        numbers.push_back(record->number);
+        part.records.push_back(*record);
+    }
+    if (!rest.empty()) return std::nullopt;
+    part.lost_before =
+        losses_before(numbers, static_cast<std::uint64_t>(std::max<std::int64_t>(reply.lost, 0)));
+    return part;
+}
+
 /// What one reply brings of a drive line. False: its records cannot be read.
 template <class Taker>
-bool take_line(const report::TraceReply& reply, Taker& printer)
+bool take_line(const report::TraceReply& reply, const Part& part, Taker& printer)
 {
     const UnixOffset offset{reply.unix_ns - reply.now_ns};
-    const auto octets = from_base64(reply.records);
-    if (!octets) return false;
-    Bytes rest = *octets;
-    bool is_first = true;
-    while (const auto record = trace::take_record(rest)) {
-        const auto entry = line_entry_of(*record, *reply.line);
+    for (std::size_t i = 0; i < part.records.size(); ++i) {
+        const auto entry = line_entry_of(part.records[i], *reply.line);
         if (!entry) return false;
         // The gap has the protocol of what comes behind it: its interface in a capture.
-        if (std::exchange(is_first, false) && reply.lost > 0)
-            printer.print(gap_before(*entry, static_cast<std::uint64_t>(reply.lost)), offset);
+        if (part.lost_before[i] > 0) printer.print(gap_before(*entry, part.lost_before[i]), offset);
         printer.print(*entry, offset);
     }
-    return rest.empty();
+    return true;
 }
 
 /// What one reply brings. False: its records cannot be read.
 template <class Taker>
 bool take(const report::TraceReply& reply, trace::Telegrams& telegrams, Taker& printer)
 {
-    if (reply.line) return take_line(reply, printer);
+    const auto part = part_of(reply);
+    if (!part) return false;
+    if (reply.line) return take_line(reply, *part, printer);
     printer.expect_bus();
     const UnixOffset offset{reply.unix_ns - reply.now_ns};
-    const Instant now{std::chrono::nanoseconds{reply.now_ns}};
-    const auto octets = from_base64(reply.records);
-    if (!octets) return false;
-    Bytes rest = *octets;
-    auto record = trace::take_record(rest);
-    if (reply.lost > 0)
-        telegrams.lost(static_cast<std::uint64_t>(reply.lost), record ? record->head.at : now);
-    for (; record; record = trace::take_record(rest)) telegrams.add(*record);
-    if (reply.caught_up) telegrams.pass_time(now);
+    for (std::size_t i = 0; i < part->records.size(); ++i) {
+        const trace::Record& record = part->records[i];
+        if (part->lost_before[i] > 0) telegrams.lost(part->lost_before[i], record.head.at);
+        telegrams.add(record);
+    }
+    if (reply.caught_up) telegrams.pass_time(Instant{std::chrono::nanoseconds{reply.now_ns}});
     while (!printer.has_stopped()) {
         const auto entry = telegrams.take();
         if (!entry) break;
         printer.print(*entry, offset);
     }
-    return rest.empty();
+    return true;
 }
 
 /// A capture has the drive lines as well, unless it is of some telegrams only. The past of a line is read
@@ -205,7 +231,7 @@ int run(const Options& options, Taker& printer, std::int64_t& ended_at, Terminal
             if (!telegrams) telegrams.emplace(std::chrono::nanoseconds{part.hold_back_ns});
             is_read = take(part, *telegrams, printer);
             ended_at = part.unix_ns;
-            terminal.out << std::flush;
+            printer.flush();
             return !is_read || printer.has_stopped() || (!options.follow && part.caught_up);
         });
     if (is_read) return code;

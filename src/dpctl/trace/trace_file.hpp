@@ -30,6 +30,8 @@ public:
     void add(const trace::Entry& entry, const TraceWords& words, UnixOffset offset,
              std::string_view note = {});
     void add(const LineEntry& entry, UnixOffset offset);
+    /// What was written as it came is in the file: it ends with a whole packet.
+    void flush() { file_.flush(); }
     /// The end: what was received and lost. The error is a sentence with the path.
     std::optional<std::string> finish(std::int64_t unix_ns);
 
