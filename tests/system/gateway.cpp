@@ -43,10 +43,13 @@ void must(const ::testing::AssertionResult& result)
     if (!result) throw std::runtime_error(result.message());
 }
 
-std::unique_ptr<Process> paced_line(unsigned baud, const char* bits, const fs::path& a, const fs::path& b)
+std::unique_ptr<Process> paced_line(unsigned baud, const char* bits, const fs::path& a, const fs::path& b,
+                                    const Arguments& more = {})
 {
-    auto process = std::make_unique<Process>(
-        Arguments{DPSIM_PROGRAM, "line", "--baud", std::to_string(baud), "--bits", bits, "--a", a, "--b", b});
+    Arguments command{DPSIM_PROGRAM, "line", "--baud", std::to_string(baud), "--bits", bits, "--a", a,
+                      "--b",         b};
+    command.insert(command.end(), more.begin(), more.end());
+    auto process = std::make_unique<Process>(std::move(command));
     must(process->says("ready"));
     return process;
 }
@@ -212,7 +215,7 @@ void Gateway::start_daemon()
 void Gateway::plug_bus()
 {
     if (wiring_.bus_port.empty())
-        bus_ = paced_line(wiring_.bus_baud, "11", bus_end(), folder_ / "bus-gateway");
+        bus_ = paced_line(wiring_.bus_baud, "11", bus_end(), folder_ / "bus-gateway", wiring_.bus);
 }
 
 void Gateway::unplug_bus()
@@ -323,12 +326,18 @@ std::uint64_t Gateway::flaws() const
 
 std::string Gateway::spoken_on_the_bus()
 {
+    const std::string line = passed_on_the_bus("b to a");
+    return line.substr(0, line.find(" passed"));
+}
+
+std::string Gateway::passed_on_the_bus(const std::string& direction)
+{
     const std::size_t before = bus_->transcript().size();
     bus_->send_line("stats");
-    const auto found = bus_->transcript().await("b to a: ", before, kLimit);
-    if (!found) return "the line gives no answer";
-    const std::string line = bus_->transcript().lines(*found).front();
-    return line.substr(0, line.find(" passed"));
+    // Both lines: the next one is not to find the second one of this answer.
+    if (!bus_->transcript().await("b to a: ", before, kLimit)) return "the line gives no answer";
+    const auto found = bus_->transcript().await(direction + ": ", before, kLimit);
+    return bus_->transcript().lines(found.value_or(before)).front();
 }
 
 // ---- the master

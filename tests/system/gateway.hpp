@@ -41,6 +41,7 @@ struct Wiring {
     unsigned bus_baud = 187'500;
     unsigned drive_baud = 38'400; ///< faster than usual: no test waits longer than it must
     std::string bus_port{}; ///< a tty of the test instead of the simulated bus; empty: the simulated bus
+    Arguments bus{};        ///< more options of dpsim line for it
     std::string profile = "590";
     std::vector<std::string> units{"00"};
     std::vector<std::string> present{}; ///< of the units, those that are really there; empty: all
@@ -116,6 +117,8 @@ public:
 
     /// How many octets the gateway has put on the bus, as the simulated line counts them.
     std::string spoken_on_the_bus();
+    /// What the simulated line counts of its direction "a to b" (to the gateway) or "b to a".
+    std::string passed_on_the_bus(const std::string& direction);
 
 private:
     void plug_drive_line();
