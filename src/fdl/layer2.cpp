@@ -100,7 +100,10 @@ void Layer2::on_character_error(Instant read_at)
 
 void Layer2::on_time(Instant now)
 {
-    while (receiver_.on_time(now)) take_heard();
+    while (receiver_.on_time(now)) {
+        silence_ = now;
+        take_heard();
+    }
     if (pending_ && now > pending_->not_after) { // the master has given up: a late reply would meet its retry
         leave_unanswered(Unanswered::Why::late, pending_->address, now);
         pending_.reset();

@@ -42,6 +42,7 @@ void Telegrams::add(const Record& record)
             done_.push_back(std::move(entry));
             break;
         }
+        case Kind::silence: pass_time(record.head.at); break;
         case Kind::rate: done_.push_back(simple(Entry::What::rate, record.head.at)); break;
         case Kind::asked:
         case Kind::answered:
@@ -72,11 +73,10 @@ std::optional<Entry> Telegrams::take()
     return next;
 }
 
-/// As Layer2 does it: the pause first, then the octets.
+/// As Layer2 does it. When it looked at the time is a record of its own: a bus thread that read late has not.
 void Telegrams::hear(Bytes octets, bool is_bad, const Record& record)
 {
     if (octets.empty()) return;
-    pass_time(record.head.at);
     receiver_.begin_read(octets.size(), record.head.at);
     take_heard();
     const auto uncertainty = uncertainty_of(octets.size(), record.head.at);

@@ -63,6 +63,21 @@ TEST_F(TraceOfTheBus, SaysThatAReplyWasNotTakenByThePort)
     EXPECT_EQ(all.back().head.address, kStation);
 }
 
+TEST_F(TraceOfTheBus, SaysWhenWhatWasUnfinishedWasGivenUp)
+{
+    start({}, {station(kStation)});
+    ASSERT_TRUE(master.ask(fdl_status(kStation)));
+    EXPECT_EQ(master.ask({0x68, 0x0B, 0x0B}, 1), std::nullopt);
+    ASSERT_TRUE(eventually(
+        [this] { return snapshot().counters.flaws[static_cast<std::size_t>(fdl::Flaw::unfinished)] != 0; }));
+    stop();
+
+    const auto all = records();
+    ASSERT_FALSE(all.empty());
+    EXPECT_EQ(all.back().head.kind, Kind::silence);
+    EXPECT_THAT(heard_before(all, all.back().number), EndsWith("h\x0B\x0B"));
+}
+
 TEST_F(TraceOfTheBus, NamesTheRateThatASearchGoesOnAt)
 {
     start({.baud = std::nullopt}, {station(kStation)});

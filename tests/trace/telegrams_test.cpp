@@ -151,6 +151,38 @@ TEST_F(TraceTelegrams, AStumpIsAPieceWhenTheLineHasFallenSilent)
     EXPECT_EQ(all[0].octets.size(), 5U);
 }
 
+/// More octets than a FIFO holds, read at once: the reader was late, and the line was not silent.
+TEST_F(TraceTelegrams, ATelegramWhoseRestWasReadLateIsOneEntryAsForLayer2)
+{
+    const Octets longest = test::sd2(5, 2, 0x5D, Octets(200, 0x12));
+    const Octets rest{longest.begin() + 5, longest.end()};
+    hear({longest.begin(), longest.begin() + 5}, kStart);
+    hear(rest, kStart + characters(static_cast<std::uint32_t>(rest.size())));
+
+    const auto all = take();
+
+    ASSERT_EQ(all.size(), 1U);
+    EXPECT_EQ(all[0].what, What::telegram);
+    EXPECT_EQ(all[0].octets, longest);
+}
+
+TEST_F(TraceTelegrams, WhatLayer2GaveUpIsAPieceThoughItsRestCameAtOnceBehindIt)
+{
+    const Octets longest = test::sd2(5, 2, 0x5D, Octets(200, 0x12));
+    const Octets rest{longest.begin() + 5, longest.end()};
+    const Instant read_at = kStart + characters(static_cast<std::uint32_t>(rest.size()));
+    hear({longest.begin(), longest.begin() + 5}, kStart);
+    telegrams.add({.head = {.kind = Kind::silence, .rate = k19_2, .at = read_at - 1us}});
+    hear(rest, read_at);
+    telegrams.pass_time(read_at + 1s);
+
+    const auto all = take();
+
+    ASSERT_GE(all.size(), 2U);
+    EXPECT_EQ(all[0].flaw, fdl::Flaw::unfinished);
+    EXPECT_EQ(all[0].octets.size(), 5U);
+}
+
 TEST_F(TraceTelegrams, BadCharactersAreCountedInTheirPiece)
 {
     hear({request.begin(), request.begin() + 6}, kStart, true);

@@ -99,6 +99,8 @@ public:
 
     /// Requests to our addresses that get no reply, in their order; for a trace. Those that are not taken in
     /// time are dropped.
+    /// When what was unfinished was last given up for want of more, in on_time(); each time once.
+    std::optional<Instant> take_silence() { return std::exchange(silence_, std::nullopt); }
     std::optional<Unanswered> take_unanswered() { return unanswered_.pop(); }
 
     /// The last moment at which the reply that take_transmit() gave last may still begin: a write that ends
@@ -167,6 +169,7 @@ private:
     std::uint8_t answered_address_ = 0;
     Instant last_telegram_{};
     Queue<Unanswered, 8> unanswered_;
+    std::optional<Instant> silence_;
     Counters counters_;
 };
 

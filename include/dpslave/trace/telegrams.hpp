@@ -49,7 +49,7 @@ public:
     void add(const Record& record);
     /// `count` records before the next one are missing.
     void lost(std::uint64_t count, Instant at);
-    /// Time has passed without a record: what is unfinished may be given up.
+    /// The records end here: what is unfinished may be given up. Within them, those of silence say so.
     void pass_time(Instant now);
     /// The next finished entry, in the order of the line.
     std::optional<Entry> take();

@@ -115,6 +115,11 @@ void BusPort::hear_withheld(Bytes octets, Instant read_at, fdl::Layer2& layer2)
     layer2.on_bytes(octets, read_at, true);
 }
 
+void BusPort::note_silence(fdl::Layer2& layer2)
+{
+    if (const auto at = layer2.take_silence()) trace_.silence(*at, layer2.baud());
+}
+
 void BusPort::commit_trace(fdl::Layer2& layer2)
 {
     while (const auto request = layer2.take_unanswered()) trace_.unanswered(*request, layer2.baud());

@@ -57,6 +57,8 @@ public:
     };
     /// The reply leaves now. Gives the moment after the write; nothing: it was not sent, and is counted.
     std::optional<Instant> send(const Reply& reply);
+    /// Behind what was read before: when `layer2` gave up what was unfinished.
+    void note_silence(fdl::Layer2& layer2);
     /// What was read and sent since the last call, and what `layer2` has left unanswered, goes into the
     /// trace.
     void commit_trace(fdl::Layer2& layer2);

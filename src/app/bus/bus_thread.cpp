@@ -102,6 +102,7 @@ void BusThread::process(bool octets)
     if (octets) port_.read(layer2_);
     processed_at_ = io::monotonic_now();
     layer2_.on_time(processed_at_);
+    port_.note_silence(layer2_);
 }
 
 /// The window of a reply opens in a moment. The wait is used to pass on what this telegram brought, for

@@ -38,6 +38,11 @@ void BusTrace::unanswered(const fdl::Unanswered& request, Baud baud)
          {});
 }
 
+void BusTrace::silence(Instant at, Baud baud)
+{
+    note({.kind = trace::Kind::silence, .rate = number_of(baud), .at = at}, {});
+}
+
 void BusTrace::rate(Instant now, Baud baud)
 {
     note({.kind = trace::Kind::rate, .rate = number_of(baud), .at = now}, {});

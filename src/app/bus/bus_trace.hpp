@@ -24,6 +24,8 @@ public:
     void sent(Bytes octets, Instant begun, Instant written, Baud baud);
     /// A request of ours that gets no reply; `why` of layer 2 or of the port.
     void unanswered(const fdl::Unanswered& request, Baud baud);
+    /// Layer 2 has given up what was unfinished.
+    void silence(Instant at, Baud baud);
     /// The bus goes on at another rate.
     void rate(Instant now, Baud baud);
 

@@ -184,9 +184,9 @@ bool take_line(const report::TraceReply& reply, const Part& part, Taker& printer
     return true;
 }
 
-/// What one reply brings. False: its records cannot be read.
+/// What one reply brings. `is_end`: of a trace of the past. False: its records cannot be read.
 template <class Taker>
-bool take(const report::TraceReply& reply, trace::Telegrams& telegrams, Taker& printer)
+bool take(const report::TraceReply& reply, bool is_end, trace::Telegrams& telegrams, Taker& printer)
 {
     const auto part = part_of(reply);
     if (!part) return false;
@@ -198,7 +198,7 @@ bool take(const report::TraceReply& reply, trace::Telegrams& telegrams, Taker& p
         if (part->lost_before[i] > 0) telegrams.lost(part->lost_before[i], record.head.at);
         telegrams.add(record);
     }
-    if (reply.caught_up) telegrams.pass_time(Instant{std::chrono::nanoseconds{reply.now_ns}});
+    if (is_end) telegrams.pass_time(Instant{std::chrono::nanoseconds{reply.now_ns}});
     while (!printer.has_stopped()) {
         const auto entry = telegrams.take();
         if (!entry) break;
@@ -229,7 +229,7 @@ int run(const Options& options, Taker& printer, std::int64_t& ended_at, Terminal
         follow_replies(options, terminal, "Trace", wanted, [&](const control::ReplyMessage& reply) {
             const auto part = report::read<report::TraceReply>(reply.parameters);
             if (!telegrams) telegrams.emplace(std::chrono::nanoseconds{part.hold_back_ns});
-            is_read = take(part, *telegrams, printer);
+            is_read = take(part, !options.follow && part.caught_up, *telegrams, printer);
             ended_at = part.unix_ns;
             printer.flush();
             return !is_read || printer.has_stopped() || (!options.follow && part.caught_up);

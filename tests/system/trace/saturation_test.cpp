@@ -217,6 +217,11 @@ TEST_F(TraceAtSaturation, HasEachOctetThatTheLineCountedAndNoMore)
     EXPECT_TRUE(are_equal(octets_of(packets, Direction::inbound), heard));
     EXPECT_TRUE(are_equal(octets_of(packets, Direction::outbound), spoken));
     EXPECT_EQ(dropped_in(path), 0U);
+    const auto telegrams = std::count_if(packets.begin(), packets.end(), [](const pcapng::Packet& one) {
+        return one.direction == Direction::inbound && !one.checksum_error && !one.octets.empty();
+    });
+    EXPECT_EQ(static_cast<std::uint64_t>(telegrams), gateway.counter("bus", "telegrams"))
+        << "a telegram is what layer 2 took for one";
     expect_nothing_malformed(gateway, path);
     print_figures(heard, spoken, packets, took);
 }
