@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The bus while the control socket has callers, against the same bus while strangers need as much of the
-/// machine. What the daemon's other threads need for the callers counts for them.
+/// machine. What the daemon's other threads need for the callers counts for them. Callers of the recorder are
+/// compared with a daemon that has none.
 #include "load.hpp"
 #include "measurements.hpp"
 #include "statistics.hpp"
@@ -15,13 +16,16 @@
 #include <array>
 #include <optional>
 #include <random>
+#include <string>
 #include <system_error>
+#include <vector>
 
 namespace dpslave::bench {
 namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
+using std::chrono::seconds;
 
 /// The master keeps its pace whatever else the machine does: only the responder is measured. What it starts
 /// has ordinary scheduling.
@@ -48,13 +52,15 @@ private:
 
 class Bus {
 public:
-    explicit Bus(const Setup& setup)
+    /// `keys`: a table of the daemon's configuration.
+    Bus(const Setup& setup, const char* keys)
         : daemon_(start_daemon({.program = setup.daemon,
                                 .profiles = setup.profiles,
                                 .bus = bus_.path(),
                                 .drive = drive_.path(),
                                 .folder = folder_.path(),
-                                .cpu = setup.cpu})),
+                                .cpu = setup.cpu,
+                                .keys = keys})),
           talk_(bus_)
     {
         talk_.start_up(daemon_, Words::half_written);
@@ -89,11 +95,22 @@ private:
     pid_t thread_ = 0;
 };
 
+/// What a measurement compares.
+struct Comparison {
+    const char* id = "";
+    const char* metric = ""; ///< behind "turnaround p50, "
+    CallerPlan callers;
+    const char* without = nullptr; ///< a table of the daemon that the strangers meet; null: the same daemon
+    milliseconds length{};         ///< of each arm
+    const char* note = "";         ///< who the callers are
+};
+
 class Arms {
 public:
-    explicit Arms(const Setup& setup)
-        : setup_(setup), bus_(setup), length_(setup.quick ? milliseconds{200} : milliseconds{700})
+    Arms(const Setup& setup, const Comparison& what)
+        : setup_(setup), what_(what), bus_(setup, ""), length_(setup.quick ? milliseconds{200} : what.length)
     {
+        if (what.without != nullptr) other_.emplace(setup, what.without);
         bus_.run(length_);
         idle_ = share_of([this] { return bus_.cpu_beside_bus(); }, [this] { bus_.run(length_); });
         with_callers();
@@ -101,7 +118,7 @@ public:
 
     Times with_callers()
     {
-        const Callers callers{setup_.dpctl, bus_.socket()};
+        const Callers callers{setup_.dpctl, bus_.socket(), what_.callers};
         Times times;
         bus_.run(milliseconds{200}); // they have begun by then
         const double share = share_of([&] { return callers.cpu() + bus_.cpu_beside_bus(); },
@@ -112,10 +129,11 @@ public:
 
     Times with_strangers()
     {
-        const Strangers strangers{std::clamp(needed(), 0.001, 0.9)};
+        const Strangers strangers{std::clamp(needed(), 0.001, kMostOfAProcessor)};
+        Bus& bus = other_ ? *other_ : bus_;
         Times times;
-        bus_.run(milliseconds{200});
-        burnt_.push_back(share_of([&] { return strangers.cpu(); }, [&] { times = bus_.run(length_); }));
+        bus.run(milliseconds{200});
+        burnt_.push_back(share_of([&] { return strangers.cpu(); }, [&] { times = bus.run(length_); }));
         return times;
     }
 
@@ -132,21 +150,24 @@ private:
         return ratio(cpu() - before, io::monotonic_now() - begin);
     }
 
+    static constexpr double kMostOfAProcessor = 0.9;
+
     const Setup& setup_;
+    const Comparison& what_;
     Bus bus_;
+    std::optional<Bus> other_; ///< of the strangers; none: bus_
     nanoseconds length_;
     double idle_ = 0;
     std::vector<double> needed_, burnt_;
 };
 
-} // namespace
-
-Findings measure_callers(const Setup& setup)
+Findings compare(const Setup& setup, const Comparison& what)
 {
-    Row p50{.id = "M9", .metric = "turnaround p50, callers / strangers", .limit = 1.05, .noise = Noise::p50};
-    Row p99{.id = "M9", .metric = "turnaround p99, callers / strangers", .limit = 1.15, .noise = Noise::p99};
+    const std::string metric = what.metric;
+    Row p50{.id = what.id, .metric = "turnaround p50, " + metric, .limit = 1.05, .noise = Noise::p50};
+    Row p99{.id = what.id, .metric = "turnaround p99, " + metric, .limit = 1.15, .noise = Noise::p99};
     std::mt19937 random{setup.seed};
-    Arms arms{setup};
+    Arms arms{setup, what};
     enum Arm { callers, strangers, again };
     std::array<Arm, 3> order{callers, strangers, again};
     for (std::size_t block = 0; setup.goes_on(block); ++block) {
@@ -162,10 +183,32 @@ Findings measure_callers(const Setup& setup)
     }
     Findings found{.rows = {p50, p99}};
     found.notes.push_back(
-        fmt::format("4 x dpctl io --follow and dpctl status at 10 Hz need {:.1f} % of a processor with the "
-                    "daemon's share; the strangers burnt {:.1f} %",
-                    100 * arms.needed(), 100 * arms.burnt()));
+        fmt::format("{} need {:.1f} % of a processor with the daemon's share; the strangers burnt {:.1f} %",
+                    what.note, 100 * arms.needed(), 100 * arms.burnt()));
     return found;
+}
+
+} // namespace
+
+Findings measure_callers(const Setup& setup)
+{
+    const std::vector<const char*> values{"io", "--follow"};
+    return compare(setup, {.id = "M9",
+                           .metric = "callers / strangers",
+                           .callers = {.follow = {4, values}, .ask = "status", .period = milliseconds{100}},
+                           .length = milliseconds{700},
+                           .note = "4 x dpctl io --follow and dpctl status at 10 Hz"});
+}
+
+Findings measure_watchers(const Setup& setup)
+{
+    const std::vector<const char*> trace{"trace", "--follow"}, top{"top"};
+    return compare(setup, {.id = "M13",
+                           .metric = "recorder and its readers / no recorder and strangers",
+                           .callers = {.follow = {trace, trace, top}, .ask = "metrics", .period = seconds{1}},
+                           .without = "[trace]\nbus_kib = 0\ndrive_kib = 0\n",
+                           .length = seconds{1},
+                           .note = "2 x dpctl trace --follow, dpctl top and dpctl metrics once a second"});
 }
 
 } // namespace dpslave::bench

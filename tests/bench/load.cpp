@@ -8,7 +8,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <string>
+#include <condition_variable>
+#include <mutex>
 
 namespace dpslave::bench {
 namespace {
@@ -16,7 +17,6 @@ namespace {
 using std::chrono::nanoseconds;
 
 constexpr std::chrono::milliseconds kPeriod{100};
-constexpr std::size_t kFollowers = 4;
 
 Child start_dpctl(const std::filesystem::path& dpctl, const std::filesystem::path& socket,
                   const std::vector<const char*>& words)
@@ -46,19 +46,24 @@ void burn(nanoseconds in_each_period, nanoseconds first)
 
 } // namespace
 
-Callers::Callers(const std::filesystem::path& dpctl, const std::filesystem::path& socket)
+Callers::Callers(const std::filesystem::path& dpctl, const std::filesystem::path& socket,
+                 const CallerPlan& plan)
 {
-    for (std::size_t i = 0; i < kFollowers; ++i)
-        followers_.push_back(start_dpctl(dpctl, socket, {"io", "--follow"}));
-    asks_ = std::jthread{[this, dpctl, socket](const std::stop_token& stop) { ask(stop, dpctl, socket); }};
+    for (const auto& words : plan.follow) followers_.push_back(start_dpctl(dpctl, socket, words));
+    asks_ = std::jthread{
+        [this, dpctl, socket, plan](const std::stop_token& stop) { ask(stop, dpctl, socket, plan); }};
 }
 
 void Callers::ask(const std::stop_token& stop, const std::filesystem::path& dpctl,
-                  const std::filesystem::path& socket)
+                  const std::filesystem::path& socket, const CallerPlan& plan)
 {
-    for (Instant next = io::monotonic_now(); !stop.stop_requested(); next += kPeriod) {
-        std::this_thread::sleep_for(next - io::monotonic_now());
-        Child one = start_dpctl(dpctl, socket, {"status"});
+    std::mutex mutex;
+    std::condition_variable_any ends;
+    for (Instant next = io::monotonic_now() + plan.period / 2;; next += plan.period) {
+        std::unique_lock lock{mutex};
+        ends.wait_for(lock, stop, next - io::monotonic_now(), [] { return false; });
+        if (stop.stop_requested()) return;
+        Child one = start_dpctl(dpctl, socket, {plan.ask});
         asked_ += one.wait().count();
     }
 }

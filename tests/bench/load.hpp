@@ -13,20 +13,27 @@
 
 namespace dpslave::bench {
 
-/// 4 x `dpctl io --follow`, and `dpctl status` ten times a second, each time a new process.
+/// Who calls: the words of dpctl.
+struct CallerPlan {
+    std::vector<std::vector<const char*>> follow; ///< each runs all the time
+    const char* ask = nullptr;                    ///< once in each period, each time a new process
+    std::chrono::milliseconds period{};
+};
+
 class Callers {
 public:
-    Callers(const std::filesystem::path& dpctl, const std::filesystem::path& socket);
+    /// The first `ask` comes half a period behind the start.
+    Callers(const std::filesystem::path& dpctl, const std::filesystem::path& socket, const CallerPlan& plan);
 
     /// Of all of them up to now.
     std::chrono::nanoseconds cpu() const;
 
 private:
     void ask(const std::stop_token& stop, const std::filesystem::path& dpctl,
-             const std::filesystem::path& socket);
+             const std::filesystem::path& socket, const CallerPlan& plan);
 
     std::vector<Child> followers_;
-    std::atomic<std::int64_t> asked_{0}; ///< ns that `dpctl status` has needed
+    std::atomic<std::int64_t> asked_{0}; ///< ns that `ask` has needed
     std::jthread asks_;
 };
 

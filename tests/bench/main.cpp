@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The bench of the bus thread: rows M1 to M5, M8 and M9 of the table of tools/bench.
+/// The bench of the bus thread: rows M1 to M5, M8, M9 and M13 of the table of tools/bench.
 #include "measurements.hpp"
 #include "responder.hpp"
 
@@ -25,10 +25,9 @@ struct Measurement {
 };
 
 const std::vector<Measurement> kMeasurements{
-    {"turnaround", measure_turnaround},
-    {"other-station", measure_other_station},
-    {"many-stations", measure_many_stations},
-    {"callers", measure_callers},
+    {"turnaround", measure_turnaround},       {"other-station", measure_other_station},
+    {"many-stations", measure_many_stations}, {"callers", measure_callers},
+    {"watchers", measure_watchers},
 };
 
 void print(const Findings& found)
@@ -81,7 +80,8 @@ int main(int argc, char** argv)
                    "gpio: measures the turnaround with a driver enable (a stand-in), and nothing else")
         ->capture_default_str()
         ->check(CLI::IsMember({"none", "gpio"}));
-    app.add_option("--only", only, "One measurement: turnaround, other-station, many-stations, callers");
+    app.add_option("--only", only,
+                   "One measurement: turnaround, other-station, many-stations, callers, watchers");
     app.add_option("--json", json, "File for the figures of each block");
     app.add_flag("--quick", setup.quick, "One small block each, nothing judged");
     try {

@@ -58,5 +58,7 @@ Findings measure_other_station(const Setup& setup);
 Findings measure_many_stations(const Setup& setup);
 /// M9: with callers of the control socket, against a stranger that needs as much of the machine.
 Findings measure_callers(const Setup& setup);
+/// M13: the recorder and who reads it, against a daemon without one and a stranger likewise.
+Findings measure_watchers(const Setup& setup);
 
 } // namespace dpslave::bench

@@ -56,6 +56,7 @@ void write_config(const DaemonSetup& setup, const fs::path& file)
     for (std::size_t i = 0; i < setup.stations; ++i)
         out << "[[station]]\nname = \"bench" << i << "\"\naddress = " << kSlave + i
             << "\nprofile = \"590\"\nline = \"p3\"\nunit = \"" << i / 10 << i % 10 << "\"\n";
+    out << setup.keys;
     if (!out.flush()) throw std::runtime_error{file.string() + " cannot be written"};
 }
 

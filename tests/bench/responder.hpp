@@ -78,6 +78,7 @@ struct DaemonSetup {
         gpio_chip{};          ///< driver enable by line kDriverLine of this file; empty = direction "none"
     int cpu = -1;             ///< [realtime] cpu
     std::size_t stations = 1; ///< up to 32
+    std::string keys{};       ///< a table more of its configuration
 };
 Child start_daemon(const DaemonSetup& setup);
 /// Its control socket.
