@@ -178,7 +178,7 @@ void expect_nothing_malformed(const Gateway& gateway, const std::filesystem::pat
          scripts + "dpslaved_profibus.lua", "-X", scripts + "dpslaved_drive.lua", "-Y",
          "_ws.malformed || _ws.lua.error"},
         {{"HOME", gateway.folder("home").string()}, {"XDG_CONFIG_HOME", gateway.folder("home").string()}}};
-    EXPECT_EQ(tshark.wait(kLimit + std::chrono::seconds{seconds_of_traffic()}), 0);
+    EXPECT_EQ(tshark.wait(kLimit + 3 * std::chrono::seconds{seconds_of_traffic()}), 0);
     EXPECT_EQ(content(shown), "");
 }
 
