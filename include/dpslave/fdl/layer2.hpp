@@ -19,6 +19,7 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 namespace dpslave::fdl {
 
@@ -97,10 +98,12 @@ public:
     /// is none any more.
     std::optional<Bytes> take_transmit();
 
+    /// When what was unfinished was last given up for want of more, in on_time(); each time once. For a
+    /// trace.
+    std::optional<Instant> take_silence() { return std::exchange(silence_, std::nullopt); }
+
     /// Requests to our addresses that get no reply, in their order; for a trace. Those that are not taken in
     /// time are dropped.
-    /// When what was unfinished was last given up for want of more, in on_time(); each time once.
-    std::optional<Instant> take_silence() { return std::exchange(silence_, std::nullopt); }
     std::optional<Unanswered> take_unanswered() { return unanswered_.pop(); }
 
     /// The last moment at which the reply that take_transmit() gave last may still begin: a write that ends
