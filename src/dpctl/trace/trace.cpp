@@ -184,9 +184,19 @@ bool take_line(const report::TraceReply& reply, const Part& part, Taker& printer
     return true;
 }
 
-/// What one reply brings. `is_end`: of a trace of the past. False: its records cannot be read.
 template <class Taker>
-bool take(const report::TraceReply& reply, bool is_end, trace::Telegrams& telegrams, Taker& printer)
+void print_finished(trace::Telegrams& telegrams, UnixOffset offset, Taker& printer)
+{
+    while (!printer.has_stopped()) {
+        const auto entry = telegrams.take();
+        if (!entry) break;
+        printer.print(*entry, offset);
+    }
+}
+
+/// What one reply brings. False: its records cannot be read.
+template <class Taker>
+bool take(const report::TraceReply& reply, trace::Telegrams& telegrams, Taker& printer)
 {
     const auto part = part_of(reply);
     if (!part) return false;
@@ -198,12 +208,7 @@ bool take(const report::TraceReply& reply, bool is_end, trace::Telegrams& telegr
         if (part->lost_before[i] > 0) telegrams.lost(part->lost_before[i], record.head.at);
         telegrams.add(record);
     }
-    if (is_end) telegrams.pass_time(Instant{std::chrono::nanoseconds{reply.now_ns}});
-    while (!printer.has_stopped()) {
-        const auto entry = telegrams.take();
-        if (!entry) break;
-        printer.print(*entry, offset);
-    }
+    print_finished(telegrams, offset, printer);
     return true;
 }
 
@@ -225,15 +230,22 @@ int run(const Options& options, Taker& printer, std::int64_t& ended_at, Terminal
     if (has_all(options)) wanted["all"] = true;
     std::optional<trace::Telegrams> telegrams;
     bool is_read = true;
+    std::int64_t now = 0; // of the last reply, on the clock of the records
     const int code =
         follow_replies(options, terminal, "Trace", wanted, [&](const control::ReplyMessage& reply) {
             const auto part = report::read<report::TraceReply>(reply.parameters);
             if (!telegrams) telegrams.emplace(std::chrono::nanoseconds{part.hold_back_ns});
-            is_read = take(part, !options.follow && part.caught_up, *telegrams, printer);
+            is_read = take(part, *telegrams, printer);
             ended_at = part.unix_ns;
+            now = part.now_ns;
             printer.flush();
             return !is_read || printer.has_stopped() || (!options.follow && part.caught_up);
         });
+    // The last reply may be of a drive line: what is unfinished on the bus is given up behind all of them.
+    if (telegrams && !options.follow) {
+        telegrams->pass_time(Instant{std::chrono::nanoseconds{now}});
+        print_finished(*telegrams, UnixOffset{ended_at - now}, printer);
+    }
     if (is_read) return code;
     terminal.err << "dpctl: the records of the daemon cannot be read. Is dpctl of the same version? Compare: "
                     "dpctl version\n";
