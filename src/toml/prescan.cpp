@@ -19,21 +19,33 @@ public:
             const char c = rest_[0];
             if (c == '#')
                 skip_comment();
-            else if ((c == '"' || c == '\'') && may_begin_text())
+            else if ((c == '"' || c == '\'') && !is_behind())
                 skip_text();
-            else if (c == '[' && begins_line_ && depth_ == 0 && !is_header())
+            else if (c == '[' && begins_table() && !is_header())
                 found_ = Unparsed{at_, Why::no_name};
+            else if (closes_another(c))
+                found_ = Unparsed{at_, Why::closes_another};
+            else if (begins_second_number(c))
+                found_ = Unparsed{at_, Why::second_number};
             else if (is_too_deep(c))
                 found_ = Unparsed{at_, Why::nesting};
             else if (!is_ascii(c))
                 found_ = Unparsed{at_, Why::not_ascii};
-            else
+            else {
+                go_on(c);
                 take(1);
+            }
         }
         return found_;
     }
 
 private:
+    /// Where a key may stand, a value, and what follows the begin of a number or of another value.
+    enum class Part { key, value, behind_number, behind };
+
+    /// No quote begins a text: toml++ reads a number or a date up to its end, whatever stands in it.
+    bool is_behind() const { return part_ == Part::behind_number || part_ == Part::behind; }
+
     static constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
     /// TOML has none of them, not even in comments and texts.
@@ -44,10 +56,52 @@ private:
 
     static bool is_ascii(char c) { return static_cast<unsigned char>(c) < 0x80; }
 
-    /// A quote within a word is a part of it: toml++ goes on through the word.
-    bool may_begin_text() const
+    bool begins_table() const { return begins_line_ && open_.empty(); }
+
+    /// A bracket where a brace is open, or where nothing is; or the other way round.
+    bool closes_another(char c) const
     {
-        return std::string_view{" \t\r\n=,.[{\0", 10}.find(before_) != std::string_view::npos;
+        if (c == '}') return open_.empty() || open_.back() != '{';
+        return c == ']' && (open_.empty() || open_.back() == '{');
+    }
+
+    static bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+    /// Behind a number and a blank. TOML would allow it for a date and its time; no key of ours is one.
+    bool begins_second_number(char c) const
+    {
+        return part_ == Part::behind_number && before_ == ' ' && is_digit(c);
+    }
+
+    /// Which part of the text stands behind `c`.
+    void go_on(char c)
+    {
+        const bool was_behind = is_behind();
+        switch (c) {
+            case '=': part_ = was_behind ? part_ : Part::value; break;
+            case ',': part_ = !open_.empty() && open_.back() == '[' ? Part::value : Part::key; break;
+            case '[':
+                open_ += begins_table() || open_ == "t" ? 't' : '[';
+                if (!was_behind) part_ = open_.back() == 't' ? Part::key : Part::value;
+                break;
+            case '{':
+                open_ += '{';
+                if (!was_behind) part_ = Part::key;
+                break;
+            case ']':
+            case '}':
+                open_.pop_back();
+                part_ = Part::behind;
+                break;
+            case '\n':
+                if (open_.empty()) part_ = Part::key;
+                break;
+            case ' ':
+            case '\t':
+            case '\r': break;
+            default:
+                if (part_ == Part::value) part_ = is_digit(c) ? Part::behind_number : Part::behind;
+        }
     }
 
     /// What the parser takes for the head of a table: a key behind "[" or "[[", or what it refuses itself. It
@@ -70,9 +124,7 @@ private:
     {
         switch (c) {
             case '[':
-            case '{': dots_ = 0; return ++depth_ > kMaxNesting;
-            case ']':
-            case '}': depth_ -= depth_ > 0 ? 1 : 0; break;
+            case '{': dots_ = 0; return open_.size() >= kMaxNesting;
             case '.': return ++dots_ >= kMaxNesting;
             case '=':
             case ',':
@@ -90,6 +142,7 @@ private:
     /// A text of one line ends with it also where its quote is missing: the parser will say so.
     void skip_text()
     {
+        if (part_ == Part::value) part_ = Part::behind;
         const char quote = rest_[0];
         const std::array<char, 3> three{quote, quote, quote};
         const std::string_view long_mark{three.data(), three.size()};
@@ -131,7 +184,8 @@ private:
     bool begins_line_ = true; ///< since the begin of the line there are only blanks
     Place at_{1, 1};
     std::optional<Unparsed> found_;
-    unsigned depth_ = 0;
+    Part part_ = Part::key;
+    std::string open_;  ///< the brackets and braces around this place, 't' for those of a table's head
     unsigned dots_ = 0; ///< of the key that is being read
 };
 
@@ -153,6 +207,10 @@ std::string text(Unparsed::Why why)
             return "only texts in quotes and comments may have this character: write it in quotes, or remove "
                    "it.";
         case Unparsed::Why::no_name: return "the name of a table has to follow this bracket.";
+        case Unparsed::Why::closes_another:
+            return "nothing of this kind is open here: remove it, or close with the sign that fits.";
+        case Unparsed::Why::second_number:
+            return "a second number follows the value: remove one of them, or put a comma between them.";
         case Unparsed::Why::not_ascii_after_backslash:
             return "after this backslash only an ASCII character may follow: put the text on one line.";
     }

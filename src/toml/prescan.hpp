@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// What must not reach the parser. It calls itself for each level of nesting, so some hundred thousand of
 /// them end the program. And toml++ 3.3 has no defined behaviour for many characters beyond ASCII outside of
-/// texts and comments, where TOML 1.0 has none of them, and where something else than a name follows the
-/// bracket of a table.
+/// texts and comments, where TOML 1.0 has none of them, where something else than a name follows the bracket
+/// of a table, where a brace closes a bracket, and where a number follows a date.
 #pragma once
 
 #include "dpslave/toml/document.hpp"
@@ -17,15 +17,24 @@ namespace dpslave::toml {
 inline constexpr unsigned kMaxNesting = 16;
 
 struct Unparsed {
-    enum class Why { nesting, no_name, control, not_ascii, not_ascii_after_backslash };
+    enum class Why {
+        nesting,
+        no_name,
+        closes_another,
+        second_number,
+        control,
+        not_ascii,
+        not_ascii_after_backslash
+    };
     Place place;
     Why why;
 };
 
 /// The first place of `text` that must not be parsed: brackets and braces within each other, or parts of one
-/// dotted key, deeper than kMaxNesting. Or the bracket of a table that no name follows. Or a control
-/// character. Or an octet beyond ASCII outside of texts and comments, or behind the backslash of a line that
-/// continues (TOML 1.0). Linear in time; text that is no TOML at all is judged too.
+/// dotted key, deeper than kMaxNesting. Or the bracket of a table that no name follows. Or a bracket or brace
+/// that closes something else. Or a number behind another and a blank. Or a control character. Or an octet
+/// beyond ASCII outside of texts and comments, or behind the backslash of a line that continues (TOML 1.0).
+/// Linear in time; text that is no TOML at all is judged too.
 std::optional<Unparsed> prescan(std::string_view text);
 
 /// What is wrong there, and what to do: a sentence.

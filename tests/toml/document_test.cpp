@@ -275,8 +275,11 @@ TEST(Nearest, is_the_word_that_was_probably_meant_and_none_where_too_much_differ
 TEST_F(TomlDocument, with_a_character_beyond_ascii_outside_of_texts_and_comments_names_its_place)
 {
     for (const std::string character : {"é", "\u2C60", "\uFC30", "\u00A0", "\u3000"}) {
-        for (const char* const around : {"# x\n  @ = 1\n", "# x\na @= 1\n", "# x\na=b'@'\n", "# x\n[t@]\n",
-                                         "# x\na = 'b'@\n", "# x\na = 1\"@\"\n"}) {
+        for (const char* const around :
+             {"# x\n  @ = 1\n", "# x\na @= 1\n", "# x\na=b'@'\n", "# x\n[t@]\n", "# x\na = 'b'@\n",
+              "# x\na = 1\"@\"\n", "# x\na = 1.'@'\n", "# x\na = 0='@'\n", "# x\na = -{'@'}\n",
+              "# x\na = +['@']\n", "# x\na = [[1], 2.'@']\n", "# x\na = {b = 1.'@'}\n",
+              "# x\na = 1979-05-27T00:00:00.'@'\n", "# x\na = 1979-05-27 T07.'@'\n"}) {
             std::string content = around;
             content.replace(content.find('@'), 1, character);
             const auto faults = read(content).faults();
@@ -297,6 +300,41 @@ TEST_F(TomlDocument, may_have_any_character_in_texts_and_comments)
     EXPECT_THAT(document.faults(), IsEmpty());
 }
 
+TEST_F(TomlDocument, may_have_any_character_in_the_quotes_of_each_part_of_a_key)
+{
+    Document& document =
+        read("1.'é' = 'a'\nb = {c=1,2.\"é\"='d'}\ne = [1, # é\n'é']\n['f'.'é'.\"é\"]\n[[g.'é']]\n");
+    EXPECT_TRUE(document.readable());
+    EXPECT_EQ(document.root().table("1").text("é"), "a");
+    EXPECT_EQ(document.root().table("b").table("2").text("é"), "d");
+    EXPECT_TRUE(document.root().table("f").table("é").has("é"));
+    EXPECT_TRUE(document.root().table("g").has("é"));
+}
+
+TEST_F(TomlDocument, with_a_bracket_or_a_brace_that_closes_something_else_names_its_place)
+{
+    for (const std::string content :
+         {"a = [}\n", "a = [[1]}\n", "a = {b=[1,}\n", "a = {b=1]\n", "a = 1]\n", "]\n", "}\n"}) {
+        const auto faults = read(content).faults();
+        ASSERT_EQ(faults.size(), 1U) << content;
+        EXPECT_EQ(faults.front().column, content.size() - 1) << content;
+        EXPECT_THAT(faults.front().what, HasSubstr("nothing of this kind is open here")) << content;
+    }
+}
+
+TEST_F(TomlDocument, with_two_numbers_for_one_value_names_the_second)
+{
+    for (const std::string content :
+         {"a = 1 2", "a = 1979-05-27 1,1", "a = [1979-05-27 0", "a = {b = 0x1 1"}) {
+        const auto faults = read(content).faults();
+        ASSERT_EQ(faults.size(), 1U) << content;
+        EXPECT_EQ(faults.front().column, content.rfind(' ') + 2) << content;
+        EXPECT_THAT(faults.front().what, HasSubstr("a second number follows")) << content;
+    }
+    EXPECT_THAT(short_forms(read("a = 1 # 2\nb = [1 , 2\n , 3 ] # 4\n").faults()),
+                Each(HasSubstr("this key is not known")));
+}
+
 TEST_F(TomlDocument, whose_text_goes_on_beyond_ascii_after_a_backslash_names_the_backslash)
 {
     for (const std::string after : {"\n  é", "é", " \r\n\u2C60"}) {
@@ -304,6 +342,27 @@ TEST_F(TomlDocument, whose_text_goes_on_beyond_ascii_after_a_backslash_names_the
         ASSERT_EQ(faults.size(), 1U) << after;
         EXPECT_THAT(faults.front().what, HasSubstr("on one line")) << after;
     }
+}
+
+/// With the sanitizers the assertions of toml++ are judges, too.
+TEST(Toml, of_any_three_tokens_behind_any_begin_is_read_or_has_a_fault_within_the_text)
+{
+    const std::vector<std::string> begins{
+        "", "a = ", "a = [", "a = {b=", "[a.", "a = 1979-05-27 ", "a = \"\"\"", "a = '''"};
+    const std::vector<std::string> tokens{"1", ".", "'", "\"", "=",    "[",  "{", ",", "]",
+                                          "}", "#", " ", "\n", "\r\n", "\\", "é", "-", "t"};
+    for (const std::string& begin : begins)
+        for (const std::string& first : tokens)
+            for (const std::string& second : tokens)
+                for (const std::string& third : tokens) {
+                    const std::string content = begin + first + second + third;
+                    const Document document{
+                        [&](const std::string&) -> Result<std::string, Unreadable> { return content; },
+                        "d.toml"};
+                    const auto faults = document.faults();
+                    ASSERT_EQ(document.readable(), faults.empty()) << content;
+                    for (const auto& fault : faults) ASSERT_LE(fault.line, 4U) << content;
+                }
 }
 
 } // namespace
