@@ -98,8 +98,7 @@ public:
     {
         const TraceWords words = words_of(entry);
         const auto before = std::exchange(before_, entry.last);
-        const auto decoded =
-            decoder_ != nullptr ? decoder_->decode(entry) : std::nullopt; // it learns from each
+        auto decoded = decoder_ != nullptr ? decoder_->decode(entry) : std::nullopt; // it learns from each
         has_stopped_ = stop_ && note.empty() && stop_->holds(entry, words);
         if (!has_stopped_ && !passes(filter_, entry, words)) return;
         if (file_ != nullptr) return file_->add(entry, words, offset, note);
@@ -113,6 +112,10 @@ public:
         terminal_.out << line_of(entry, words, offset, before);
         if (!note.empty()) terminal_.out << "  (" << note << ')';
         terminal_.out << '\n';
+        if (const auto exact = decoder_ != nullptr ? how_exact(entry) : std::nullopt) {
+            if (!decoded) decoded.emplace();
+            decoded->lines.insert(decoded->lines.begin(), {"time", *exact});
+        }
         if (decoded) terminal_.out << render_details(*decoded, kIndent, terminal_.look());
     }
 

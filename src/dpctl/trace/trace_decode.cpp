@@ -7,6 +7,8 @@
 #include "dpslave/dp/set_prm.hpp"
 #include "dpslave/dp/slave_diag.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -17,6 +19,9 @@ using What = trace::Entry::What;
 
 /// Where both of them have the Ident_Number: octets 5 and 6.
 constexpr std::size_t kIdentAt = 4;
+
+/// Of a character on the line: start bit, eight bits, parity, stop bit.
+constexpr std::int64_t kBitsOfCharacter = 11;
 
 bool says_nothing(const Decoded& part)
 {
@@ -32,6 +37,15 @@ std::optional<std::uint8_t> layout_changed_by(const trace::Entry& entry)
     if (!telegram || !telegram->is_request()) return std::nullopt;
     if (telegram->dsap != dp::sap::kSetPrm && telegram->dsap != dp::sap::kChkCfg) return std::nullopt;
     return static_cast<std::uint8_t>(telegram->da & 0x7FU);
+}
+
+std::optional<std::string> how_exact(const trace::Entry& entry)
+{
+    if (entry.what != What::telegram && entry.what != What::piece) return std::nullopt;
+    const auto baud = static_cast<std::int64_t>(entry.baud);
+    const std::int64_t uncertainty_ns = entry.uncertainty.count();
+    if (uncertainty_ns * baud <= kBitsOfCharacter * 1'000'000'000) return std::nullopt;
+    return fmt::format("on the line up to {:.3f} ms earlier", static_cast<double>(uncertainty_ns) / 1e6);
 }
 
 void TraceDecoder::set_device(std::uint8_t address, profile::Profile device)

@@ -14,11 +14,16 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace dpslave::dpctl {
 
 /// The slave whose meaning of Data_Exchange may change with this telegram; nothing: none.
 std::optional<std::uint8_t> layout_changed_by(const trace::Entry& entry);
+
+/// What the time of a telegram leaves open, where that is more than a character: the port may have held back
+/// what it heard.
+std::optional<std::string> how_exact(const trace::Entry& entry);
 
 class TraceDecoder {
 public:

@@ -376,5 +376,20 @@ TEST(DpctlTraceDecode, NamesAFolderWithoutAGsdAndAFileThatIsNone)
     std::filesystem::remove_all(folder);
 }
 
+TEST(TraceTime, WhichMayBeWrongByMoreThanACharacterIsSaid)
+{
+    Entry heard = request("10 68");
+    heard.baud = Baud::k187_5;
+    heard.uncertainty = std::chrono::nanoseconds{58'666}; // 11 bits at 187.5 kbit/s
+    EXPECT_EQ(dpctl::how_exact(heard), std::nullopt);
+    heard.uncertainty = std::chrono::nanoseconds{58'667};
+    EXPECT_EQ(dpctl::how_exact(heard), "on the line up to 0.059 ms earlier");
+    heard.what = What::piece;
+    heard.uncertainty = std::chrono::milliseconds{16};
+    EXPECT_EQ(dpctl::how_exact(heard), "on the line up to 16.000 ms earlier");
+    heard.what = What::reply; // its write was seen
+    EXPECT_EQ(dpctl::how_exact(heard), std::nullopt);
+}
+
 } // namespace
 } // namespace dpslave::test
