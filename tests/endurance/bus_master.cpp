@@ -2,6 +2,7 @@
 #include "bus_master.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <poll.h>
 #include <termios.h>
 #include <unistd.h>
@@ -21,6 +22,7 @@ constexpr auto kSlot = 200us;
 /// How long a reply may be held up on its way: a busy machine is no fault of the daemon.
 constexpr auto kHeldUp = 10ms;
 constexpr std::uint8_t kFirstOther = 20;
+constexpr std::uint64_t kMostShown = 10; ///< wrong answers
 constexpr std::uint8_t kSd1 = 0x10, kFdlStatus = 0x49;
 
 /// The answer to FDL_Status: SD1, a slave, nothing else.
@@ -76,10 +78,12 @@ void BusMaster::serve(const std::stop_token& stop, const std::vector<SlaveTalk*>
 void BusMaster::exchange(SlaveTalk& slave)
 {
     const auto reply = ask(slave.request(), kHeldUp);
-    if (!reply)
-        find_out_what_is_late(slave.address());
-    else if (!slave.takes(*reply))
-        ++counts_.wrong;
+    if (!reply) return find_out_what_is_late(slave.address());
+    const Octets asked = slave.request();
+    if (slave.takes(*reply)) return;
+    if (++counts_.wrong <= kMostShown)
+        fmt::print("a wrong answer behind {} requests:\n  asked {}\n  got   {}\n", counts_.requests,
+                   ::test::show(asked), ::test::show({reply->begin(), reply->end()}));
 }
 
 std::optional<Reply> BusMaster::ask(const Octets& request, std::chrono::nanoseconds patience)
