@@ -187,9 +187,11 @@ void DriveThread::probe(const ProbeOrder& order, const std::stop_token& stop)
 /// Until the next deadline, but not longer than an order of the master may wait.
 std::chrono::nanoseconds DriveThread::rest_time(Instant now) const
 {
-    const bool busy =
-        std::any_of(units_.begin(), units_.end(), [](const LineUnit& unit) { return unit.is_busy(); });
-    const std::chrono::nanoseconds tick = busy ? kTickWithLayout : kTickIdle;
+    const auto is_busy = [](const LineUnit& unit) { return unit.is_busy(); };
+    const auto is_lost = [](const LineUnit& unit) { return unit.is_lost(); };
+    std::chrono::nanoseconds tick = kTickIdle;
+    if (std::any_of(units_.begin(), units_.end(), is_busy)) tick = kTickWithLayout;
+    if (!units_.empty() && std::all_of(units_.begin(), units_.end(), is_lost)) tick = kTickLost;
     return std::clamp<std::chrono::nanoseconds>(poller_.next_deadline() - now, std::chrono::nanoseconds{0},
                                                 tick);
 }

@@ -35,6 +35,7 @@ private:
     static constexpr std::chrono::milliseconds kTickWithLayout{
         2}; ///< how soon an order of the master is noticed
     static constexpr std::chrono::milliseconds kTickIdle{20};
+    static constexpr std::chrono::milliseconds kTickLost{100}; ///< no order can reach a drive of the line
     static constexpr std::chrono::seconds kSafeStateLimit{2};
     static_assert(LinePort::kPatience > kSafeStateLimit, "a line that leaves a port writes there first");
 

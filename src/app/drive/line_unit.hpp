@@ -36,6 +36,7 @@ public:
 
     Generation layout() const { return layout_; } ///< whose outputs the poller has; 0 = none
     bool is_busy() const { return layout_ != 0 && answered_; }
+    bool is_lost() const { return layout_ != 0 && was_known_ && !answered_; }
 
     bool leaves = false; ///< it is not among the drives that come next
 

@@ -16,6 +16,8 @@
 namespace dpslave::io {
 namespace {
 
+constexpr int kHeapStep = 16 * 1024; ///< octets
+
 std::string text(int error)
 {
     return std::system_category().message(error);
@@ -62,6 +64,8 @@ void keep_memory()
     // next malloc(), and no block gets a mapping of its own that goes with it.
     ::mallopt(M_TRIM_THRESHOLD, -1);
     ::mallopt(M_MMAP_MAX, 0);
+    // By 128 KiB at a time, what is asked for once more would count as locked although it is empty.
+    ::mallopt(M_TOP_PAD, kHeapStep);
     // An arena of its own for each thread would reserve 64 MiB, which counts as locked although it is empty.
     ::mallopt(M_ARENA_MAX, 1);
 }
