@@ -30,6 +30,8 @@ using dpslave::test::Json;
 constexpr std::size_t kWarmUp = 12;      ///< rounds: every disturbance was there at least twice
 constexpr std::int64_t kMostGrowth = 64; ///< KiB
 constexpr uid_t kStranger = 65534;
+constexpr std::size_t kEvents = 1000;          ///< that the daemon keeps
+constexpr std::uint64_t kLongRun = 10'000'000; ///< telegrams: the memory is judged
 
 struct Options {
     std::uint64_t telegrams = 100'000'000;
@@ -71,6 +73,7 @@ public:
     {
         const auto began = Clock::now();
         const std::uint64_t seconds_before = reached_.seconds;
+        if (reached_.telegrams < options_.telegrams && options_.telegrams >= kLongRun) fill_the_history();
         while (reached_.telegrams < options_.telegrams && interrupted == 0 && good()) {
             one_round();
             check();
@@ -89,6 +92,16 @@ public:
     bool warm() const { return round_ > kWarmUp; }
 
 private:
+    /// The daemon keeps its newest events. They grow until it has so many.
+    void fill_the_history()
+    {
+        for (std::size_t i = 0; i < kEvents; ++i)
+            installation_.dpctl(
+                {"write", "--station", "6", "62", fmt::format("{:.1f}", 0.1 * static_cast<double>(i))});
+        const auto events = Json::parse(installation_.dpctl({"--json", "events"}).out).at("events");
+        if (events.size() < kEvents) throw std::runtime_error{"the history of events does not fill"};
+    }
+
     /// In four rounds a station comes, is served and leaves. It is not asked while it comes or leaves: nobody
     /// counts the requests to a station that is not there.
     void one_round()
