@@ -2,6 +2,7 @@
 #include "tag_names.hpp"
 
 #include "dpctl/cli/ask.hpp"
+#include "dpctl/cli/fields.hpp"
 #include "dpctl/cli/table.hpp"
 
 #include "dpslave/base/letters.hpp"
