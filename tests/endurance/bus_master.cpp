@@ -20,7 +20,7 @@ using Clock = std::chrono::steady_clock;
 /// 300 bit times at 1.5 Mbit/s (wire reference 1.4).
 constexpr auto kSlot = 200us;
 /// How long a reply may be held up on its way: a busy machine is no fault of the daemon.
-constexpr auto kHeldUp = 10ms;
+constexpr auto kHeldUp = 10ms, kLongHeldUp = 200ms;
 constexpr std::uint8_t kFirstOther = 20;
 constexpr std::uint64_t kMostShown = 10; ///< wrong answers
 constexpr std::uint8_t kSd1 = 0x10, kFdlStatus = 0x49;
@@ -89,23 +89,31 @@ void BusMaster::exchange(SlaveTalk& slave)
 std::optional<Reply> BusMaster::ask(const Octets& request, std::chrono::nanoseconds patience)
 {
     send(request);
-    auto reply = reply_to(request, kSlot);
+    auto reply = reply_within(kSlot);
     const bool belated = !reply;
-    if (belated) reply = reply_to(request, patience);
+    if (belated) reply = reply_within(patience);
     if (belated && reply) ++counts_.belated;
     return reply;
 }
 
 /// The daemon drops a reply that it cannot begin within 100 us. But one that it has written may be held up
 /// behind it, on a busy machine for long. Nothing overtakes it: so it comes before the answer to FDL_Status.
+/// Where that question was repeated each answer to it is waited for: a later one would be taken for the
+/// answer to the next question of this kind.
 void BusMaster::find_out_what_is_late(std::uint8_t address)
 {
     const Octets question = ::test::sd1(address, kMaster, kFdlStatus);
-    for (;;) {
+    std::size_t asked = 0, answered = 0;
+    while (answered == 0) {
         send(question);
-        while (const auto reply = reply_to(question, kHeldUp)) {
-            if (is_status(*reply)) return;
-            ++counts_.belated;
+        ++asked;
+        while (const auto reply = reply_within(answered == 0 ? kHeldUp : kLongHeldUp)) {
+            if (!is_status(*reply))
+                ++counts_.belated;
+            else if (++answered == asked)
+                return;
+            else
+                ++counts_.belated;
         }
     }
 }
@@ -137,18 +145,6 @@ void BusMaster::write(std::span<const std::uint8_t> octets)
         else
             throw std::system_error{errno, std::system_category(), "write"};
     }
-}
-
-/// Passes over answers to an FDL_Status that was repeated meanwhile.
-std::optional<Reply> BusMaster::reply_to(const Octets& request, std::chrono::nanoseconds time)
-{
-    const auto limit = Clock::now() + time;
-    auto reply = reply_within(time);
-    while (reply && is_status(*reply) && request[0] != kSd1) {
-        ++counts_.belated;
-        reply = reply_within(limit - Clock::now());
-    }
-    return reply;
 }
 
 /// One whole telegram, which counts as answer. What came behind it stays for the next call.

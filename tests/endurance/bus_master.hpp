@@ -62,7 +62,6 @@ private:
     void find_out_what_is_late(std::uint8_t address);
     void send(const Octets& request);
     void write(std::span<const std::uint8_t> octets);
-    std::optional<Reply> reply_to(const Octets& request, std::chrono::nanoseconds time);
     std::optional<Reply> reply_within(std::chrono::nanoseconds time);
 
     io::Pty pty_;
