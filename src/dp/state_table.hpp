@@ -190,6 +190,7 @@ inline constexpr auto kTable = [] {
 // clang-format on
 
 inline constexpr std::size_t kStates = 4;
+static_assert(kStates == static_cast<std::size_t>(State::data_exch) + 1);
 inline constexpr std::size_t kTriggers = static_cast<std::size_t>(Trigger::count);
 
 /// Every pair of state and trigger has exactly one row: a forgotten case does not compile.
