@@ -156,9 +156,9 @@ void Layer2::take_heard()
 void Layer2::on_telegram(const Telegram& telegram, Instant read_at, bool newest)
 {
     ++counters_.telegrams;
-    const bool ours = telegram.has_fc() && stations_.has(telegram.da);
     if (listener_ != nullptr) listener_->on_telegram(telegram, read_at);
     if (!telegram.has_fc()) return; // SC and token: no checksum, no evidence, no request
+    const bool ours = stations_.has(telegram.da);
     ++counters_.checked;
     last_telegram_ = read_at;
 
