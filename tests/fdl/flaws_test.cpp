@@ -38,6 +38,8 @@ constexpr auto kBroken = std::to_array<Broken>({
     {"SsapInAnSd1",                 "10 05 82 49 D0 16",                         Flaw::missing_sap},
     {"DsapWithoutItsSsap",          "68 04 04 68 85 82 6D 3C B0 16",             Flaw::missing_sap},
     {"DsapIsARegion",               "68 05 05 68 85 82 6D 7C 3E 2E 16",          Flaw::extension},
+    {"DsapIs64",                    "68 05 05 68 85 82 6D 40 3E F2 16",          Flaw::extension},
+    {"SsapIs64",                    "68 05 05 68 85 82 6D 3C 40 F0 16",          Flaw::extension},
     {"SsapIsExtendedOnceMore",      "68 05 05 68 85 82 6D 3C BE 6E 16",          Flaw::extension},
     {"SenderIsTheBroadcastAddress", "10 05 7F 49 CD 16",                         Flaw::source_address},
     {"SenderIsTheBroadcastAddressWithSap", "68 05 05 68 85 FF 6D 3C 3E 6B 16",   Flaw::source_address},

@@ -1,37 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The receiver by itself: octets in, telegrams and flaws out.
-#include "bench.hpp"
-
-#include "dpslave/fdl/receiver.hpp"
+#include "receiver_bench.hpp"
 
 using namespace dpslave;
 using namespace test;
 
 namespace {
-
-class Receiver : public testing::Test {
-protected:
-    void reads(const Octets& octets, bool more_follows = false)
-    {
-        receiver.begin_read(octets.size(), now);
-        kept = octets;
-        receiver.on_bytes(kept, more_follows);
-    }
-    /// "7D" for a telegram with this FC, "!" for one behind which nothing was heard, else the flaw.
-    std::string next()
-    {
-        const auto* heard = receiver.next();
-        if (heard == nullptr) return "-";
-        if (!heard->telegram) return std::string{text(heard->telegram.error())};
-        return show({heard->telegram->fc}) + (heard->newest ? "!" : "");
-    }
-
-    Instant now{std::chrono::seconds{3}};
-    Octets kept;
-    fdl::Receiver receiver{Baud::k187_5};
-    const Octets first = sd2(kUs, kMaster, kSrdFcb0, {1, 2});
-    const Octets second = sd1(kOther, kMaster, kFdlStatus);
-};
 
 TEST_F(Receiver, GivesTelegramsAndFlawsInTheOrderOfTheLine)
 {
@@ -74,46 +48,58 @@ TEST_F(Receiver, LeavesOutTheTelegramWithABadCharacter)
     EXPECT_EQ(next(), "49!");
 }
 
-TEST_F(Receiver, GivesAnUnfinishedTelegramUpAtItsDeadline)
+TEST_F(Receiver, LooksForNoTelegramInTheDataOfOneWithABadCharacter)
 {
-    reads(Octets(first.begin(), first.begin() + 4));
+    const Octets within = sd2(kUs, kMaster, kSrdFcb0, sd1(kUs, kMaster, kFdlStatus));
+    reads(Octets(within.begin(), within.begin() + 5));
     EXPECT_EQ(next(), "-");
-    const Instant deadline = receiver.next_deadline();
-
-    EXPECT_FALSE(receiver.on_time(deadline - std::chrono::nanoseconds{1}));
-    EXPECT_TRUE(receiver.on_time(deadline));
-
-    EXPECT_EQ(next(), "unfinished");
+    hears_a_bad_character();
+    EXPECT_EQ(next(), "bad character");
     EXPECT_EQ(next(), "-");
-    EXPECT_FALSE(receiver.on_time(deadline));
-}
+    reads(joined({Octets(within.begin() + 6, within.end()), second}));
 
-TEST_F(Receiver, FindsTheTelegramBehindAStump)
-{
-    reads(octets("68 20 20 68 05"));
-    EXPECT_EQ(next(), "-");
-    now += duration_of(Tbit{33 + 11 * 6}, Baud::k187_5);
-    reads(second);
-    EXPECT_EQ(next(), "-");
-
-    EXPECT_TRUE(receiver.on_time(receiver.next_deadline()));
-
-    EXPECT_EQ(next(), "unfinished");
     EXPECT_EQ(next(), "49!");
+    EXPECT_EQ(next(), "-");
 }
 
-TEST_F(Receiver, LooksForNoTelegramBehindAStumpThatIsGone)
+TEST_F(Receiver, IsDoneWithATelegramWhoseLastCharacterIsBad)
 {
-    reads(octets("10 05"));
+    reads(Octets(first.begin(), first.end() - 1));
     EXPECT_EQ(next(), "-");
-    now += duration_of(Tbit{33 + 11 * 7}, Baud::k187_5);
-    reads(Octets(first.begin(), first.begin() + 7));
-    EXPECT_EQ(next(), "end delimiter");
-    EXPECT_EQ(next(), "-");
+    hears_a_bad_character();
 
-    EXPECT_EQ(receiver.next_deadline(),
-              now + fdl::silence_limit(Baud::k187_5) + duration_of(Tbit{64 * 11}, Baud::k187_5))
-        << "nothing but the end of the second one is waited for";
+    EXPECT_EQ(next(), "bad character");
+    EXPECT_EQ(next(), "-");
+    EXPECT_EQ(receiver.judged(), first.size());
+    EXPECT_EQ(receiver.next_deadline(), kNever);
+}
+
+TEST_F(Receiver, SaysWhereTelegramsAndFlawsLieAmongAllCharactersHeard)
+{
+    hears_a_bad_character();
+    EXPECT_EQ(next_with_its_place(), "1 bad character");
+    reads(joined({second, octets("FF FF"), second}));
+    EXPECT_EQ(next_with_its_place(), "1..7 49");
+    EXPECT_EQ(next_with_its_place(), "7 start delimiter");
+    EXPECT_EQ(next_with_its_place(), "9..15 49");
+    EXPECT_EQ(next_with_its_place(), "-");
+    EXPECT_EQ(receiver.judged(), 15u);
+
+    reads(joined({octets("10 05 02 49 51 16"), octets("68 05")})); // a wrong checksum, and a stump
+    EXPECT_EQ(next_with_its_place(), "15 checksum");
+    EXPECT_EQ(next_with_its_place(), "-");
+    EXPECT_EQ(receiver.judged(), 21u);
+}
+
+TEST_F(Receiver, TakesTheLastTelegramOfALongReadForTheNewestAndNoOther)
+{
+    // 85 of them fill the buffer to its end.
+    const std::vector<Octets> many(86, second);
+    reads(joined(many));
+
+    for (int i = 0; i < 85; ++i) ASSERT_EQ(next(), "49") << i;
+    EXPECT_EQ(next(), "49!");
+    EXPECT_EQ(next(), "-");
 }
 
 TEST_F(Receiver, ReportsNothingOfWhatWasGivenUpAtAnotherRate)

@@ -27,6 +27,17 @@ protected:
         request.data = kData;
         return stations.on_request(request, kStart, Baud::k187_5);
     }
+    /// A Global_Control with SDN.
+    void orders(std::uint8_t address)
+    {
+        fdl::Telegram order;
+        order.delimiter = fdl::kSD2;
+        order.da = address;
+        order.sa = kMaster;
+        order.fc = kSdnHigh;
+        order.data = kData;
+        stations.on_sdn(order, kStart);
+    }
     static std::string octets_of(const fdl::Stations::Reply& reply)
     {
         return show({reply.octets.begin(), reply.octets.end()});
@@ -108,6 +119,55 @@ TEST_F(Stations, CallAUserWhenItIsDueAndNoSooner)
     EXPECT_EQ(user.times.size(), 1u);
     EXPECT_TRUE(stations.take_touched()[kUs]);
     EXPECT_EQ(stations.next_deadline(), kNever);
+}
+
+TEST_F(Stations, KeepTheFrameCountOverServicesThatAreNotCountedWhateverTheirBitsSay)
+{
+    asks(kSrdFcb1);
+    for (const std::uint8_t fc : octets("79 7E 7F")) { // FDL status, ident and LSAP status, with FCB and FCV
+        SCOPED_TRACE(static_cast<int>(fc));
+        EXPECT_FALSE(asks(fc).repeated);
+
+        EXPECT_TRUE(asks(kSrdFcb1).repeated);
+    }
+    EXPECT_EQ(user.srds.size(), 1u);
+}
+
+TEST_F(Stations, GiveAnSdnToTheAddressedUserAloneAndAskItWhatItWaitsFor)
+{
+    RecordingUser other;
+    stations.attach(kOther, other, kClassMaxTsdr);
+    stations.on_time(kStart);
+    stations.take_touched();
+    user.deadline = kStart + std::chrono::milliseconds{5};
+
+    orders(kUs);
+
+    EXPECT_EQ(user.sdns.size(), 1u);
+    EXPECT_TRUE(other.sdns.empty());
+    EXPECT_EQ(stations.take_touched(), std::bitset<128>{}.set(kUs));
+    EXPECT_EQ(stations.next_deadline(), user.deadline);
+}
+
+TEST_F(Stations, GiveAnSdnToAllOnceToAUserThatTookTheAddressOver)
+{
+    RecordingUser next;
+    stations.attach(kUs, next, kClassMaxTsdr);
+
+    orders(127);
+
+    EXPECT_EQ(next.sdns.size(), 1u);
+    EXPECT_TRUE(user.sdns.empty());
+}
+
+TEST_F(Stations, ForgetTheRequestsOfAllAddressesThereAre)
+{
+    for (std::uint8_t address = 0; address <= 126; ++address) stations.attach(address, user, kClassMaxTsdr);
+    asks(kSrdFcb1);
+
+    stations.forget_requests();
+
+    EXPECT_FALSE(asks(kSrdFcb1).repeated);
 }
 
 } // namespace

@@ -74,6 +74,7 @@ TEST_F(UnansweredRequests, OneWithAFunctionThatNoSlaveAnswersSaysSo)
 TEST_F(UnansweredRequests, ThoseToOthersAndThoseThatNeedNoAnswerAreNone)
 {
     station.on_bytes(sd2(kOther, kMaster, kSrdFcb1, {0xAA}), bus.now());
+    station.on_bytes(sd1(kOther, kMaster, 0xC9), bus.now()); // nor is its function ours to judge
     station.on_bytes(sd2(127, kMaster, kSdnHigh, Saps{58, 62}, {0, 0}), bus.now());
 
     EXPECT_THAT(take(), IsEmpty());
@@ -88,6 +89,50 @@ TEST_F(UnansweredRequests, TheOldestAreKeptWhenTheyAreNotTaken)
 
     EXPECT_EQ(all.size(), 8U);
     EXPECT_EQ(all.front().second, Why::own_address);
+}
+
+/// The first telegram that a station hears while it searches the rate.
+class UnansweredWhileSearching : public testing::Test {
+protected:
+    static std::vector<Why> reasons_after(const Octets& telegram)
+    {
+        RecordingUser user;
+        fdl::Layer2 station{
+            {.baud = Baud::k187_5, .search = fdl::BaudSearchSettings{}, .start_up_latency = {}}};
+        station.attach(kUs, user, kClassMaxTsdr);
+        station.take_baud_change();
+        station.on_bytes(telegram, kRead);
+        EXPECT_EQ(station.baud_state(), fdl::BaudState::baud_control);
+        std::vector<Why> all;
+        while (const auto one = station.take_unanswered()) {
+            EXPECT_EQ(one->address, kUs);
+            EXPECT_EQ(one->at, kRead);
+            all.push_back(one->why);
+        }
+        return all;
+    }
+};
+
+TEST_F(UnansweredWhileSearching, ARequestToUsIsOne)
+{
+    EXPECT_THAT(reasons_after(sd1(kUs, kMaster, kFdlStatus)), ElementsAre(Why::searching));
+}
+
+TEST_F(UnansweredWhileSearching, ARequestToAnotherAndAReplyToOurAddressAreNone)
+{
+    EXPECT_THAT(reasons_after(sd1(kOther, kMaster, kFdlStatus)), IsEmpty());
+    EXPECT_THAT(reasons_after(sd1(kUs, kOther, 0x00)), IsEmpty());
+    EXPECT_THAT(reasons_after(sd1(kMaster, kOther, 0x00)), IsEmpty());
+}
+
+TEST(UnansweredReasons, HaveTheirNames)
+{
+    const std::vector<std::pair<Why, std::string_view>> names{
+        {Why::overtaken, "overtaken"},   {Why::late, "late"},           {Why::own_address, "own_address"},
+        {Why::no_service, "no_service"}, {Why::searching, "searching"}, {Why::unsent, "unsent"}};
+    ASSERT_EQ(names.size(), fdl::kUnansweredReasons);
+
+    for (const auto& [why, name] : names) EXPECT_EQ(text(why), name);
 }
 
 } // namespace
