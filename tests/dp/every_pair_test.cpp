@@ -314,6 +314,7 @@ TEST(EveryPair, ThatTheReferenceGivesNoAnswerHasNoneInTheTable)
 {
     using dpslave::dp::Reply;
     using dpslave::dp::row_of;
+    EXPECT_EQ(row_of(State::power_on, Trigger::start).reply, Reply::none);
     for (const Pair& pair : reference())
         for (const State in : {State::wait_prm, State::wait_cfg, State::data_exch})
             EXPECT_EQ(row_of(in, pair.on).reply == Reply::none, !is_answered(pair.on))

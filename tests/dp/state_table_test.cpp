@@ -73,6 +73,16 @@ TEST_F(Rows, B1_AfterStopEverythingBeginsAnew)
     EXPECT_EQ(slave.min_tsdr(), dpslave::Tbit{11});
 }
 
+TEST_F(Rows, B1_StartIsLoggedAsNoLeaving)
+{
+    slave.stop(bus.now());
+    events();
+
+    slave.start(bus.now());
+
+    EXPECT_EQ(events(), (std::vector{dpslave::dp::Event{.state = State::wait_prm}}));
+}
+
 TEST_F(RowsWithoutSync, B1_AfterStopNoFaultOfBeforeIsLeft)
 {
     const auto restarted = [this] {
