@@ -165,7 +165,7 @@ void StateMachine::start_exchange(const Judgement& judged, const fdl::Indication
     if (data_.stat_diag()) diag_pending_ = true;
     cfg_accepted_.assign(request.data);
     cfg_fault_ = false;
-    if (service_of(refusal_.why) == Service::chk_cfg) refusal_ = {};
+    refusal_ = {}; // of a Chk_Cfg: one of Set_Prm has ended when the parameters were taken
 }
 
 /// Clear first, then Sync and Freeze. Those count only if Set_Prm asked for them, which it can only where the

@@ -81,6 +81,30 @@ TEST_F(StateMachine, KeepsAndLogsTheRefusalThatComesWithATrigger)
                                        .master = 2}));
 }
 
+TEST_F(StateMachine, ForgetsARefusedSetPrmWithTheNextAcceptedOne)
+{
+    const RefusalDetail refusal{Refusal::prm_ident, 5, 0x4711, 0x4712};
+    apply({Trigger::prm_bad, refusal});
+    ASSERT_EQ(seen().refusal, refusal);
+
+    apply({Trigger::prm_ok, dpslave::dp::Parameters{}});
+
+    EXPECT_EQ(seen().refusal, RefusalDetail{});
+}
+
+TEST_F(StateMachine, ForgetsARefusedChkCfgWithTheNextAcceptedOneAndNoSooner)
+{
+    const RefusalDetail refusal{Refusal::cfg_identifier, 2, 0x11, 0x99};
+    apply({Trigger::prm_ok, dpslave::dp::Parameters{}});
+    apply({Trigger::cfg_bad, refusal});
+    apply({Trigger::prm_ok, dpslave::dp::Parameters{}});
+    ASSERT_EQ(seen().refusal, refusal);
+
+    apply({Trigger::cfg_ok, dpslave::dp::Configuration{}});
+
+    EXPECT_EQ(seen().refusal, RefusalDetail{});
+}
+
 TEST_F(StateMachine, EndsTheProcessDataOnlyWhenItLeavesDataExch)
 {
     apply({Trigger::prm_ok, dpslave::dp::Parameters{}});
