@@ -64,9 +64,9 @@ Result<Configuration, RefusalDetail> check_chk_cfg(const Personality& personalit
         const Identifier& identifier = *find(personality, cfg[first + i]);
         if (i == most || !fits(identifier))
             return refuse(Refusal::cfg_too_long, octet, first + i, cfg.size());
-        // Without tags the place is the number. With tags an identifier beyond the list is refused by the
-        // counts below.
-        add(taken, has_tags && i < tags.size() ? tags[i] : static_cast<std::uint16_t>(i + 1), identifier);
+        // Without tags the place is the number. With a list of tags an identifier beyond the list is refused
+        // by the counts below.
+        add(taken, i < tags.size() ? tags[i] : static_cast<std::uint16_t>(i + 1), identifier);
     }
     if (count == 0 && !personality.may_have_no_parameters) return refuse(Refusal::cfg_too_few, 0, 1, 0);
     if (!has_tags) return taken;
