@@ -49,10 +49,8 @@ bool OwedAnswers::may_ask(const Question& question, Instant now) const
 
 void OwedAnswers::asked(const Question& question, Instant at)
 {
-    if (question.is_write)
-        for (Debt& debt : owed_)
-            if (debt.question.drive == question.drive && fits(debt, question.written))
-                debt.before_write = true;
+    for (Debt& debt : owed_)
+        if (debt.question.drive == question.drive && fits(debt, question.written)) debt.before_write = true;
     owed_.push_back({question, at, false});
     waits_ = true;
     heard_.clear();

@@ -27,7 +27,7 @@ struct Question {
     Form answer = kNoForm;  ///< EI-ASCII: none of a write, which is answered by a lone ACK or NAK
     Form refusal = kNoForm; ///< of Modbus: the exception
     bool is_write = false;
-    Form written = kNoForm;               ///< of a write: the form in which a read shows the same tag
+    Form written = kNoForm; ///< of a write: the form in which a read shows the same tag; of a read none
     std::chrono::nanoseconds wire_time{}; ///< of its longest answer
 };
 
