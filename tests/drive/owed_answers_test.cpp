@@ -131,6 +131,7 @@ TEST_F(Owed, WhereTheDriveOwesTheSameTagTheValueIsRightAndOneAnswerStaysOwed)
     owed.asked(read(kA, kM), after(300ms));
     EXPECT_EQ(owed.heard(kM, text("1"), after(320ms)), Verdict::answer_or_older);
     EXPECT_TRUE(owed.owes(kA, kM));
+    EXPECT_EQ(owed.heard(kM, text("2"), after(340ms)), Verdict::owed) << "nothing is waited for any more";
 }
 
 TEST_F(Owed, AValueThatMayBeOlderThanAWriteOfItsTagIsSaidToBe)
@@ -186,6 +187,124 @@ TEST_F(Owed, ADriveThatIsAlwaysLateIsNamedWithTheTimeOutThatItNeeds)
     owed.asked(read(kA, kM), after(9s));
     EXPECT_EQ(owed.heard(kM, text("1"), after(9100ms)), Verdict::answer);
     EXPECT_EQ(needed_timeout(owed.counts(kA)), 0ms) << "not always";
+}
+
+TEST_F(Owed, AWriteOfAnotherDriveOrAnotherTagMakesNoValueOlder)
+{
+    for (const Question& other : {write(kB, kM), write(kA, kN)}) {
+        loses(read(kA, kM), 0s);
+        owed.asked(other, after(250ms));
+        ASSERT_TRUE(owed.take_ack());
+        owed.asked(read(kA, kM), after(300ms));
+        EXPECT_EQ(owed.heard(kM, text("1"), after(320ms)), Verdict::answer_or_older);
+        owed.clear();
+    }
+}
+
+TEST_F(Owed, AWriteThatIsAnsweredByALoneOctetOwesNoFrame)
+{
+    loses(write(kA, kM), 0s);
+    EXPECT_TRUE(owed.may_ask(write(kB, kM), after(1s)));
+    EXPECT_EQ(owed.heard(kNoForm, text("1"), after(1s)), Verdict::foreign);
+    EXPECT_TRUE(owed.owes_write(kA));
+}
+
+TEST_F(Owed, TheDelayIsTheLongestOfTheLateAnswersInARow)
+{
+    const auto is_late_by = [this](std::chrono::milliseconds delay, std::chrono::seconds when) {
+        loses(read(kA, kM), when);
+        EXPECT_EQ(owed.heard(kM, text("1"), after(when + delay)), Verdict::owed);
+    };
+    is_late_by(400ms, 1s);
+    is_late_by(300ms, 2s);
+    EXPECT_EQ(owed.counts(kA).delay, 400ms);
+
+    owed.asked(read(kA, kM), after(3s));
+    EXPECT_EQ(owed.heard(kM, text("1"), after(3s + 20ms)), Verdict::answer);
+    is_late_by(200ms, 4s);
+    EXPECT_EQ(owed.counts(kA).delay, 200ms) << "the row was broken";
+}
+
+TEST_F(Owed, BehindTheAnswerThatWasWaitedForAnotherOneIsLate)
+{
+    loses(read(kB, kN), 0s);
+    owed.asked(read(kA, kM), after(1s));
+    ASSERT_EQ(owed.heard(kM, text("1"), after(1020ms)), Verdict::answer);
+
+    EXPECT_EQ(owed.heard(kN, text("2"), after(1040ms)), Verdict::owed);
+}
+
+TEST_F(Owed, AnAnswerThatMayBeAnotherDrivesIsNotTaken)
+{
+    loses(read(kA, kM), 0s);
+    loses(read(kB, kM), 100ms);
+    owed.asked(read(kA, kM), after(300ms));
+
+    EXPECT_EQ(owed.heard(kM, text("1"), after(320ms)), Verdict::owed);
+}
+
+TEST_F(Owed, AValueIsOlderThanAWriteIfAnyOfItsQuestionsIs)
+{
+    loses(read(kA, kM), 0s);
+    owed.asked(write(kA, kM), after(100ms));
+    ASSERT_TRUE(owed.take_ack());
+    loses(read(kA, kM), 200ms);
+    owed.asked(read(kA, kM), after(300ms));
+
+    EXPECT_EQ(owed.heard(kM, text("1"), after(320ms)), Verdict::before_write);
+}
+
+TEST_F(Owed, AnotherTagThatWasWrittenMeanwhileMakesNoValueOlder)
+{
+    loses(read(kA, kM), 0s);
+    loses(read(kA, kN), 100ms);
+    owed.asked(write(kA, kN), after(200ms));
+    ASSERT_TRUE(owed.take_ack());
+    owed.asked(read(kA, kM), after(300ms));
+
+    EXPECT_EQ(owed.heard(kM, text("1"), after(320ms)), Verdict::answer_or_older);
+}
+
+TEST_F(Owed, NothingIsOwedOrWaitedForAfterAllIsForgotten)
+{
+    owed.asked(write(kA, kM), after(0s));
+    owed.heard(kN, text("1"), after(10ms));
+
+    owed.clear();
+
+    EXPECT_TRUE(owed.empty());
+    EXPECT_FALSE(owed.owes_write(kA));
+    EXPECT_EQ(owed.heard(kN, text("1"), after(20ms)), Verdict::foreign) << "no duplicate";
+}
+
+TEST_F(Owed, WhatIsOwedIsAskedByDriveFormAndKind)
+{
+    Question one = read(kA, kM);
+    one.refusal = kRefusal;
+    loses(one, 0s);
+    loses(write(kB, kN), 0s);
+
+    EXPECT_TRUE(owed.owes(kA, kM));
+    EXPECT_TRUE(owed.owes(kA, kRefusal));
+    EXPECT_FALSE(owed.owes(kA, kN));
+    EXPECT_FALSE(owed.owes(kB, kM));
+    EXPECT_FALSE(owed.owes_write(kA));
+    EXPECT_TRUE(owed.owes_write(kB));
+    EXPECT_TRUE(owed.is_owed(kM));
+    EXPECT_TRUE(owed.is_owed(kRefusal));
+    EXPECT_FALSE(owed.is_owed(kN)) << "the write is answered by a lone octet";
+    EXPECT_FALSE(owed.owes(3));
+}
+
+TEST_F(Owed, SixteenFramesSinceTheLastQuestionAreComparedAndNoMore)
+{
+    owed.asked(read(kA, kM), after(0s));
+    const std::string_view frames = "abcdefghijklmnopq";
+    for (std::size_t i = 0; i < frames.size(); ++i)
+        EXPECT_EQ(owed.heard(kN, text(frames.substr(i, 1)), after(10ms)), Verdict::foreign);
+
+    EXPECT_EQ(owed.heard(kN, text("p"), after(20ms)), Verdict::duplicate) << "the sixteenth";
+    EXPECT_EQ(owed.heard(kN, text("q"), after(20ms)), Verdict::foreign);
 }
 
 } // namespace
