@@ -9,10 +9,10 @@
 namespace dpslave::dp {
 
 struct GlobalCommand {
-    bool clear;  ///< carried out before the others
-    Switch sync; ///< on again while on: take the outputs received meanwhile
-    Switch freeze;
-    std::uint8_t groups; ///< Group_Select; 0 = all slaves
+    bool clear{};  ///< carried out before the others
+    Switch sync{}; ///< on again while on: take the outputs received meanwhile
+    Switch freeze{};
+    std::uint8_t groups{}; ///< Group_Select; 0 = all slaves
 
     /// Is a slave with this Group_Ident meant?
     bool selects(std::uint8_t group_ident) const { return groups == 0 || (groups & group_ident) != 0; }
