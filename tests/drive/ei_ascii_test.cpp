@@ -367,6 +367,7 @@ TEST(EiLastError, IsComparedByItsHighOctet)
     EXPECT_EQ(error_of_ee(0x00C0, false), AccessError::not_understood);
     EXPECT_EQ(error_of_ee(0x42C8, false), AccessError::not_understood);
     EXPECT_EQ(error_of_ee(0x04C8, false), AccessError::unsupported_type);
+    EXPECT_EQ(error_of_ee(0x05C8, false), AccessError::read_only);
     EXPECT_EQ(meaning_of_ee(0x08C8), "data out of range");
     EXPECT_EQ(meaning_of_ee(0x07C7), "invalid message format");
     EXPECT_EQ(meaning_of_ee(0x07C8), "invalid data");

@@ -55,6 +55,25 @@ TEST(EiAnswerByOctets, StaysBrokenWhateverFollows)
     EXPECT_EQ(parser.flaw(), Flaw::bad_bcc);
 }
 
+TEST(EiAnswerByOctets, StaysBrokenBehindACharacterThatIsNotAllowed)
+{
+    AnswerParser parser{AnswerParser::To::poll};
+    ASSERT_EQ(feed_all(parser, "02 50 56 31 04"), AnswerParser::Status::broken);
+
+    EXPECT_EQ(feed_all(parser, "31"), AnswerParser::Status::broken);
+    EXPECT_EQ(parser.flaw(), Flaw::bad_text);
+}
+
+TEST(EiAnswerByOctets, BeginsBehindNoiseOfEachKind)
+{
+    for (const char* noise : {"00", "7F", "FF"}) {
+        AnswerParser parser{AnswerParser::To::poll};
+        EXPECT_EQ(feed_all(parser, noise), AnswerParser::Status::more) << noise;
+        EXPECT_FALSE(parser.started());
+        EXPECT_EQ(feed_all(parser, "02 50 56 03 05"), AnswerParser::Status::complete) << noise;
+    }
+}
+
 TEST(EiAnswerByOctets, HasBegunWithItsFirstOctet)
 {
     AnswerParser parser{AnswerParser::To::poll};

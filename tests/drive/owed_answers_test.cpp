@@ -241,6 +241,46 @@ TEST_F(Owed, AnAnswerThatMayBeAnotherDrivesIsNotTaken)
     owed.asked(read(kA, kM), after(300ms));
 
     EXPECT_EQ(owed.heard(kM, text("1"), after(320ms)), Verdict::owed);
+    EXPECT_EQ(owed.counts(kA).late, 1u);
+}
+
+TEST_F(Owed, WhatAnotherDriveOwesOfAnotherTagDoesNotMatter)
+{
+    loses(read(kA, kM), 0s);
+    loses(read(kB, kN), 100ms);
+    owed.asked(read(kA, kM), after(300ms));
+
+    EXPECT_EQ(owed.heard(kM, text("1"), after(320ms)), Verdict::answer_or_older);
+}
+
+TEST_F(Owed, AnAckIsDoubtfulWhereNoWriteIsWaitedFor)
+{
+    loses(write(kA, kM), 0s);
+    EXPECT_FALSE(owed.take_ack()) << "its wait is over";
+    owed.asked(read(kA, kN), after(1s));
+    EXPECT_FALSE(owed.take_ack()) << "a read is waited for";
+
+    EXPECT_TRUE(owed.owes_write(kA));
+}
+
+TEST_F(Owed, BehindAnAckAnotherAnswerIsLateAndTheDriveIsNot)
+{
+    loses(read(kA, kM), 0s);
+    ASSERT_EQ(owed.heard(kM, text("1"), after(400ms)), Verdict::owed);
+    ASSERT_EQ(owed.counts(kA).late_in_a_row, 1u);
+    loses(read(kB, kN), 1s);
+    owed.asked(write(kA, kM), after(2s));
+    ASSERT_TRUE(owed.take_ack());
+
+    EXPECT_EQ(owed.counts(kA).late_in_a_row, 0u);
+    EXPECT_EQ(owed.heard(kN, text("2"), after(2100ms)), Verdict::owed);
+}
+
+TEST_F(Owed, OfADriveThatWasNeverHeardNothingIsCounted)
+{
+    EXPECT_EQ(owed.counts(kA), AnswerCounts{});
+    owed.foreign(kA);
+    EXPECT_EQ(owed.counts(kB), AnswerCounts{});
 }
 
 TEST_F(Owed, AValueIsOlderThanAWriteIfAnyOfItsQuestionsIs)
@@ -284,6 +324,7 @@ TEST_F(Owed, WhatIsOwedIsAskedByDriveFormAndKind)
     loses(one, 0s);
     loses(write(kB, kN), 0s);
 
+    EXPECT_TRUE(owed.owes(kA));
     EXPECT_TRUE(owed.owes(kA, kM));
     EXPECT_TRUE(owed.owes(kA, kRefusal));
     EXPECT_FALSE(owed.owes(kA, kN));
