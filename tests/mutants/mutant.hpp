@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <type_traits>
 
 namespace dpslave::mutants {
 
@@ -30,11 +31,14 @@ inline bool is(int number)
     return number_in_force == number;
 }
 
-/// The value of a switch of which the case `label` is taken out.
+/// The value of a switch of which the case `label` is taken out; an octet as a wider number, for 255 may be
+/// another case.
 template <class T, class Label>
-T without_case(T value, int number, Label label)
+auto without_case(T value, int number, Label label)
 {
-    return is(number) && value == label ? static_cast<T>(-1) : value;
+    using Wider =
+        typename std::conditional_t<std::is_enum_v<T>, std::type_identity<T>, std::common_type<T, int>>::type;
+    return is(number) && value == label ? static_cast<Wider>(-1) : static_cast<Wider>(value);
 }
 
 /// In place of a static_assert: the compiler would refuse the mutant.
