@@ -79,6 +79,8 @@ FixtureDaemon::FixtureDaemon(std::string behind_each_text)
                 picture["stations"][0]["state"] = "Wait_Prm";
                 for (const std::uint64_t stream : own.streams()) own.push(stream, picture);
             }
+            if (const std::uint64_t stream = std::exchange(trace_stream_, 0); stream != 0)
+                push_line(own, stream);
             eventfd_t woken = 0;
             if (::eventfd_read(event_, &woken) == 0) push_events(own);
             if (::eventfd_read(wake_, &woken) == 0) {
@@ -103,6 +105,16 @@ FixtureDaemon::~FixtureDaemon()
 void FixtureDaemon::something_happens()
 {
     ::eventfd_write(event_, 1);
+}
+
+/// The end of a trace with drive lines: that line has no records.
+void FixtureDaemon::push_line(control::Server& server, std::uint64_t stream) const
+{
+    Json line = reply("Trace");
+    line["line"] = "p3";
+    line["records"] = "";
+    line["lost"] = 0;
+    server.push(stream, line);
 }
 
 void FixtureDaemon::push_events(control::Server& server)
@@ -199,6 +211,14 @@ control::Handlers FixtureDaemon::handlers()
             written_ = parameters;
         }
         return Done{reply("SetTec")};
+    };
+    all["Trace"] = [this](const Json& parameters, const control::Caller&) -> Reply {
+        if (!parameters.value("all", false)) return Done{reply("Trace")};
+        Json bus = reply("Trace");
+        bus["caught_up"] = false;
+        bus["records"] = "AwAAAAQAAAAEAAAAAAAAAAAvaFkAAAAAAAAAAAAAAABoDQ0="; // 68 0D 0D at 1.5 s
+        trace_stream_ = ++last_number_;
+        return control::Stream{trace_stream_, bus};
     };
     all["Watch"] = [this](const Json&, const control::Caller&) {
         second_picture_due_ = true;

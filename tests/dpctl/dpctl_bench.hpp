@@ -14,7 +14,8 @@
 
 namespace dpslave::test {
 
-/// Serves the fixtures. Stations "unwinder" and "rewinder"; tags are answered later, as a drive does: tag 1
+/// Serves the fixtures. A trace of all ends with a drive line, while the bus has three octets of a telegram.
+/// Stations "unwinder" and "rewinder"; tags are answered later, as a drive does: tag 1
 /// is read only, tag 2 never gets an answer. FAULT of
 /// TEC OPTION cannot be set. A survey of tags 1 to 5 and 9 finds 12.5, no such tag, silence, >1B0B, 30.
 /// and 7.; tag 5 is Busy and then lost before it answers. Watch gives a first picture at once and a second
@@ -57,6 +58,7 @@ private:
     control::Reply tag(const Json& parameters);
     static control::Reply find_tags(const Json& parameters);
     void push_events(control::Server& server);
+    void push_line(control::Server& server, std::uint64_t stream) const;
     Json reply(const std::string& method) const;
     control::Reply survey(const Json& parameters);
 
@@ -65,6 +67,7 @@ private:
     std::filesystem::path socket_ = folder_.path() / "control.sock";
     std::vector<std::pair<std::uint64_t, control::Reply>> answers_;
     bool second_picture_due_ = false;
+    std::uint64_t trace_stream_ = 0; ///< whose second reply is due; 0: none
     std::uint64_t last_number_ = 0;
     std::map<int, int> surveyed_; ///< by tag, how often; only the thread's
     mutable std::mutex mutex_;

@@ -6,6 +6,8 @@
 
 #include <cstdlib>
 #include <ctime>
+#include <fstream>
+#include <iterator>
 #include <sstream>
 
 namespace dpslave::test {
@@ -149,6 +151,21 @@ TEST_F(DpctlTrace, WhoseRecordsCannotBeReadSaysSoAndWhatToCompare)
         EXPECT_THAT(ran.err, HasSubstr("records of the daemon cannot be read"));
         EXPECT_THAT(ran.err, HasSubstr("dpctl version"));
     }
+}
+
+TEST_F(DpctlTrace, OfThePastThatEndsWithADriveLineHasWhatIsUnfinishedOnTheBus)
+{
+    const FixtureDaemon daemon;
+    const TempFolder folder;
+    const std::string file = (folder.path() / "all.pcapng").string();
+
+    const Ran ran = dpctl({"--socket", daemon.socket(), "trace", "--write", file});
+
+    ASSERT_EQ(ran.exit, 0) << ran.err;
+    std::ifstream in{file, std::ios::binary};
+    const std::string octets{std::istreambuf_iterator<char>{in}, {}};
+    EXPECT_THAT(octets, HasSubstr("\x68\x0D\x0D"));
+    EXPECT_THAT(octets, HasSubstr("no telegram"));
 }
 
 TEST_F(DpctlTrace, ThatCannotCreateItsFileSaysWhich)
