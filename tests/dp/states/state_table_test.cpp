@@ -2,7 +2,7 @@
 /// The transition table of wire reference 6.4, row by row: the test's name begins with the row's.
 /// Here: start and stop, addresses, diagnosis, Set_Prm.
 #include "dp/state_table.hpp"
-#include "rows.hpp"
+#include "dp/states/rows.hpp"
 
 #include <set>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Every trigger in every state: the answer and all that becomes another by it, as wire reference 6.3 and 6.4
 /// say. Rows that need a whole start-up are in state_table_test.cpp and rows_exchange_test.cpp.
-#include "bench.hpp"
+#include "dp/bench.hpp"
 #include "dp/state_table.hpp"
 
 #include <fmt/format.h>

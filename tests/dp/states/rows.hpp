@@ -2,7 +2,7 @@
 /// What the tests of the transition table's rows share.
 #pragma once
 
-#include "bench.hpp"
+#include "dp/bench.hpp"
 
 namespace test {
 

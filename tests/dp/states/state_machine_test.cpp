@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The state machine by itself: triggers go in, no telegram is judged.
-#include "bench.hpp"
+#include "dp/bench.hpp"
 #include "dp/state_table.hpp"
 
 namespace test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The transition table of wire reference 6.4, row by row: Chk_Cfg, Data_Exchange, reading back,
 /// Global_Control, watchdog, retries, and what the application brings.
-#include "rows.hpp"
+#include "dp/states/rows.hpp"
 
 namespace test {
 namespace {
