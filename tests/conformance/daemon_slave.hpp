@@ -40,8 +40,6 @@ private:
     std::optional<Octets> reply_until(Time slot_ends);
     void drop_doubles(const Octets& reply);
     void tell_drive(const std::string& command);
-    /// Answers of the drive to this daemon.
-    std::uint64_t reads();
 
     const Family& family_;
     dpslave::sim::Pty bus_;
