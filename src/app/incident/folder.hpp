@@ -5,6 +5,7 @@
 
 #include "book.hpp"
 
+#include "dpslave/base/result.hpp"
 #include "dpslave/report/incident.hpp"
 #include "dpslave/trace/ring.hpp"
 
