@@ -150,7 +150,7 @@ AWK
 faults_of() ( # ROOT
     cd "$1"
     there > "$scratch/there"
-    find README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md src include tests config docs -type f ! -path 'tests/docs/*.sh' ! -path 'tests/docs/*.py' ! -name '*.pcapng' |
+    find README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md src include tests config docs -type f ! -path 'tests/docs/*.sh' ! -path 'tests/docs/*.py' ! -name '*.pcapng' ! -name '*.tar.gz' |
         LC_ALL=C sort | xargs awk -f "$scratch/cited.awk" | uniq > "$scratch/cited"
     awk -v wire="$wire" -v drive="$drive" -v rows="$rows" -f "$scratch/faults.awk" "$scratch/there" "$scratch/cited"
 )
