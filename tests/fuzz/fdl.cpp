@@ -339,8 +339,12 @@ bool has_plain_pauses(const Line& line)
 {
     if (line.searched) return false;
     const auto patience = std::chrono::milliseconds{line.baud < Baud::k93_75 ? 20 : 5};
-    for (const Step& step : line.steps)
-        if (step.pause + bits(11 * step.octets.size(), line.baud) > patience) return false;
+    nanoseconds quiet{}; // steps without octets make one pause
+    for (const Step& step : line.steps) {
+        quiet += step.pause;
+        if (quiet + bits(11 * step.octets.size(), line.baud) > patience) return false;
+        if (!step.octets.empty()) quiet = {};
+    }
     return true;
 }
 
