@@ -17,6 +17,10 @@ constexpr Tbit kFifo{64 * kCharacter.count};
 /// least.
 constexpr Tbit kPause = kTsyn + Tbit{4 * kCharacter.count};
 
+/// So much silence before the first octet of a read is none of a telegram: its characters follow each other
+/// at once. Less than T_SYN, because the reads before and behind it are late by different times.
+constexpr Tbit kSilence{2 * kCharacter.count};
+
 /// When an unfinished telegram is given up although nothing came behind it that shows its end.
 Instant given_up_at(Instant read_at, Baud baud)
 {
@@ -25,25 +29,21 @@ Instant given_up_at(Instant read_at, Baud baud)
 
 /// Whether these octets are no telegram: the beginning of one that was cut off may be what makes one fail so.
 /// A telegram with a good checksum that says what is not understood is one.
-bool is_damage(Flaw flaw)
+bool is_damage(const Result<Telegram, Flaw>& heard)
 {
+    if (heard) return false;
+    const Flaw flaw = heard.error();
     return flaw == Flaw::checksum || flaw == Flaw::end_delimiter || flaw == Flaw::character ||
            flaw == Flaw::unfinished;
 }
 
-/// Whether these octets are whole telegrams, the last of them one with a checksum.
-bool are_telegrams(Bytes octets)
+/// The first of the places behind `begin` and before `end`; `end` if there is none.
+template <std::size_t Size>
+std::size_t first_of(const std::bitset<Size>& places, std::size_t begin, std::size_t end)
 {
-    bool has_checksum = false;
-    while (!octets.empty()) {
-        const auto length = frame_length(octets);
-        if (!length || *length == 0 || octets.size() < *length) return false;
-        const auto telegram = decode(octets.first(*length));
-        if (!telegram) return false;
-        has_checksum = telegram->has_fc();
-        octets = octets.subspan(*length);
-    }
-    return has_checksum;
+    do ++begin;
+    while (begin < end && !places[begin]);
+    return begin;
 }
 
 } // namespace
@@ -61,10 +61,12 @@ void Receiver::begin_read(std::size_t octets, Instant read_at)
     if (used_ != 0 || damaged_) {
         const Tbit on_wire{static_cast<std::uint32_t>(octets) * kCharacter.count};
         const Instant began = read_at - duration_of(on_wire, baud_);
-        if (began >= gap_ends_ - duration_of(kFifo, baud_))
-            give_up();
-        else if (used_ != 0 && read_at - heard_at_ >= duration_of(kTsyn, baud_))
-            boundaries_[used_] = true;
+        if (began >= gap_ends_ - duration_of(kFifo, baud_)) give_up();
+        if (used_ != 0) {
+            silences_[used_] = began - heard_at_ >= duration_of(kSilence, baud_);
+            boundaries_[used_] = silences_[used_] || read_at - heard_at_ >= duration_of(kTsyn, baud_);
+            is_cut_ = is_cut_ || boundaries_[used_];
+        }
         if (damaged_ && began - heard_at_ >= duration_of(kPause, baud_)) {
             damaged_ = false;
             counted_ = used_;
@@ -98,7 +100,15 @@ void Receiver::on_character_error()
 
 bool Receiver::on_time(Instant now)
 {
-    if (now >= hunt_at_ && hunt_behind_stump()) return true;
+    if (now >= hunt_at_) {
+        hunt_at_ = kNever;
+        boundaries_[used_] = silences_[used_] = true; // until the next read tells that it was none
+        if (in_doubt_ || hunt_behind_stump()) {
+            more_follows_ = false;
+            reading_ = true;
+            return true;
+        }
+    }
     if (used_ == 0 || now < gap_ends_) return false;
     give_up();
     return true;
@@ -133,7 +143,7 @@ const Receiver::Heard* Receiver::next()
 bool Receiver::next_in_buffer()
 {
     heard_.at = heard_at_;
-    heard_.newest = false;
+    heard_.newest = in_doubt_ = false;
     while (at_ < used_) {
         const Bytes rest = Bytes{rx_}.first(used_).subspan(at_);
         const auto length = frame_length(rest);
@@ -152,16 +162,24 @@ bool Receiver::next_in_buffer()
         const std::size_t end = at_ + *length;
         heard_.begin = forgotten_ + at_;
         heard_.end = forgotten_ + end;
-        const std::size_t boundary = boundary_within(at_, end);
+        std::size_t boundary = boundary_within(at_, end);
         heard_.telegram = telegram_at(at_, *length, boundary != end);
+        if (boundary != end && !is_damage(heard_.telegram)) {
+            const Doubt doubt = doubt_about(end);
+            in_doubt_ = doubt.tail == Tail::open;
+            if (in_doubt_) break;
+            if (doubt.tail == Tail::telegrams) {
+                heard_.telegram = Failure{Flaw::unfinished};
+                boundary = doubt.at;
+            }
+        }
         if (heard_.telegram) {
             at_ = end;
             if (heard_.telegram->has_fc()) damaged_ = false; // SC and tokens are in noise by chance
             heard_.newest = input_.empty() && !more_follows_ && end == used_;
             return true;
         }
-        const Flaw flaw = heard_.telegram.error();
-        if (!is_damage(flaw)) {
+        if (!is_damage(heard_.telegram)) {
             at_ = end;
             damaged_ = false;
             return true;
@@ -200,23 +218,50 @@ Result<Telegram, Flaw> Receiver::telegram_at(std::size_t at, std::size_t length,
 /// The first boundary behind `begin` and before `end`; `end` if there is none.
 std::size_t Receiver::boundary_within(std::size_t begin, std::size_t end) const
 {
-    if (boundaries_.none()) return end;
-    do ++begin;
-    while (begin < end && !boundaries_[begin]);
-    return begin;
+    return is_cut_ ? first_of(boundaries_, begin, end) : end;
+}
+
+/// Whether whole telegrams lie from the first of the octets up to `least` of them or beyond.
+Receiver::Tail Receiver::tail_of(Bytes octets, std::size_t least)
+{
+    bool has_checksum = false;
+    for (std::size_t at = 0; at < least;) {
+        const Bytes rest = octets.subspan(at);
+        const auto length = frame_length(rest);
+        if (!length) return Tail::none;
+        if (*length == 0 || rest.size() < *length) return Tail::open;
+        const auto telegram = decode(rest.first(*length));
+        if (!telegram) return Tail::none;
+        has_checksum = telegram->has_fc();
+        at += *length;
+    }
+    return has_checksum ? Tail::telegrams : Tail::none;
+}
+
+/// A good telegram lies from at_ to `end`, and a pause within it. A stump and what came behind it look like
+/// one by chance: then telegrams begin behind a silence. Nothing becomes whole across the next silence.
+Receiver::Doubt Receiver::doubt_about(std::size_t end) const
+{
+    const std::size_t falls_silent = first_of(silences_, end - 1, used_ + 1);
+    const Bytes heard = Bytes{rx_}.first(std::min(falls_silent, used_));
+    Doubt doubt{.tail = Tail::none, .at = end};
+    for (std::size_t at = first_of(silences_, at_, end); at < end; at = first_of(silences_, at, end)) {
+        const Tail tail = tail_of(heard.subspan(at), end - at);
+        if (tail == Tail::telegrams) return {.tail = tail, .at = at};
+        if (tail == Tail::open && falls_silent > used_) doubt.tail = tail;
+    }
+    return doubt;
 }
 
 /// The line has fallen silent within a telegram. Where whole telegrams follow a boundary in it and nothing is
 /// left over, it was a stump, and they came after it.
 bool Receiver::hunt_behind_stump()
 {
-    hunt_at_ = kNever;
     for (std::size_t at = boundary_within(0, used_); at < used_; at = boundary_within(at, used_)) {
-        if (spoilt_ > at || !are_telegrams(Bytes{rx_}.first(used_).subspan(at))) continue;
+        if (spoilt_ > at || tail_of(Bytes{rx_}.first(used_).subspan(at), used_ - at) != Tail::telegrams)
+            continue;
         report_unfinished();
         forget(at);
-        more_follows_ = false;
-        reading_ = true;
         return true;
     }
     return false;
@@ -226,7 +271,7 @@ bool Receiver::hunt_behind_stump()
 void Receiver::await_rest()
 {
     gap_ends_ = used_ == 0 ? kNever : given_up_at(heard_at_, baud_);
-    hunt_at_ = boundaries_.none() ? kNever : heard_at_ + duration_of(kTsyn, baud_);
+    hunt_at_ = is_cut_ && !silences_[used_] ? heard_at_ + duration_of(kTsyn, baud_) : kNever;
 }
 
 void Receiver::give_up()
@@ -244,22 +289,28 @@ void Receiver::report_unfinished()
 /// Takes the first `count` octets off rx_.
 void Receiver::forget(std::size_t count)
 {
+    if (count == used_) return forget_all();
     std::memmove(rx_.data(), rx_.data() + count, used_ - count);
     used_ -= count;
     forgotten_ += count;
     spoilt_ -= std::min(spoilt_, count);
     counted_ -= std::min(counted_, count);
-    if (boundaries_.none()) return;
+    if (!is_cut_) return;
     boundaries_ >>= count;
-    boundaries_[0] = false;
+    silences_ >>= count;
+    boundaries_[0] = silences_[0] = false;
+    is_cut_ = boundaries_.any();
 }
 
 void Receiver::forget_all()
 {
     forgotten_ += used_;
     used_ = spoilt_ = counted_ = 0;
-    boundaries_.reset();
     gap_ends_ = hunt_at_ = kNever;
+    in_doubt_ = false;
+    if (!std::exchange(is_cut_, false)) return;
+    boundaries_.reset();
+    silences_.reset();
 }
 
 void Receiver::restart(Baud baud)

@@ -57,12 +57,28 @@ public:
     void restart(Baud baud);
 
 private:
+    /// Places in rx_, and the one behind it.
+    using Places = std::bitset<2 * kMaxTelegram + 1>;
+
+    /// What is heard behind a silence within a good telegram.
+    enum class Tail : std::uint8_t {
+        none,      ///< no telegram begins there
+        open,      ///< a telegram may have begun there that is not whole yet
+        telegrams, ///< whole telegrams up to its end or beyond, the last of them with a checksum
+    };
+    struct Doubt {
+        Tail tail;
+        std::size_t at; ///< where it begins
+    };
+
     void await_rest();
     void give_up();
     void report_unfinished();
     bool hunt_behind_stump();
     Result<Telegram, Flaw> telegram_at(std::size_t at, std::size_t length, bool is_cut) const;
     std::size_t boundary_within(std::size_t begin, std::size_t end) const;
+    static Tail tail_of(Bytes octets, std::size_t least);
+    Doubt doubt_about(std::size_t end) const;
     bool next_in_buffer();
     bool begins_flaw();
     void refill();
@@ -75,8 +91,11 @@ private:
     std::uint64_t forgotten_ = 0; // characters that came before rx_
     std::size_t spoilt_ = 0;      // octets of rx_ up to its last bad character
     /// Where in rx_ a read began at least T_SYN after the one before: a new telegram may have begun there.
-    std::bitset<2 * kMaxTelegram> boundaries_;
-    Instant heard_at_{};        // when octets were read last
+    Places boundaries_;
+    bool is_cut_ = false; // there is one: the sets are long, and each telegram asks
+    Places silences_;     // those of them with a silence on the line before them, as far as the times of the
+                          // reads say
+    Instant heard_at_{};  // when octets were read last
     Instant gap_ends_ = kNever; // the unfinished telegram is given up
     Instant hunt_at_ = kNever;  // whole telegrams are looked for in it
 
@@ -87,6 +106,7 @@ private:
     bool damaged_ = false;    // what was heard last is no telegram, and its flaw is reported
     std::size_t counted_ = 0; // octets of rx_ before a pause whose flaw is reported
     bool more_follows_ = false;
+    bool in_doubt_ = false;  // rx_ begins with a good telegram, and what is in it may be another one
     Bytes input_;            // not in rx_ yet
     std::size_t at_ = 0;     // rx_ is read up to here
     std::size_t failed_ = 0; // up to here a telegram has failed: it is searched at boundaries only

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The receiver by itself: octets in, telegrams and flaws out.
-#include "receiver_bench.hpp"
+#include "fdl/receiver/receiver_bench.hpp"
 
 using namespace dpslave;
 using namespace test;

@@ -2,7 +2,7 @@
 /// What the tests of the receiver share: octets in, telegrams and flaws out.
 #pragma once
 
-#include "bench.hpp"
+#include "fdl/bench.hpp"
 
 #include "dpslave/fdl/receiver.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The receiver and silence: when an unfinished telegram is given up, and what is found behind a stump.
-#include "receiver_bench.hpp"
+#include "fdl/receiver/receiver_bench.hpp"
 
 using namespace dpslave;
 using namespace test;

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A telegram with a silence in it: a real one that was read late, or a stump that makes one by chance with
+/// what came behind it. The check sum and the end delimiter say nothing then; what begins behind the silence
+/// does.
+#include "fdl/receiver/receiver_bench.hpp"
+
+using namespace dpslave;
+using namespace test;
+using std::chrono::nanoseconds;
+
+namespace {
+
+class SilenceInATelegram : public Receiver {
+protected:
+    /// T_SYN, and the time of so many octets.
+    void falls_silent_before(std::size_t octets)
+    {
+        now += duration_of(Tbit{static_cast<std::uint32_t>(33 + 11 * octets)}, Baud::k187_5);
+    }
+    void reads_behind_silence(const Octets& octets)
+    {
+        falls_silent_before(octets.size());
+        reads(octets);
+    }
+    /// Without a pause on the line.
+    void goes_on(const Octets& octets)
+    {
+        now += duration_of(Tbit{static_cast<std::uint32_t>(11 * octets.size())}, Baud::k187_5);
+        reads(octets);
+    }
+    bool stays_silent(std::uint32_t bits)
+    {
+        now += duration_of(Tbit{bits}, Baud::k187_5);
+        return receiver.on_time(now);
+    }
+
+    const Octets behind = octets("10 09 02 49 54 16"); ///< FDL_Status to 9
+    /// Eight octets say that they are a request to 5; with `behind` they are 14 with a right check sum:
+    /// 05 + 02 + 5D + 8C = F0, and 10 more are 00.
+    const Octets stump = octets("68 08 08 68 05 02 5D 8C");
+    /// A request to 5 whose last octets begin like a telegram of six octets: 05 + 02 + 5D + 01 + 10 + 09 =
+    /// 7E.
+    const Octets begun = octets("68 06 06 68 05 02 5D 01");
+    const Octets rest = octets("10 09 7E 16");
+};
+
+TEST_F(SilenceInATelegram, StumpThatEndsLikeTheTelegramBehindItIsUnfinished)
+{
+    reads(stump);
+    EXPECT_EQ(next(), "-");
+
+    reads_behind_silence(behind);
+
+    EXPECT_EQ(next_with_its_place(), "0 unfinished");
+    EXPECT_EQ(next_with_its_place(), "8..14 49");
+    EXPECT_EQ(next(), "-");
+}
+
+TEST_F(SilenceInATelegram, StumpThatEndsWithinTheTelegramBehindItIsUnfinished)
+{
+    // 05 + 02 + 5D, then 68 06 06 68 05 02 5D = 134: together 98, and ED behind it.
+    reads(octets("68 0A 0A 68 05 02 5D"));
+    EXPECT_EQ(next(), "-");
+    falls_silent_before(9);
+    reads(octets("68 06 06 68 05 02 5D A4 16"));
+    EXPECT_EQ(next(), "-") << "one telegram seems to be whole, the other one may become so";
+
+    goes_on(octets("33 51 16"));
+
+    EXPECT_EQ(next_with_its_place(), "0 unfinished");
+    EXPECT_EQ(next_with_its_place(), "7..19 5D");
+}
+
+TEST_F(SilenceInATelegram, StumpBehindWhichSeveralTelegramsComeIsUnfinished)
+{
+    // The end of the second one is the end of the stump: F0 and the 10 09 02 49 54 16 of the first are BE.
+    reads(octets("68 0E 0E 68 05 02 5D BE"));
+    EXPECT_EQ(next(), "-");
+
+    reads_behind_silence(joined({behind, behind}));
+
+    EXPECT_EQ(next(), "unfinished");
+    EXPECT_EQ(next(), "49");
+    EXPECT_EQ(next(), "49!");
+}
+
+TEST_F(SilenceInATelegram, TelegramIsHeardAtOnceWhenNothingBeginsBehindTheSilence)
+{
+    reads(Octets(first.begin(), first.begin() + 7));
+    EXPECT_EQ(next(), "-");
+
+    reads_behind_silence(Octets(first.begin() + 7, first.end()));
+
+    EXPECT_EQ(next(), "5D!");
+}
+
+TEST_F(SilenceInATelegram, TelegramIsHeardAtOnceWhenWhatBeginsBehindTheSilenceFails)
+{
+    const Octets whole = sd2(kUs, kMaster, kSrdFcb0, octets("10 09 02 49 55 16"));
+    reads(Octets(whole.begin(), whole.begin() + 7));
+    EXPECT_EQ(next(), "-");
+
+    reads_behind_silence(Octets(whole.begin() + 7, whole.end()));
+
+    EXPECT_EQ(next(), "5D!");
+}
+
+TEST_F(SilenceInATelegram, TelegramInDoubtIsHeardAsTheNewestAfterTsyn)
+{
+    reads(begun);
+    EXPECT_EQ(next(), "-");
+    reads_behind_silence(rest);
+    EXPECT_EQ(next(), "-");
+    EXPECT_EQ(receiver.next_deadline(), now + duration_of(33_tbit, Baud::k187_5));
+    EXPECT_FALSE(receiver.on_time(receiver.next_deadline() - nanoseconds{1}));
+
+    EXPECT_TRUE(receiver.on_time(receiver.next_deadline()));
+
+    EXPECT_EQ(next(), "5D!");
+    EXPECT_EQ(next(), "-");
+    EXPECT_EQ(receiver.next_deadline(), kNever);
+}
+
+TEST_F(SilenceInATelegram, TelegramInDoubtIsHeardWhenWhatFollowsFails)
+{
+    reads(begun);
+    EXPECT_EQ(next(), "-");
+    reads_behind_silence(rest);
+    EXPECT_EQ(next(), "-");
+
+    goes_on(behind); // 10 09 7E 16 10 09: no telegram
+
+    EXPECT_EQ(next(), "5D");
+    EXPECT_EQ(next(), "49!");
+}
+
+TEST_F(SilenceInATelegram, TelegramInDoubtIsHeardWhenTheNextSilenceIsSeenWithWhatCameBehindIt)
+{
+    reads(begun);
+    EXPECT_EQ(next(), "-");
+    reads_behind_silence(rest);
+    EXPECT_EQ(next(), "-");
+
+    reads_behind_silence(
+        octets("02 16")); // would make 10 09 7E 16 02 16 of it: no check sum of that is right
+
+    EXPECT_EQ(next(), "5D");
+    EXPECT_EQ(next(), "start delimiter");
+}
+
+TEST_F(SilenceInATelegram, NothingBecomesWholeAcrossTheNextSilence)
+{
+    // 05 + 02 + 5D + 10 + 09 = 7D; 10 09 7D 16 9C 16 would be a telegram: 09 + 7D + 16 = 9C.
+    reads(octets("68 05 05 68 05 02 5D"));
+    EXPECT_EQ(next(), "-");
+    reads_behind_silence(octets("10 09 7D 16"));
+    EXPECT_EQ(next(), "-");
+
+    reads_behind_silence(octets("9C 16"));
+
+    EXPECT_EQ(next(), "5D");
+}
+
+TEST_F(SilenceInATelegram, ReadsInPiecesAreNoSilence)
+{
+    reads(begun);
+    EXPECT_EQ(next(), "-");
+
+    goes_on(rest);
+
+    EXPECT_EQ(next(), "5D!");
+}
+
+TEST_F(SilenceInATelegram, TelegramInDoubtIsGivenUpWithABadCharacterBehindIt)
+{
+    reads(begun);
+    EXPECT_EQ(next(), "-");
+    reads_behind_silence(rest);
+    EXPECT_EQ(next(), "-");
+    now += duration_of(11_tbit, Baud::k187_5);
+
+    hears_a_bad_character();
+
+    EXPECT_EQ(next(), "bad character");
+    EXPECT_EQ(next(), "-");
+    EXPECT_FALSE(stays_silent(33)) << "it is not known what it was";
+}
+
+} // namespace
