@@ -176,6 +176,23 @@ TEST_F(DriverEnableOfTheBus, F19_OfAStuckTransmitterIsDroppedWithTheReplyThatDid
     EXPECT_EQ(uart::flushes(), 1u) << "what leaves is left alone";
 }
 
+/// A long reply is in the kernel's buffer while the first octets of it are heard.
+TEST_F(DriverEnableOfTheBus, LeavesAReplyAloneWhoseEchoIsHeardBeforeItsRestHasLeft)
+{
+    start({.baud = Baud::k9_6, .direction = io::Direction::none, .echo = fdl::EchoMode::on},
+          {station(kStation)});
+    master.echoes = true;
+    const Instant gone = io::monotonic_now() + milliseconds{15}; // well before it counts as stuck
+    uart::hold_back(6, gone);
+
+    ask_status();
+
+    ASSERT_TRUE(eventually([gone] { return io::monotonic_now() >= gone; }));
+    ask_status();
+    EXPECT_EQ(uart::flushes(), 0u);
+    EXPECT_EQ(snapshot().write_errors, 0u);
+}
+
 /// The bus thread does not release it: it hangs, or the program is at its end.
 TEST_F(DriverEnableOfTheBus, IsLetGoByAThreadOfItsOwnAfterTwiceTheLongestTelegramAtTheRateOfTheBus)
 {

@@ -22,6 +22,7 @@ std::atomic<bool> active{false};
 std::atomic<bool> refusing{false};
 std::atomic<Shift> shift{Shift::unknown};
 std::atomic<int> held_back{0};
+std::atomic<Instant> held_until{kNever};
 std::atomic<unsigned> flushed{0};
 std::array<Edge, 16384> seen;
 std::atomic<std::size_t> count{0};
@@ -69,8 +70,9 @@ void shift_register(Shift says)
 {
     shift = says;
 }
-void hold_back(int octets)
+void hold_back(int octets, Instant until)
 {
+    held_until = until;
     held_back = octets;
 }
 unsigned flushes()
@@ -79,7 +81,7 @@ unsigned flushes()
 }
 bool takes_output_queue(unsigned long request, void* argument)
 {
-    if (held_back == 0) return false;
+    if (held_back == 0 || io::monotonic_now() >= held_until.load()) return false;
     if (request == TIOCOUTQ) {
         *static_cast<int*>(argument) = held_back;
         return true;

@@ -79,7 +79,6 @@ void BusPort::set_baud(Baud baud)
 
 void BusPort::read(fdl::Layer2& layer2)
 {
-    discard_what_is_stuck(); // the master goes on: what has not left by now would meet its telegrams
     while (port_.is_open()) {
         trace_.commit(); // what was noted lies in the buffer
         const auto chunk = port_.tty().read(buffer_);
@@ -104,6 +103,9 @@ void BusPort::hear(Bytes octets, Instant read_at, bool more, fdl::Layer2& layer2
     hear_withheld(foreign.withheld, read_at, layer2);
     trace_.heard(foreign.octets, read_at, more, layer2.baud());
     layer2.on_bytes(foreign.octets, read_at, more);
+    // The master goes on: what has not left by now would meet its telegrams. Behind layer 2, because the
+    // answer to it has to wait anyway.
+    discard_what_is_stuck();
 }
 
 /// They looked like an echo until now. The next call of echo_ reuses their place.

@@ -140,7 +140,7 @@ std::optional<Bytes> BusThread::send()
 /// Our stations are on the bus like all others, but what they send is not read back.
 void BusThread::hear_ourselves(Bytes reply)
 {
-    if (const auto telegram = fdl::decode(reply)) members_.on_telegram(*telegram, io::monotonic_now());
+    if (const auto telegram = fdl::decode(reply)) members_.on_telegram(*telegram, processed_at_);
 }
 
 /// From the read of the request's last octet to the end of the write: the newest octets heard are that
