@@ -86,7 +86,7 @@ std::chrono::nanoseconds read(clockid_t clock)
 }
 
 /// All that the child does: as little as an answer can cost a slave that keeps its deadlines. Wait for octets
-/// or the time, read, look at the length, wait for `min_tsdr`, write.
+/// or the time, read, look at the length and the address, wait for `min_tsdr`, write.
 [[noreturn]] void respond(const char* path, const Octets& reply, const Scheduling& scheduling,
                           std::chrono::nanoseconds min_tsdr)
 {
@@ -107,13 +107,13 @@ std::chrono::nanoseconds read(clockid_t clock)
         const auto opens = read(CLOCK_MONOTONIC) + min_tsdr;
         have += static_cast<std::size_t>(got);
         if (have < 6 || have < room[1] + std::size_t{6}) continue;
-        const bool whole =
-            room[0] == 0x68 && room[1] == room[2] && room[3] == 0x68 && have == room[1] + std::size_t{6};
+        const bool is_ours = room[0] == 0x68 && room[1] == room[2] && room[3] == 0x68 &&
+                             have == room[1] + std::size_t{6} && ((room[4] ^ reply[5]) & 0x7F) == 0;
         have = 0;
+        if (!is_ours) continue;
         while (min_tsdr.count() != 0 && read(CLOCK_MONOTONIC) < opens) {
         }
-        if (whole && ::write(tty, reply.data(), reply.size()) != static_cast<ssize_t>(reply.size()))
-            ::_exit(3);
+        if (::write(tty, reply.data(), reply.size()) != static_cast<ssize_t>(reply.size())) ::_exit(3);
     }
 }
 
