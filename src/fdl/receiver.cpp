@@ -18,8 +18,9 @@ constexpr Tbit kFifo{64 * kCharacter.count};
 constexpr Tbit kPause = kTsyn + Tbit{4 * kCharacter.count};
 
 /// So much silence before the first octet of a read is none of a telegram: its characters follow each other
-/// at once. Less than T_SYN, because the reads before and behind it are late by different times.
-constexpr Tbit kSilence{2 * kCharacter.count};
+/// at once. Less than T_SYN, because the reads before and behind it are late by different times. With the
+/// first character it is longer than T_SYN, so each silence is a boundary.
+constexpr Tbit kSilence{kTsyn.count - kCharacter.count + 1};
 
 /// When an unfinished telegram is given up although nothing came behind it that shows its end.
 Instant given_up_at(Instant read_at, Baud baud)
@@ -59,20 +60,37 @@ std::chrono::nanoseconds silence_limit(Baud baud)
 void Receiver::begin_read(std::size_t octets, Instant read_at)
 {
     if (used_ != 0 || damaged_) {
-        const Tbit on_wire{static_cast<std::uint32_t>(octets) * kCharacter.count};
-        const Instant began = read_at - duration_of(on_wire, baud_);
+        const Instant began = read_at - on_wire(octets);
         if (began >= gap_ends_ - duration_of(kFifo, baud_)) give_up();
-        if (used_ != 0) {
-            silences_[used_] = began - heard_at_ >= duration_of(kSilence, baud_);
-            boundaries_[used_] = silences_[used_] || read_at - heard_at_ >= duration_of(kTsyn, baud_);
-            is_cut_ = is_cut_ || boundaries_[used_];
-        }
+        note_pause(octets, read_at);
         if (damaged_ && began - heard_at_ >= duration_of(kPause, baud_)) {
             damaged_ = false;
             counted_ = used_;
         }
     }
     heard_at_ = read_at;
+}
+
+std::chrono::nanoseconds Receiver::on_wire(std::size_t octets) const
+{
+    return duration_of(Tbit{static_cast<std::uint32_t>(octets) * kCharacter.count}, baud_);
+}
+
+/// The pause before the read, if it goes on within a telegram. When it began is known with its last piece.
+void Receiver::note_pause(std::size_t octets, Instant read_at)
+{
+    if (!more_follows_) {
+        read_ = forgotten_ + used_;
+        octets_of_read_ = 0;
+        quiet_since_ = heard_at_;
+    }
+    octets_of_read_ += octets;
+    if (read_ <= forgotten_) return;
+    const auto at = static_cast<std::size_t>(read_ - forgotten_);
+    const Instant began = read_at - on_wire(octets_of_read_);
+    silences_[at] = began - quiet_since_ >= duration_of(kSilence, baud_);
+    boundaries_[at] = read_at - quiet_since_ >= duration_of(kTsyn, baud_);
+    is_cut_ = is_cut_ || boundaries_[at];
 }
 
 void Receiver::on_bytes(Bytes bytes, bool more_follows)
@@ -85,6 +103,7 @@ void Receiver::on_bytes(Bytes bytes, bool more_follows)
 
 void Receiver::on_character_error()
 {
+    more_follows_ = false;
     if (!std::exchange(damaged_, true)) pending_flaw_ = Flaw::character;
     const auto length = frame_length(Bytes{rx_}.first(used_));
     if (!length || *length == 0) {
@@ -94,7 +113,6 @@ void Receiver::on_character_error()
     }
     rx_[used_++] = 0; // keeps the place of the octet, so that the end of the telegram is found
     spoilt_ = used_;
-    more_follows_ = false;
     reading_ = true;
 }
 
@@ -143,7 +161,8 @@ const Receiver::Heard* Receiver::next()
 bool Receiver::next_in_buffer()
 {
     heard_.at = heard_at_;
-    heard_.newest = in_doubt_ = false;
+    heard_.newest = false;
+    in_doubt_ = false;
     while (at_ < used_) {
         const Bytes rest = Bytes{rx_}.first(used_).subspan(at_);
         const auto length = frame_length(rest);
@@ -152,8 +171,7 @@ bool Receiver::next_in_buffer()
             const bool is_new = begins_flaw();
             // Hunt on; silence is never waited for: a busy bus has none. What has failed is searched only
             // where something may have begun in it.
-            const std::size_t boundary = boundary_within(at_, failed_);
-            at_ = boundary < failed_ ? boundary : at_ + 1;
+            at_ = std::max(at_ + 1, boundary_within(at_, failed_));
             if (!is_new) continue;
             heard_.telegram = Failure{length.error()};
             return true;
@@ -242,15 +260,16 @@ Receiver::Tail Receiver::tail_of(Bytes octets, std::size_t least)
 /// one by chance: then telegrams begin behind a silence. Nothing becomes whole across the next silence.
 Receiver::Doubt Receiver::doubt_about(std::size_t end) const
 {
+    if (more_follows_ && used_ < rx_.size()) return {.tail = Tail::open, .at = end};
     const std::size_t falls_silent = first_of(silences_, end - 1, used_ + 1);
     const Bytes heard = Bytes{rx_}.first(std::min(falls_silent, used_));
-    Doubt doubt{.tail = Tail::none, .at = end};
+    bool is_open = false;
     for (std::size_t at = first_of(silences_, at_, end); at < end; at = first_of(silences_, at, end)) {
         const Tail tail = tail_of(heard.subspan(at), end - at);
         if (tail == Tail::telegrams) return {.tail = tail, .at = at};
-        if (tail == Tail::open && falls_silent > used_) doubt.tail = tail;
+        is_open = is_open || tail == Tail::open;
     }
-    return doubt;
+    return {.tail = is_open && falls_silent > used_ ? Tail::open : Tail::none, .at = end};
 }
 
 /// The line has fallen silent within a telegram. Where whole telegrams follow a boundary in it and nothing is
@@ -298,7 +317,7 @@ void Receiver::forget(std::size_t count)
     if (!is_cut_) return;
     boundaries_ >>= count;
     silences_ >>= count;
-    boundaries_[0] = silences_[0] = false;
+    boundaries_[0] = false;
     is_cut_ = boundaries_.any();
 }
 
@@ -307,7 +326,6 @@ void Receiver::forget_all()
     forgotten_ += used_;
     used_ = spoilt_ = counted_ = 0;
     gap_ends_ = hunt_at_ = kNever;
-    in_doubt_ = false;
     if (!std::exchange(is_cut_, false)) return;
     boundaries_.reset();
     silences_.reset();

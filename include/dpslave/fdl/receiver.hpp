@@ -71,6 +71,8 @@ private:
         std::size_t at; ///< where it begins
     };
 
+    std::chrono::nanoseconds on_wire(std::size_t octets) const;
+    void note_pause(std::size_t octets, Instant read_at);
     void await_rest();
     void give_up();
     void report_unfinished();
@@ -93,9 +95,12 @@ private:
     /// Where in rx_ a read began at least T_SYN after the one before: a new telegram may have begun there.
     Places boundaries_;
     bool is_cut_ = false; // there is one: the sets are long, and each telegram asks
-    Places silences_;     // those of them with a silence on the line before them, as far as the times of the
-                          // reads say
-    Instant heard_at_{};  // when octets were read last
+    /// Those of them with a silence on the line before them, as far as the times of the reads say.
+    Places silences_;
+    std::uint64_t read_ = 0; // where the newest read begins, all its pieces together, among all characters
+    std::size_t octets_of_read_ = 0;
+    Instant quiet_since_{};     // when octets were read before it
+    Instant heard_at_{};        // when octets were read last
     Instant gap_ends_ = kNever; // the unfinished telegram is given up
     Instant hunt_at_ = kNever;  // whole telegrams are looked for in it
 

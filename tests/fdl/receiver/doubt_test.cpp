@@ -12,10 +12,10 @@ namespace {
 
 class SilenceInATelegram : public Receiver {
 protected:
-    /// T_SYN, and the time of so many octets.
-    void falls_silent_before(std::size_t octets)
+    /// So long, T_SYN if not said otherwise, and the time of so many octets.
+    void falls_silent_before(std::size_t octets, std::uint32_t bits = 33)
     {
-        now += duration_of(Tbit{static_cast<std::uint32_t>(33 + 11 * octets)}, Baud::k187_5);
+        now += duration_of(Tbit{static_cast<std::uint32_t>(bits + 11 * octets)}, Baud::k187_5);
     }
     void reads_behind_silence(const Octets& octets)
     {
@@ -81,6 +81,194 @@ TEST_F(SilenceInATelegram, StumpBehindWhichSeveralTelegramsComeIsUnfinished)
 
     EXPECT_EQ(next(), "unfinished");
     EXPECT_EQ(next(), "49");
+    EXPECT_EQ(next(), "49!");
+}
+
+TEST_F(SilenceInATelegram, TwentyThreeBitsAreASilence)
+{
+    reads(stump);
+    EXPECT_EQ(next(), "-");
+    falls_silent_before(6, 23);
+    reads(behind);
+
+    EXPECT_EQ(next(), "unfinished");
+}
+
+TEST_F(SilenceInATelegram, TwentyTwoBitsAreNone)
+{
+    reads(stump);
+    EXPECT_EQ(next(), "-");
+    falls_silent_before(6, 22);
+    reads(behind);
+
+    EXPECT_EQ(next(), "5D!") << "the next read may have been late by that much";
+}
+
+TEST_F(SilenceInATelegram, WhatBeganBeforeTheSilenceIsSkippedWithTheStump)
+{
+    // 05 + 02 + E5 + 04 = F0. A read begins with the E5, without a silence.
+    reads(octets("68 08 08 68 05 02"));
+    EXPECT_EQ(next(), "-");
+    now += duration_of(33_tbit, Baud::k187_5);
+    reads(octets("E5 04"));
+    EXPECT_EQ(next(), "-");
+    falls_silent_before(6);
+    reads(behind);
+
+    EXPECT_EQ(next_with_its_place(), "0 unfinished");
+    EXPECT_EQ(next_with_its_place(), "8..14 49") << "no SC before it";
+}
+
+TEST_F(SilenceInATelegram, TelegramIsGoodWhenOnlyAPartOfWhatBeginsBehindTheSilenceIsOne)
+{
+    const Octets whole = sd2(kUs, kMaster, kSrdFcb0, joined({behind, octets("01 02")}));
+    reads(Octets(whole.begin(), whole.begin() + 7));
+    EXPECT_EQ(next(), "-");
+
+    reads_behind_silence(Octets(whole.begin() + 7, whole.end()));
+
+    EXPECT_EQ(next(), "5D!");
+}
+
+TEST_F(SilenceInATelegram, TelegramIsGoodWhenATokenEndsLikeIt)
+{
+    const Octets whole = sd2(kUs, kMaster, kSrdFcb0, octets("01 DC"));
+    reads(Octets(whole.begin(), whole.end() - 3));
+    EXPECT_EQ(next(), "-");
+
+    reads_behind_silence(Octets(whole.end() - 3, whole.end()));
+
+    EXPECT_EQ(next(), "5D!") << "a token has no check sum";
+}
+
+TEST_F(SilenceInATelegram, TokenThatGoesOnInTheNextReadIsNoneAlsoWithoutASilence)
+{
+    reads(octets("DC 16"));
+    EXPECT_EQ(next(), "-");
+
+    goes_on(first);
+
+    EXPECT_EQ(next(), "unfinished");
+    EXPECT_EQ(next(), "5D!");
+}
+
+TEST_F(SilenceInATelegram, DoubtStaysWhenNothingBeginsBehindAnotherSilence)
+{
+    // 05 + 02 + 5D + 10 + 01 = 75
+    reads(octets("68 05 05 68 05 02 5D"));
+    EXPECT_EQ(next(), "-");
+    reads_behind_silence(octets("10"));
+    EXPECT_EQ(next(), "-");
+
+    reads_behind_silence(octets("01 75 16"));
+
+    EXPECT_EQ(next(), "-");
+    EXPECT_TRUE(stays_silent(33));
+    EXPECT_EQ(next(), "5D!");
+}
+
+TEST_F(SilenceInATelegram, PlacesOfSilencesMoveWithWhatIsDropped)
+{
+    reads(octets("68 20 20 68 05"));
+    EXPECT_EQ(next(), "-");
+    reads_behind_silence(stump);
+    EXPECT_EQ(next(), "-");
+    reads_behind_silence(behind);
+    EXPECT_EQ(next(), "-");
+
+    EXPECT_TRUE(stays_silent(33));
+
+    EXPECT_EQ(next(), "unfinished");
+    EXPECT_EQ(next(), "unfinished");
+    EXPECT_EQ(next_with_its_place(), "13..19 49");
+}
+
+TEST_F(SilenceInATelegram, NoPlaceIsLeftOfATelegramThatWasGivenUp)
+{
+    reads(octets("68 20 20 68 05"));
+    EXPECT_EQ(next(), "-");
+    reads_behind_silence(octets("01 02"));
+    EXPECT_EQ(next(), "-");
+    EXPECT_TRUE(stays_silent(5000));
+    EXPECT_EQ(next(), "unfinished");
+    EXPECT_EQ(next(), "-");
+
+    const Octets good = joined({octets("68 05 05 68 F0"), behind}); // F0 + 10 + 09 + 02 + 49 = 54
+    reads(Octets(good.begin(), good.begin() + 2));
+    EXPECT_EQ(next(), "-");
+    goes_on(Octets(good.begin() + 2, good.end()));
+    EXPECT_EQ(next(), "09!");
+    EXPECT_EQ(next(), "-");
+
+    Octets bad = good;
+    bad[4] = 0xF1;
+    reads(Octets(bad.begin(), bad.begin() + 2));
+    EXPECT_EQ(next(), "-");
+    goes_on(Octets(bad.begin() + 2, bad.end()));
+    EXPECT_EQ(next(), "checksum");
+    EXPECT_EQ(next(), "-") << "it is not searched where the one before had its pause";
+}
+
+TEST_F(SilenceInATelegram, FailedTelegramIsSearchedOnlyWhereAReadBegan)
+{
+    Octets bad = sd2(kUs, kMaster, kSrdFcb0, joined({octets("01 02"), behind}));
+    bad[bad.size() - 2] ^= 0x01;
+    reads(Octets(bad.begin(), bad.begin() + 7));
+    EXPECT_EQ(next(), "-");
+
+    reads_behind_silence(Octets(bad.begin() + 7, bad.end()));
+
+    EXPECT_EQ(next(), "checksum");
+    EXPECT_EQ(next(), "-") << "01 02 begins nothing, and what is behind it are its data";
+}
+
+TEST_F(SilenceInATelegram, SecondFlawBehindADamagedBeginningIsCounted)
+{
+    reads(octets("00"));
+    EXPECT_EQ(next(), "start delimiter");
+    goes_on(octets("68 08 08 68 05"));
+    EXPECT_EQ(next(), "-");
+    falls_silent_before(9, 77);
+    reads(octets("68 20 20 68 01 01 01 01 01")); // the end of the first one, and the beginning of another
+    EXPECT_EQ(next(), "-") << "the flaw is reported";
+
+    goes_on(Octets(29, 0x01));
+
+    EXPECT_EQ(next(), "end delimiter");
+}
+
+TEST_F(SilenceInATelegram, EndOfTheDoubtLeavesTheBeginningOfTheNextTelegram)
+{
+    reads(begun);
+    EXPECT_EQ(next(), "-");
+    reads_behind_silence(rest);
+    EXPECT_EQ(next(), "-");
+    goes_on(octets("68"));
+    EXPECT_EQ(next(), "-");
+
+    EXPECT_TRUE(stays_silent(33));
+
+    EXPECT_EQ(next(), "5D");
+    EXPECT_EQ(next(), "-");
+    EXPECT_GT(receiver.next_deadline(), now) << "only the rest is waited for";
+}
+
+TEST_F(SilenceInATelegram, TelegramBehindAStumpIsFoundAlsoWhenABadCharacterEndedADoubt)
+{
+    const Octets whole = sd2(kUs, kMaster, kSrdFcb0, octets("68 20 20 68")); // 38 octets may begin in it
+    reads(Octets(whole.begin(), whole.begin() + 7));
+    EXPECT_EQ(next(), "-");
+    reads_behind_silence(Octets(whole.begin() + 7, whole.end()));
+    EXPECT_EQ(next(), "-");
+    now += duration_of(11_tbit, Baud::k187_5);
+    hears_a_bad_character();
+    EXPECT_EQ(next(), "bad character");
+    EXPECT_EQ(next(), "-");
+    reads_behind_silence(behind);
+    EXPECT_EQ(next(), "-");
+
+    EXPECT_TRUE(stays_silent(33));
+
     EXPECT_EQ(next(), "49!");
 }
 
@@ -169,6 +357,77 @@ TEST_F(SilenceInATelegram, ReadsInPiecesAreNoSilence)
     goes_on(rest);
 
     EXPECT_EQ(next(), "5D!");
+}
+
+/// What is read at one moment came one octet behind the other: the silence ended with the first of them.
+TEST_F(SilenceInATelegram, SilenceIsThatBeforeTheWholeReadAlsoWhereTheReadComesInPieces)
+{
+    reads(stump);
+    EXPECT_EQ(next(), "-");
+
+    now += duration_of(Tbit{11 * 12}, Baud::k187_5); // no pause
+    reads(behind, true);
+    EXPECT_EQ(next(), "-") << "it is not known yet when the read began";
+    reads(behind);
+
+    EXPECT_EQ(next_with_its_place(), "0..14 5D");
+    EXPECT_EQ(next_with_its_place(), "14..20 49");
+}
+
+TEST_F(SilenceInATelegram, ReadThatComesInPiecesBehindASilenceIsJudgedWithItsLastPiece)
+{
+    reads(stump);
+    EXPECT_EQ(next(), "-");
+
+    falls_silent_before(12);
+    reads(behind, true);
+    EXPECT_EQ(next(), "-");
+    reads(behind);
+
+    EXPECT_EQ(next_with_its_place(), "0 unfinished");
+    EXPECT_EQ(next_with_its_place(), "8..14 49");
+    EXPECT_EQ(next_with_its_place(), "14..20 49");
+}
+
+TEST_F(SilenceInATelegram, BeforeAReadInPiecesIsNoneOfTheTelegramThatBeginsInIt)
+{
+    const Octets good = joined({octets("68 05 05 68 F0"), behind}); // F0 + 10 + 09 + 02 + 49 = 54
+    reads(octets("68 05 05 68 05"));
+    EXPECT_EQ(next(), "-");
+    falls_silent_before(17);
+    reads(joined({Octets(6, 0x00), Octets(good.begin(), good.begin() + 2)}), true);
+    EXPECT_EQ(next(), "end delimiter");
+    EXPECT_EQ(next(), "-");
+
+    reads(Octets(good.begin() + 2, good.end()));
+
+    EXPECT_EQ(next(), "09!");
+}
+
+TEST_F(SilenceInATelegram, LongReadInPiecesIsJudgedWhenThereIsNoRoomForMore)
+{
+    reads(stump);
+    EXPECT_EQ(next(), "-");
+
+    falls_silent_before(6 * 100);
+    reads(joined(std::vector<Octets>(100, behind)), true);
+
+    EXPECT_EQ(next_with_its_place(), "0 unfinished");
+    for (int i = 0; i < 100; ++i) EXPECT_EQ(next(), "49") << i;
+}
+
+TEST_F(SilenceInATelegram, PieceBehindWhichNothingFollowsIsJudgedAfterTsyn)
+{
+    reads(stump);
+    EXPECT_EQ(next(), "-");
+    falls_silent_before(6);
+    reads(behind, true);
+    EXPECT_EQ(next(), "-");
+
+    EXPECT_TRUE(stays_silent(33));
+
+    EXPECT_EQ(next(), "unfinished");
+    EXPECT_EQ(next(), "49!");
 }
 
 TEST_F(SilenceInATelegram, TelegramInDoubtIsGivenUpWithABadCharacterBehindIt)
