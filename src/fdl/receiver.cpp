@@ -61,7 +61,7 @@ void Receiver::begin_read(std::size_t octets, Instant read_at)
 {
     if (used_ != 0 || damaged_) {
         const Instant began = read_at - on_wire(octets);
-        if (began >= gap_ends_ - duration_of(kFifo, baud_)) give_up();
+        if (began >= gap_ends_ - duration_of(kFifo, baud_) && !in_doubt_) give_up();
         note_pause(octets, read_at);
         if (damaged_ && began - heard_at_ >= duration_of(kPause, baud_)) {
             damaged_ = false;
@@ -79,7 +79,8 @@ std::chrono::nanoseconds Receiver::on_wire(std::size_t octets) const
 /// The pause before the read, if it goes on within a telegram. When it began is known with its last piece.
 void Receiver::note_pause(std::size_t octets, Instant read_at)
 {
-    if (!more_follows_) {
+    const bool goes_on = more_follows_;
+    if (!goes_on) {
         read_ = forgotten_ + used_;
         octets_of_read_ = 0;
         quiet_since_ = heard_at_;
@@ -88,9 +89,11 @@ void Receiver::note_pause(std::size_t octets, Instant read_at)
     if (read_ <= forgotten_) return;
     const auto at = static_cast<std::size_t>(read_ - forgotten_);
     const Instant began = read_at - on_wire(octets_of_read_);
-    silences_[at] = began - quiet_since_ >= duration_of(kSilence, baud_);
+    const bool is_silence = began - quiet_since_ >= duration_of(kSilence, baud_);
+    silences_[at] = is_silence && (!goes_on || silences_[at]); // a later piece may have been read late
+    if (goes_on) return;
     boundaries_[at] = read_at - quiet_since_ >= duration_of(kTsyn, baud_);
-    is_cut_ = is_cut_ || boundaries_[at];
+    has_boundary_ = has_boundary_ || boundaries_[at];
 }
 
 void Receiver::on_bytes(Bytes bytes, bool more_follows)
@@ -118,11 +121,11 @@ void Receiver::on_character_error()
 
 bool Receiver::on_time(Instant now)
 {
+    more_follows_ = false; // it would have come by now
     if (now >= hunt_at_) {
         hunt_at_ = kNever;
         boundaries_[used_] = silences_[used_] = true; // until the next read tells that it was none
         if (in_doubt_ || hunt_behind_stump()) {
-            more_follows_ = false;
             reading_ = true;
             return true;
         }
@@ -236,7 +239,7 @@ Result<Telegram, Flaw> Receiver::telegram_at(std::size_t at, std::size_t length,
 /// The first boundary behind `begin` and before `end`; `end` if there is none.
 std::size_t Receiver::boundary_within(std::size_t begin, std::size_t end) const
 {
-    return is_cut_ ? first_of(boundaries_, begin, end) : end;
+    return has_boundary_ ? first_of(boundaries_, begin, end) : end;
 }
 
 /// Whether whole telegrams lie from the first of the octets up to `least` of them or beyond.
@@ -260,13 +263,15 @@ Receiver::Tail Receiver::tail_of(Bytes octets, std::size_t least)
 /// one by chance: then telegrams begin behind a silence. Nothing becomes whole across the next silence.
 Receiver::Doubt Receiver::doubt_about(std::size_t end) const
 {
-    if (more_follows_ && used_ < rx_.size()) return {.tail = Tail::open, .at = end};
     const std::size_t falls_silent = first_of(silences_, end - 1, used_ + 1);
     const Bytes heard = Bytes{rx_}.first(std::min(falls_silent, used_));
     bool is_open = false;
     for (std::size_t at = first_of(silences_, at_, end); at < end; at = first_of(silences_, at, end)) {
         const Tail tail = tail_of(heard.subspan(at), end - at);
-        if (tail == Tail::telegrams) return {.tail = tail, .at = at};
+        if (tail == Tail::telegrams) {
+            const bool is_sure = !more_follows_ || used_ == rx_.size(); // the silence may turn out to be none
+            return {.tail = is_sure ? tail : Tail::open, .at = at};
+        }
         is_open = is_open || tail == Tail::open;
     }
     return {.tail = is_open && falls_silent > used_ ? Tail::open : Tail::none, .at = end};
@@ -290,7 +295,7 @@ bool Receiver::hunt_behind_stump()
 void Receiver::await_rest()
 {
     gap_ends_ = used_ == 0 ? kNever : given_up_at(heard_at_, baud_);
-    hunt_at_ = is_cut_ && !silences_[used_] ? heard_at_ + duration_of(kTsyn, baud_) : kNever;
+    hunt_at_ = has_boundary_ && !silences_[used_] ? heard_at_ + duration_of(kTsyn, baud_) : kNever;
 }
 
 void Receiver::give_up()
@@ -314,11 +319,11 @@ void Receiver::forget(std::size_t count)
     forgotten_ += count;
     spoilt_ -= std::min(spoilt_, count);
     counted_ -= std::min(counted_, count);
-    if (!is_cut_) return;
+    if (!has_boundary_) return;
     boundaries_ >>= count;
     silences_ >>= count;
     boundaries_[0] = false;
-    is_cut_ = boundaries_.any();
+    has_boundary_ = boundaries_.any();
 }
 
 void Receiver::forget_all()
@@ -326,7 +331,7 @@ void Receiver::forget_all()
     forgotten_ += used_;
     used_ = spoilt_ = counted_ = 0;
     gap_ends_ = hunt_at_ = kNever;
-    if (!std::exchange(is_cut_, false)) return;
+    if (!std::exchange(has_boundary_, false)) return;
     boundaries_.reset();
     silences_.reset();
 }
@@ -338,7 +343,7 @@ void Receiver::restart(Baud baud)
     at_ = failed_ = 0;
     forgotten_ += input_.size();
     input_ = {};
-    reading_ = damaged_ = false;
+    reading_ = damaged_ = in_doubt_ = false;
     pending_flaw_.reset();
 }
 

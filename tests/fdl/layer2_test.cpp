@@ -50,6 +50,23 @@ TEST_F(Edge, KeepsTheReplyWhenAReadBringsNothing)
     EXPECT_TRUE(station.take_transmit());
 }
 
+/// Its last octets behind a silence begin like a telegram (tests/fdl/receiver/doubt_test.cpp).
+TEST_F(Edge, AnswersARequestInDoubtAfterTsynWithinItsWindow)
+{
+    const Octets request = sd2(kUs, kMaster, kSrdFirst, octets("01 10 09"));
+    station.on_bytes(Bytes{request}.first(8), kRead);
+    const Instant end = kRead + bits(33 + 11 * 4);
+    station.on_bytes(Bytes{request}.subspan(8), end);
+    station.on_time(end);
+    EXPECT_TRUE(station.reply_waits()) << "what can be put off is put off";
+    EXPECT_EQ(station.next_deadline(), end + bits(33));
+
+    station.on_time(end + bits(33));
+
+    EXPECT_TRUE(station.take_transmit());
+    EXPECT_EQ(station.window_ended(), end + bits(60));
+}
+
 TEST_F(Edge, SaysWhoseReplyItGaveLast)
 {
     RecordingUser other;

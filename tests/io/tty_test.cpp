@@ -285,6 +285,26 @@ TEST(TtyRead, SaysThatThereIsMoreUntilAllWasGiven)
     }
 }
 
+/// Its edge says once that octets are there: what is left in the kernel would wait for the next ones.
+TEST(TtyRead, SaysThatThereIsMoreUntilNothingIsLeftInTheKernelEither)
+{
+    Pty cable;
+    Tty tty = opened(cable.path(), kBusLine);
+    const std::vector<std::uint8_t> sent(1500, 0x55);
+    cable.send(sent);
+    ASSERT_TRUE(tty.wait_readable(1s));
+    std::array<std::uint8_t, 512> room{};
+    std::size_t got = 0;
+    for (bool more = true; more;) {
+        const auto chunk = tty.read(room);
+        ASSERT_TRUE(chunk);
+        got += chunk->octets.size();
+        more = chunk->more;
+    }
+
+    EXPECT_EQ(got, sent.size());
+}
+
 TEST(TtyRead, OctetsThatWereReadAheadCountAsReadable)
 {
     Pty cable;

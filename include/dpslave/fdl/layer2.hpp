@@ -118,7 +118,7 @@ public:
     Instant next_deadline() const;
 
     /// A reply waits for its window: what can be put off is put off until it is out.
-    bool reply_waits() const { return pending_.has_value(); }
+    bool reply_waits() const { return pending_.has_value() || receiver_.is_in_doubt(); }
 
     /// When a telegram with a checksum (SD1, SD2, SD3) of any station was read last; default = none yet.
     /// Tokens and SC do not count: noise and wrong rates produce them.

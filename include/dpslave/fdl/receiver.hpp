@@ -26,7 +26,7 @@ public:
 
     struct Heard {
         Result<Telegram, Flaw> telegram{Telegram{}};
-        Instant at{}; ///< when its last octet was read
+        Instant at{}; ///< when its last octet was read; of one that was in doubt when that ended
         /// Where it lies among all characters heard, bad ones included; of a flaw only where it begins.
         std::uint64_t begin = 0, end = 0;
         bool newest = false; ///< nothing was heard behind this telegram
@@ -39,8 +39,8 @@ public:
     void on_bytes(Bytes bytes, bool more_follows);
     /// In the place of an octet that the UART reported as bad.
     void on_character_error();
-    /// Time passes: an unfinished telegram is searched for whole ones, or given up. True: next() may have
-    /// something, and after it this is to be called again.
+    /// Time passes: a doubt ends, an unfinished telegram is searched for whole ones, or given up. True: next()
+    /// may have something, and after it this is to be called again.
     bool on_time(Instant now);
     /// kNever = none.
     Instant next_deadline() const { return std::min(gap_ends_, hunt_at_); }
@@ -49,6 +49,9 @@ public:
     /// by the first of them, until a telegram with a checksum or a pause. nullptr: there is none. Valid until
     /// the next call of the receiver.
     const Heard* next();
+
+    /// A telegram is whole, and waits for T_SYN of silence or for more octets.
+    bool is_in_doubt() const { return in_doubt_; }
 
     /// So many characters, of all heard, are judged: what is behind them may become a telegram.
     std::uint64_t judged() const { return forgotten_; }
@@ -94,7 +97,7 @@ private:
     std::size_t spoilt_ = 0;      // octets of rx_ up to its last bad character
     /// Where in rx_ a read began at least T_SYN after the one before: a new telegram may have begun there.
     Places boundaries_;
-    bool is_cut_ = false; // there is one: the sets are long, and each telegram asks
+    bool has_boundary_ = false; // there is one: the sets are long, and each telegram asks
     /// Those of them with a silence on the line before them, as far as the times of the reads say.
     Places silences_;
     std::uint64_t read_ = 0; // where the newest read begins, all its pieces together, among all characters
@@ -102,7 +105,7 @@ private:
     Instant quiet_since_{};     // when octets were read before it
     Instant heard_at_{};        // when octets were read last
     Instant gap_ends_ = kNever; // the unfinished telegram is given up
-    Instant hunt_at_ = kNever;  // whole telegrams are looked for in it
+    Instant hunt_at_ = kNever;  // whole telegrams are looked for in it, or a doubt ends
 
     // What next() goes on with.
     Heard heard_;

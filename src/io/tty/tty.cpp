@@ -97,6 +97,7 @@ struct Tty::Marked {
     std::array<std::uint8_t, 1024> raw{};
     std::size_t begin = 0;
     std::size_t end = 0;
+    bool filled = false; // there may be more where they came from
     ParityMarks marks;
 };
 
@@ -184,20 +185,20 @@ Result<Chunk, std::error_code> Tty::read(std::span<std::uint8_t> out)
 Result<Chunk, std::error_code> Tty::read_marked(std::span<std::uint8_t> out)
 {
     Marked& m = *marked_;
-    bool filled = false;
     if (m.begin == m.end) {
+        m.filled = false;
         const auto got = fetch(m.raw);
         if (!got) return Failure{got.error()};
         if (*got == 0) return Chunk{};
         m.begin = 0;
         m.end = *got;
-        filled = m.end == m.raw.size();
+        m.filled = m.end == m.raw.size();
     }
     const auto step = m.marks.undo(Bytes{m.raw}.subspan(m.begin, m.end - m.begin), out);
     m.begin += step.used;
     return Chunk{.octets = out.first(step.octets),
                  .bad_character = step.bad_character,
-                 .more = filled || m.begin != m.end};
+                 .more = m.filled || m.begin != m.end};
 }
 
 std::error_code Tty::write(Bytes octets)
@@ -240,6 +241,7 @@ std::error_code Tty::discard_input()
 {
     if (marked_) {
         marked_->begin = marked_->end = 0;
+        marked_->filled = false;
         marked_->marks.reset();
     }
     return flush_input(fd()) ? std::error_code{} : last_error();

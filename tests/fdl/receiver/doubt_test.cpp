@@ -389,6 +389,74 @@ TEST_F(SilenceInATelegram, ReadThatComesInPiecesBehindASilenceIsJudgedWithItsLas
     EXPECT_EQ(next_with_its_place(), "14..20 49");
 }
 
+TEST_F(SilenceInATelegram, PieceThatWasReadLateMakesNone)
+{
+    reads(octets("68 05 05 68 F0"));
+    EXPECT_EQ(next(), "-");
+    now += duration_of(22_tbit, Baud::k187_5);
+    reads(octets("10 09"), true);
+    EXPECT_EQ(next(), "-");
+    now += duration_of(100_tbit, Baud::k187_5); // the thread was taken off the processor
+    reads(octets("02 49 54 16"));
+
+    EXPECT_EQ(next(), "09!");
+}
+
+TEST_F(SilenceInATelegram, GoodTelegramIsHeardAlsoWhenABadCharacterFollowsInTheSameRead)
+{
+    reads(Octets(first.begin(), first.begin() + 7));
+    EXPECT_EQ(next(), "-");
+    now += duration_of(Tbit{11 * 4}, Baud::k187_5);
+    reads(Octets(first.begin() + 7, first.end()), true);
+
+    EXPECT_EQ(next(), "5D");
+    hears_a_bad_character();
+    EXPECT_EQ(next(), "bad character");
+}
+
+TEST_F(SilenceInATelegram, PauseBehindAPieceThatWasTheLastIsSeen)
+{
+    reads(octets("68 20 20 68 05"), true);
+    EXPECT_EQ(next(), "-");
+    EXPECT_FALSE(receiver.on_time(now));
+
+    reads_behind_silence(behind);
+    EXPECT_EQ(next(), "-");
+    EXPECT_TRUE(stays_silent(33));
+
+    EXPECT_EQ(next(), "unfinished");
+    EXPECT_EQ(next(), "49!");
+}
+
+TEST_F(SilenceInATelegram, TelegramInDoubtIsHeardAlsoWhenTheTimeIsLookedAtTooLate)
+{
+    reads(begun);
+    EXPECT_EQ(next(), "-");
+    reads_behind_silence(rest);
+    EXPECT_EQ(next(), "-");
+    EXPECT_TRUE(receiver.is_in_doubt());
+
+    falls_silent_before(6, 10'000);
+    reads(behind);
+
+    EXPECT_EQ(next(), "5D");
+    EXPECT_EQ(next(), "49!");
+    EXPECT_EQ(next(), "-");
+    EXPECT_FALSE(receiver.is_in_doubt());
+}
+
+TEST_F(SilenceInATelegram, NothingIsInDoubtAtAnotherRate)
+{
+    reads(begun);
+    EXPECT_EQ(next(), "-");
+    reads_behind_silence(rest);
+    EXPECT_EQ(next(), "-");
+
+    receiver.restart(Baud::k500);
+
+    EXPECT_FALSE(receiver.is_in_doubt());
+}
+
 TEST_F(SilenceInATelegram, BeforeAReadInPiecesIsNoneOfTheTelegramThatBeginsInIt)
 {
     const Octets good = joined({octets("68 05 05 68 F0"), behind}); // F0 + 10 + 09 + 02 + 49 = 54

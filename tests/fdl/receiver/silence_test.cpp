@@ -131,6 +131,22 @@ TEST_F(BehindAStump, ThatEndsWithABadCharacterATelegramIsFound)
     EXPECT_EQ(next(), "-");
 }
 
+TEST_F(Receiver, FindsTheTelegramBehindAStumpAlsoWhenTheStumpEndedWithABadCharacterOfItsRead)
+{
+    reads(octets("68 20 20 68 05"), true);
+    EXPECT_EQ(next(), "-");
+    hears_a_bad_character();
+    EXPECT_EQ(next(), "bad character");
+    EXPECT_EQ(next(), "-");
+    now += duration_of(Tbit{33 + 11 * 6}, Baud::k187_5);
+    reads(second);
+    EXPECT_EQ(next(), "-");
+
+    EXPECT_TRUE(receiver.on_time(now + duration_of(33_tbit, Baud::k187_5)));
+
+    EXPECT_EQ(next(), "49!");
+}
+
 TEST_F(BehindAStump, OctetsOfTheFailedTelegramAreCountedOnceAlsoBehindOneThatWasFoundInIt)
 {
     pauses_before(33);
