@@ -41,7 +41,7 @@ std::optional<std::uint16_t> demand_code(AccessError error) noexcept
         case AccessError::not_kept: // taken: what the drive makes of it is its own business
         case AccessError::no_answer:
         case AccessError::deferred:
-        case AccessError::not_understood: return std::nullopt;
+        case AccessError::not_understood: break;
         case AccessError::invalid_tag:
         case AccessError::unsupported_type:
         case AccessError::no_scale: // the manuals know no better one
@@ -177,8 +177,7 @@ std::uint16_t DemandData::tag_echo() const
 
 void DemandData::reply_with(std::uint16_t first, std::uint16_t value)
 {
-    const std::uint16_t extended_tag = is_extended_form() ? wanted_.extended_tag : std::uint16_t{0};
-    reply_ = {first, extended_tag, std::uint16_t{0}, value};
+    reply_ = {first, wanted_.extended_tag, std::uint16_t{0}, value};
 }
 
 } // namespace dpslave::dp

@@ -120,7 +120,7 @@ bool ProcessData::set_sync(Switch to)
 
 bool ProcessData::set_freeze(Switch to)
 {
-    if (to == Switch::keep || (to == Switch::off && !freeze_)) return false;
+    if (to == Switch::keep) return false;
     const bool before = freeze_;
     freeze_ = to == Switch::on;
     frozen_ = {.words = inputs_.words, .demand = demand_.reply()};

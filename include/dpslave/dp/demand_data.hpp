@@ -44,7 +44,7 @@ public:
     std::uint64_t lost() const { return lost_; }        ///< orders that were not fetched in time
 
 private:
-    /// What the master wants, without the parts of the registers that do not matter for its command.
+    /// What the master wants; the parts of the registers that do not matter for its command are 0.
     struct Wanted {
         std::uint8_t command = 0;
         std::uint16_t tag_field = 0;
