@@ -273,6 +273,7 @@ TEST_F(DemandData, UnderFreezeTheReplyStandsStill)
     master.control("08 00"); // Freeze
     answer(read, 2);
 
+    EXPECT_EQ(seen().demand_reply, (std::array<std::uint16_t, 4>{0x1037, 0, 0, 1}));
     EXPECT_EQ(demand(0x1037), "10 37 00 00 00 00 00 01");
     EXPECT_EQ(demand(0), "10 37 00 00 00 00 00 01");
     master.control("04 00");

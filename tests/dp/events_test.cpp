@@ -80,6 +80,13 @@ TEST_F(Events, AForeignSetPrmIsReported)
     EXPECT_EQ(seen().counters.foreign_prm, 1u);
 }
 
+TEST_F(Events, ASetPrmThatIsTooShortIsNotReported)
+{
+    EXPECT_EQ(master.set_prm("88 14 01 0B 47 11"), "SC");
+
+    EXPECT_THAT(kinds(), IsEmpty());
+}
+
 TEST_F(Events, AMasterWithoutWatchdogIsWarnedOf)
 {
     master.set_prm(kPrmNoWatchdog);
@@ -141,6 +148,14 @@ TEST_F(Events, TelegramsAreCountedByService)
     EXPECT_EQ(c.global_control, 1u);
     EXPECT_EQ(c.not_activated, 2u);
     EXPECT_EQ(c.no_resource, 1u);
+}
+
+TEST_F(Events, OtherAnswersThanRsAndRrAreNotCounted)
+{
+    exchanges(); // SC, SC, DL
+
+    EXPECT_EQ(seen().counters.not_activated, 0u);
+    EXPECT_EQ(seen().counters.no_resource, 0u);
 }
 
 TEST_F(Events, TheStateHasTheStandardsNames)

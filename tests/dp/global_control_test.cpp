@@ -226,6 +226,16 @@ TEST_F(GlobalControl, SyncAndFreezeEndWithTheExchange)
     EXPECT_EQ(master.rd_outp(), "DL 00 09");
 }
 
+TEST_F(GlobalControl, TheSnapshotShowsWhetherTheLastOneWasClearData)
+{
+    exchanges();
+
+    master.control("02 00");
+    EXPECT_TRUE(seen().clear);
+    master.control("00 00");
+    EXPECT_FALSE(seen().clear);
+}
+
 TEST_F(GlobalControl, ClearDataAloneAllowsWriting)
 {
     exchanges();

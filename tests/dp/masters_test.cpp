@@ -32,6 +32,16 @@ TEST_F(Masters, C15_AForeignMasterMayReadAndChangesNothing)
     EXPECT_EQ(master.data_exchange("A5 01"), "DH 12 34"); // the owner has not read the diagnosis yet
 }
 
+TEST_F(Masters, TheSnapshotShowsNoChkCfgOfAForeignMaster)
+{
+    exchanges();
+
+    foreign.chk_cfg("FF");
+
+    const auto snapshot = seen();
+    EXPECT_EQ(show({snapshot.cfg.bytes().begin(), snapshot.cfg.bytes().end()}), "11 21");
+}
+
 TEST_F(Masters, C16_ASecondMasterTakesOverAfterUnlock)
 {
     exchanges();

@@ -153,5 +153,81 @@ TEST_F(ProcessData, EndIsReportedToTheDriveSideByOrderAndByImage)
     EXPECT_EQ(data.configuration().out_length, 0u);
 }
 
+/// Demand Data and no parameter.
+class DemandOrders : public testing::Test {
+protected:
+    DemandOrders() { begins({.demand = true, .in_length = 8, .out_length = 8}); }
+
+    void begins(const dpslave::dp::Configuration& configuration)
+    {
+        data.begin(configuration, dpslave::Instant{});
+    }
+    /// The order that the master gives by these registers.
+    dpslave::DemandOrder order_by(std::string_view registers)
+    {
+        data.receive(octets(registers));
+        const auto order = data.take_demand_order();
+        EXPECT_TRUE(order) << "no order";
+        return order.value_or(dpslave::DemandOrder{});
+    }
+    dpslave::DemandOrder shown() const
+    {
+        dpslave::dp::Snapshot snapshot;
+        data.fill(snapshot);
+        return snapshot.demand_order;
+    }
+
+    dpslave::dp::Personality board = option_board();
+    dpslave::dp::ProcessData data{board};
+};
+
+TEST_F(DemandOrders, AreNumberedOneByOne)
+{
+    const auto first = order_by("10 37 00 00 00 00 00 00");
+    const auto second = order_by("10 38 00 00 00 00 00 00");
+
+    EXPECT_EQ(second.number, first.number + 1);
+}
+
+TEST_F(DemandOrders, AreShownAsLongAsTheyStand)
+{
+    const auto read = order_by("10 37 00 00 00 00 00 00");
+    EXPECT_EQ(shown().kind, dpslave::DemandOrder::Kind::read);
+    EXPECT_EQ(shown().tag, 55);
+    EXPECT_EQ(shown().number, read.number);
+
+    data.end();
+
+    EXPECT_EQ(shown().kind, dpslave::DemandOrder::Kind::cancel);
+}
+
+TEST_F(DemandOrders, ThatEndUnfetchedKeepTheirGenerationThroughALayoutWithoutDemandData)
+{
+    const auto read = order_by("10 37 00 00 00 00 00 00");
+    data.end();
+
+    begins({.reads = true, .in_length = 2});
+    data.end();
+
+    const auto cancel = data.take_demand_order();
+    ASSERT_TRUE(cancel);
+    EXPECT_EQ(cancel->kind, dpslave::DemandOrder::Kind::cancel);
+    EXPECT_EQ(cancel->generation, read.generation);
+    EXPECT_FALSE(data.take_demand_order());
+}
+
+TEST(DemandReply, IsZeroWhenALayoutBegins)
+{
+    const auto board = option_board();
+    dpslave::dp::DemandData demand_data{board};
+    demand_data.begin(1);
+    demand_data.request({0xF037, 0, 0, 0}); // rejected at once
+    ASSERT_EQ(demand_data.reply(), (dpslave::dp::DemandRegisters{0x7037, 0, 0, 0}));
+
+    demand_data.begin(2);
+
+    EXPECT_EQ(demand_data.reply(), dpslave::dp::DemandRegisters{});
+}
+
 } // namespace
 } // namespace test

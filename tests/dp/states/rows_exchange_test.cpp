@@ -344,6 +344,24 @@ TEST_F(Rows, M2_OtherServiceAccessPointsAreNotActivated)
     EXPECT_EQ(state(), State::data_exch);
 }
 
+/// Layer 2 answers it alone, so the slave is asked directly.
+TEST_F(Rows, M2_ADataExchangeWithASourceSapIsNotActivated)
+{
+    exchanges();
+    master.data_exchange("A5 01");
+    const Octets outputs = octets("00 02");
+    dpslave::fdl::Indication request;
+    request.sa = 2;
+    request.ssap = std::uint8_t{62};
+    request.data = outputs;
+    request.at = bus.now();
+    dpslave::fdl::ReplyData reply;
+
+    EXPECT_EQ(slave.srd(request, reply), dpslave::fdl::Answer::not_activated);
+
+    EXPECT_EQ(master.rd_outp(), "DL A5 01");
+}
+
 TEST_F(Rows, M2_ServicesAreForTheMastersSap62Only)
 {
     EXPECT_EQ(master.asks(61, octets(kPrm), 61), "RS");
