@@ -23,7 +23,7 @@ void refuse_edges(bool refuse); ///< EIO, as of a device that has gone
 void shift_register(Shift says);
 /// TIOCOUTQ says so until they are flushed, or gone by `until`; 0: as the pty.
 void hold_back(int octets, Instant until = kNever);
-unsigned flushes();         ///< of what was held back
+unsigned flushes(); ///< of what was held back
 bool is_active();
 std::vector<Edge> edges(); ///< changes of the level, in order
 

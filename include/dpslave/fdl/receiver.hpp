@@ -39,8 +39,8 @@ public:
     void on_bytes(Bytes bytes, bool more_follows);
     /// In the place of an octet that the UART reported as bad.
     void on_character_error();
-    /// Time passes: a doubt ends, an unfinished telegram is searched for whole ones, or given up. True: next()
-    /// may have something, and after it this is to be called again.
+    /// Time passes: a doubt ends, an unfinished telegram is searched for whole ones, or given up. True:
+    /// next() may have something, and after it this is to be called again.
     bool on_time(Instant now);
     /// kNever = none.
     Instant next_deadline() const { return std::min(gap_ends_, hunt_at_); }

@@ -21,7 +21,8 @@ enum class Kind : std::uint8_t {
     answered,      ///< octets of a drive line that were judged together; detail: drive::Judgement
     no_answer,     ///< the wait for the answer of a drive is over; no octets
     line,          ///< in the file of an incident: what follows is of the drive line with this name
-    silence,       ///< nothing more came: layer 2 gave up what was unfinished, or took a telegram in doubt; no octets
+    silence, ///< nothing more came: layer 2 gave up what was unfinished, or took a telegram in doubt; no
+             ///< octets
 };
 inline constexpr std::uint8_t kKinds = 10;
 

@@ -103,8 +103,8 @@ void BusPort::hear(Bytes octets, Instant read_at, bool more, fdl::Layer2& layer2
     hear_withheld(foreign.withheld, read_at, layer2);
     trace_.heard(foreign.octets, read_at, more, layer2.baud());
     layer2.on_bytes(foreign.octets, read_at, more);
-    // The master goes on: what has not left by now would meet its telegrams. (A bad character alone may be one
-    // of our echo.) Behind layer 2, because the answer has to wait anyway.
+    // The master goes on: what has not left by now would meet its telegrams. (A bad character alone may be
+    // one of our echo.) Behind layer 2, because the answer has to wait anyway.
     discard_what_is_stuck();
 }
 
