@@ -3,7 +3,9 @@
 # hardening.sh PROGRAM OPTIMISED: fails if the program lacks one of the protections that every build has; the calls that
 # check their bounds only where OPTIMISED is not 0.
 set -eu
-command -v readelf >/dev/null || { echo "readelf is not installed" && exit 77; }
+for tool in readelf objdump; do
+    command -v "$tool" >/dev/null || { echo "$tool is not installed" && exit 77; }
+done
 missing=0
 # has WHAT PATTERN OPTION...: what readelf says matches.
 has() {
@@ -24,6 +26,6 @@ case $(uname -m) in
     aarch64) pad='bti|paciasp' ;;
     *) pad= ;;
 esac
-objdump --disassemble=main "$program" | grep -Eq "$pad" ||
+[ -z "$pad" ] || objdump --disassemble=main "$program" | grep -Eq "$pad" ||
     { echo "$program: no landing pads for indirect calls" && missing=1; }
 exit $missing

@@ -393,13 +393,27 @@ TEST_F(SilenceInATelegram, PieceThatWasReadLateMakesNone)
 {
     reads(octets("68 05 05 68 F0"));
     EXPECT_EQ(next(), "-");
-    now += duration_of(22_tbit, Baud::k187_5);
+    now += duration_of(33_tbit, Baud::k187_5); // 22 of them are the two octets
     reads(octets("10 09"), true);
     EXPECT_EQ(next(), "-");
     now += duration_of(100_tbit, Baud::k187_5); // the thread was taken off the processor
     reads(octets("02 49 54 16"));
 
     EXPECT_EQ(next(), "09!");
+}
+
+TEST_F(SilenceInATelegram, PieceThatWasReadLateIsNoPlaceToSearchAt)
+{
+    reads(octets("68 05 05 68 F1"));
+    EXPECT_EQ(next(), "-");
+    now += duration_of(22_tbit, Baud::k187_5);
+    reads(octets("10 09"), true);
+    EXPECT_EQ(next(), "-");
+    now += duration_of(100_tbit, Baud::k187_5);
+    reads(octets("02 49 54 16"));
+
+    EXPECT_EQ(next(), "checksum");
+    EXPECT_EQ(next(), "-");
 }
 
 TEST_F(SilenceInATelegram, GoodTelegramIsHeardAlsoWhenABadCharacterFollowsInTheSameRead)
