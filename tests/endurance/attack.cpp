@@ -230,9 +230,10 @@ int judge(const std::vector<Found>& all)
     bool silence = true, missed = true, wrong = true, decided = true;
     for (const Found& f : all) {
         silence = silence && f.silence <= kMostSilence;
-        missed = missed && (!f.is_attack || f.missed_more() <= kMostMissedMore);
-        decided = decided && (!f.is_attack || f.can_be_judged());
         wrong = wrong && f.daemon.wrong == 0;
+        if (!f.is_attack) continue;
+        missed = missed && (!f.can_be_judged() || f.missed_more() <= kMostMissedMore);
+        decided = decided && f.can_be_judged();
     }
     const double memory = static_cast<double>(all.back().rss_kib) / static_cast<double>(all.front().rss_kib);
     fmt::print("\n");

@@ -10,40 +10,6 @@ using std::chrono::nanoseconds;
 
 namespace {
 
-class SilenceInATelegram : public Receiver {
-protected:
-    /// So long, T_SYN if not said otherwise, and the time of so many octets.
-    void falls_silent_before(std::size_t octets, std::uint32_t bits = 33)
-    {
-        now += duration_of(Tbit{static_cast<std::uint32_t>(bits + 11 * octets)}, Baud::k187_5);
-    }
-    void reads_behind_silence(const Octets& octets)
-    {
-        falls_silent_before(octets.size());
-        reads(octets);
-    }
-    /// Without a pause on the line.
-    void goes_on(const Octets& octets)
-    {
-        now += duration_of(Tbit{static_cast<std::uint32_t>(11 * octets.size())}, Baud::k187_5);
-        reads(octets);
-    }
-    bool stays_silent(std::uint32_t bits)
-    {
-        now += duration_of(Tbit{bits}, Baud::k187_5);
-        return receiver.on_time(now);
-    }
-
-    const Octets behind = octets("10 09 02 49 54 16"); ///< FDL_Status to 9
-    /// Eight octets say that they are a request to 5; with `behind` they are 14 with a right check sum:
-    /// 05 + 02 + 5D + 8C = F0, and 10 more are 00.
-    const Octets stump = octets("68 08 08 68 05 02 5D 8C");
-    /// A request to 5 whose last octets begin like a telegram of six octets: 05 + 02 + 5D + 01 + 10 + 09 =
-    /// 7E.
-    const Octets begun = octets("68 06 06 68 05 02 5D 01");
-    const Octets rest = octets("10 09 7E 16");
-};
-
 TEST_F(SilenceInATelegram, StumpThatEndsLikeTheTelegramBehindItIsUnfinished)
 {
     reads(stump);
@@ -167,76 +133,6 @@ TEST_F(SilenceInATelegram, DoubtStaysWhenNothingBeginsBehindAnotherSilence)
     EXPECT_EQ(next(), "5D!");
 }
 
-TEST_F(SilenceInATelegram, PlacesOfSilencesMoveWithWhatIsDropped)
-{
-    reads(octets("68 20 20 68 05"));
-    EXPECT_EQ(next(), "-");
-    reads_behind_silence(stump);
-    EXPECT_EQ(next(), "-");
-    reads_behind_silence(behind);
-    EXPECT_EQ(next(), "-");
-
-    EXPECT_TRUE(stays_silent(33));
-
-    EXPECT_EQ(next(), "unfinished");
-    EXPECT_EQ(next(), "unfinished");
-    EXPECT_EQ(next_with_its_place(), "13..19 49");
-}
-
-TEST_F(SilenceInATelegram, NoPlaceIsLeftOfATelegramThatWasGivenUp)
-{
-    reads(octets("68 20 20 68 05"));
-    EXPECT_EQ(next(), "-");
-    reads_behind_silence(octets("01 02"));
-    EXPECT_EQ(next(), "-");
-    EXPECT_TRUE(stays_silent(5000));
-    EXPECT_EQ(next(), "unfinished");
-    EXPECT_EQ(next(), "-");
-
-    const Octets good = joined({octets("68 05 05 68 F0"), behind}); // F0 + 10 + 09 + 02 + 49 = 54
-    reads(Octets(good.begin(), good.begin() + 2));
-    EXPECT_EQ(next(), "-");
-    goes_on(Octets(good.begin() + 2, good.end()));
-    EXPECT_EQ(next(), "09!");
-    EXPECT_EQ(next(), "-");
-
-    Octets bad = good;
-    bad[4] = 0xF1;
-    reads(Octets(bad.begin(), bad.begin() + 2));
-    EXPECT_EQ(next(), "-");
-    goes_on(Octets(bad.begin() + 2, bad.end()));
-    EXPECT_EQ(next(), "checksum");
-    EXPECT_EQ(next(), "-") << "it is not searched where the one before had its pause";
-}
-
-TEST_F(SilenceInATelegram, FailedTelegramIsSearchedOnlyWhereAReadBegan)
-{
-    Octets bad = sd2(kUs, kMaster, kSrdFcb0, joined({octets("01 02"), behind}));
-    bad[bad.size() - 2] ^= 0x01;
-    reads(Octets(bad.begin(), bad.begin() + 7));
-    EXPECT_EQ(next(), "-");
-
-    reads_behind_silence(Octets(bad.begin() + 7, bad.end()));
-
-    EXPECT_EQ(next(), "checksum");
-    EXPECT_EQ(next(), "-") << "01 02 begins nothing, and what is behind it are its data";
-}
-
-TEST_F(SilenceInATelegram, SecondFlawBehindADamagedBeginningIsCounted)
-{
-    reads(octets("00"));
-    EXPECT_EQ(next(), "start delimiter");
-    goes_on(octets("68 08 08 68 05"));
-    EXPECT_EQ(next(), "-");
-    falls_silent_before(9, 77);
-    reads(octets("68 20 20 68 01 01 01 01 01")); // the end of the first one, and the beginning of another
-    EXPECT_EQ(next(), "-") << "the flaw is reported";
-
-    goes_on(Octets(29, 0x01));
-
-    EXPECT_EQ(next(), "end delimiter");
-}
-
 TEST_F(SilenceInATelegram, EndOfTheDoubtLeavesTheBeginningOfTheNextTelegram)
 {
     reads(begun);
@@ -349,99 +245,6 @@ TEST_F(SilenceInATelegram, NothingBecomesWholeAcrossTheNextSilence)
     EXPECT_EQ(next(), "5D");
 }
 
-TEST_F(SilenceInATelegram, ReadsInPiecesAreNoSilence)
-{
-    reads(begun);
-    EXPECT_EQ(next(), "-");
-
-    goes_on(rest);
-
-    EXPECT_EQ(next(), "5D!");
-}
-
-/// What is read at one moment came one octet behind the other: the silence ended with the first of them.
-TEST_F(SilenceInATelegram, SilenceIsThatBeforeTheWholeReadAlsoWhereTheReadComesInPieces)
-{
-    reads(stump);
-    EXPECT_EQ(next(), "-");
-
-    now += duration_of(Tbit{11 * 12}, Baud::k187_5); // no pause
-    reads(behind, true);
-    EXPECT_EQ(next(), "-") << "it is not known yet when the read began";
-    reads(behind);
-
-    EXPECT_EQ(next_with_its_place(), "0..14 5D");
-    EXPECT_EQ(next_with_its_place(), "14..20 49");
-}
-
-TEST_F(SilenceInATelegram, ReadThatComesInPiecesBehindASilenceIsJudgedWithItsLastPiece)
-{
-    reads(stump);
-    EXPECT_EQ(next(), "-");
-
-    falls_silent_before(12);
-    reads(behind, true);
-    EXPECT_EQ(next(), "-");
-    reads(behind);
-
-    EXPECT_EQ(next_with_its_place(), "0 unfinished");
-    EXPECT_EQ(next_with_its_place(), "8..14 49");
-    EXPECT_EQ(next_with_its_place(), "14..20 49");
-}
-
-TEST_F(SilenceInATelegram, PieceThatWasReadLateMakesNone)
-{
-    reads(octets("68 05 05 68 F0"));
-    EXPECT_EQ(next(), "-");
-    now += duration_of(33_tbit, Baud::k187_5); // 22 of them are the two octets
-    reads(octets("10 09"), true);
-    EXPECT_EQ(next(), "-");
-    now += duration_of(100_tbit, Baud::k187_5); // the thread was taken off the processor
-    reads(octets("02 49 54 16"));
-
-    EXPECT_EQ(next(), "09!");
-}
-
-TEST_F(SilenceInATelegram, PieceThatWasReadLateIsNoPlaceToSearchAt)
-{
-    reads(octets("68 05 05 68 F1"));
-    EXPECT_EQ(next(), "-");
-    now += duration_of(22_tbit, Baud::k187_5);
-    reads(octets("10 09"), true);
-    EXPECT_EQ(next(), "-");
-    now += duration_of(100_tbit, Baud::k187_5);
-    reads(octets("02 49 54 16"));
-
-    EXPECT_EQ(next(), "checksum");
-    EXPECT_EQ(next(), "-");
-}
-
-TEST_F(SilenceInATelegram, GoodTelegramIsHeardAlsoWhenABadCharacterFollowsInTheSameRead)
-{
-    reads(Octets(first.begin(), first.begin() + 7));
-    EXPECT_EQ(next(), "-");
-    now += duration_of(Tbit{11 * 4}, Baud::k187_5);
-    reads(Octets(first.begin() + 7, first.end()), true);
-
-    EXPECT_EQ(next(), "5D");
-    hears_a_bad_character();
-    EXPECT_EQ(next(), "bad character");
-}
-
-TEST_F(SilenceInATelegram, PauseBehindAPieceThatWasTheLastIsSeen)
-{
-    reads(octets("68 20 20 68 05"), true);
-    EXPECT_EQ(next(), "-");
-    EXPECT_FALSE(receiver.on_time(now));
-
-    reads_behind_silence(behind);
-    EXPECT_EQ(next(), "-");
-    EXPECT_TRUE(stays_silent(33));
-
-    EXPECT_EQ(next(), "unfinished");
-    EXPECT_EQ(next(), "49!");
-}
-
 TEST_F(SilenceInATelegram, TelegramInDoubtIsHeardAlsoWhenTheTimeIsLookedAtTooLate)
 {
     reads(begun);
@@ -469,47 +272,6 @@ TEST_F(SilenceInATelegram, NothingIsInDoubtAtAnotherRate)
     receiver.restart(Baud::k500);
 
     EXPECT_FALSE(receiver.is_in_doubt());
-}
-
-TEST_F(SilenceInATelegram, BeforeAReadInPiecesIsNoneOfTheTelegramThatBeginsInIt)
-{
-    const Octets good = joined({octets("68 05 05 68 F0"), behind}); // F0 + 10 + 09 + 02 + 49 = 54
-    reads(octets("68 05 05 68 05"));
-    EXPECT_EQ(next(), "-");
-    falls_silent_before(17);
-    reads(joined({Octets(6, 0x00), Octets(good.begin(), good.begin() + 2)}), true);
-    EXPECT_EQ(next(), "end delimiter");
-    EXPECT_EQ(next(), "-");
-
-    reads(Octets(good.begin() + 2, good.end()));
-
-    EXPECT_EQ(next(), "09!");
-}
-
-TEST_F(SilenceInATelegram, LongReadInPiecesIsJudgedWhenThereIsNoRoomForMore)
-{
-    reads(stump);
-    EXPECT_EQ(next(), "-");
-
-    falls_silent_before(6 * 100);
-    reads(joined(std::vector<Octets>(100, behind)), true);
-
-    EXPECT_EQ(next_with_its_place(), "0 unfinished");
-    for (int i = 0; i < 100; ++i) EXPECT_EQ(next(), "49") << i;
-}
-
-TEST_F(SilenceInATelegram, PieceBehindWhichNothingFollowsIsJudgedAfterTsyn)
-{
-    reads(stump);
-    EXPECT_EQ(next(), "-");
-    falls_silent_before(6);
-    reads(behind, true);
-    EXPECT_EQ(next(), "-");
-
-    EXPECT_TRUE(stays_silent(33));
-
-    EXPECT_EQ(next(), "unfinished");
-    EXPECT_EQ(next(), "49!");
 }
 
 TEST_F(SilenceInATelegram, TelegramInDoubtIsGivenUpWithABadCharacterBehindIt)

@@ -46,4 +46,40 @@ protected:
     const Octets second = sd1(kOther, kMaster, kFdlStatus);
 };
 
+/// A telegram with a silence in it.
+class SilenceInATelegram : public Receiver {
+protected:
+    /// So long, T_SYN if not said otherwise, and the time of so many octets.
+    void falls_silent_before(std::size_t octets, std::uint32_t bits = 33)
+    {
+        now += dpslave::duration_of(dpslave::Tbit{static_cast<std::uint32_t>(bits + 11 * octets)},
+                                    dpslave::Baud::k187_5);
+    }
+    void reads_behind_silence(const Octets& octets)
+    {
+        falls_silent_before(octets.size());
+        reads(octets);
+    }
+    /// Without a pause on the line.
+    void goes_on(const Octets& octets)
+    {
+        now += dpslave::duration_of(dpslave::Tbit{static_cast<std::uint32_t>(11 * octets.size())},
+                                    dpslave::Baud::k187_5);
+        reads(octets);
+    }
+    bool stays_silent(std::uint32_t bits)
+    {
+        now += dpslave::duration_of(dpslave::Tbit{bits}, dpslave::Baud::k187_5);
+        return receiver.on_time(now);
+    }
+
+    const Octets behind = octets("10 09 02 49 54 16"); ///< FDL_Status to 9
+    /// Eight octets say that they are a request to 5; with `behind` they are 14 with a right check sum:
+    /// 05 + 02 + 5D + 8C = F0, and 10 more are 00.
+    const Octets stump = octets("68 08 08 68 05 02 5D 8C");
+    /// A request to 5 whose last octets begin like a telegram of six: 05 + 02 + 5D + 01 + 10 + 09 = 7E.
+    const Octets begun = octets("68 06 06 68 05 02 5D 01");
+    const Octets rest = octets("10 09 7E 16");
+};
+
 } // namespace test
