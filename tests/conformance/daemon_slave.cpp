@@ -24,6 +24,9 @@ constexpr auto kSlot = 25ms;
 constexpr auto kTsyn = 352us; // 33 bit times
 /// How often a request is repeated that the machine was too busy for.
 constexpr int kTries = 15;
+/// So long the drive may still get what a daemon wrote that has ended: 4 ms of the line, and what the
+/// programs between need on a loaded machine.
+constexpr auto kOnTheLine = 100ms;
 constexpr unsigned kTripTag = 4, kStatusTag = 75;
 
 /// Of the telegram that begins here; 0: more octets have to tell.
@@ -179,6 +182,7 @@ void DaemonSlave::begin_case()
         tell_drive(fmt::format("set {} {:04X}", tag, word));
     };
     gateway_.daemon().end(SIGKILL); // first: it writes what the case before has left
+    pass(kOnTheLine);
     drive_answers(true);
     for (std::size_t i = 0; i < kInputTags.size(); ++i) set(kInputTags[i], kInputsAtStart[i]);
     for (const unsigned tag : kOutputTags) set(tag, 0);
