@@ -218,9 +218,9 @@ void print_row(const Attack& attack, const Found& f)
     std::fflush(stdout);
 }
 
-bool judge(const char* what, bool kept)
+bool judge(const char* what, bool kept, bool decided = true)
 {
-    fmt::print("{}: {}\n", what, kept ? "kept" : "BROKEN");
+    fmt::print("{}: {}\n", what, !kept ? "BROKEN" : decided ? "kept" : "not judged, chance still decides");
     return kept;
 }
 
@@ -237,14 +237,13 @@ int judge(const std::vector<Found>& all)
     }
     const double memory = static_cast<double>(all.back().rss_kib) / static_cast<double>(all.front().rss_kib);
     fmt::print("\n");
-    const std::array kept{judge("gap of the watchdog at most 2 s at WatchdogSec=5", silence),
-                          judge("missed answers at most those of the null responder and 0.1 %", missed),
-                          judge("memory afterwards at most 10 % more", memory <= kMostMemory),
-                          judge("no wrong answer or value", wrong)};
+    const std::array kept{
+        judge("gap of the watchdog at most 2 s at WatchdogSec=5", silence),
+        judge("missed answers at most those of the null responder and 0.1 %", missed, decided),
+        judge("memory afterwards at most 10 % more", memory <= kMostMemory),
+        judge("no wrong answer or value", wrong)};
     if (!std::all_of(kept.begin(), kept.end(), [](bool one) { return one; })) return 1;
-    if (decided) return 0;
-    fmt::print("Not judged: of an attack chance still decides whether it misses more answers.\n");
-    return 77;
+    return decided ? 0 : 77;
 }
 
 /// Each attack several times, and again until chance does not decide, `most_times` at most.
