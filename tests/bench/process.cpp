@@ -106,16 +106,20 @@ private:
     pid_t pid_ = -1;
 };
 
-/// Each station has a drive line of its own, as drives whose port is no bus need it.
-std::vector<std::string> daemon_command(const Options& options, const Pty& bus, const std::vector<Pty>& lines)
+/// The recorder keeps nothing: the memory of its rings is what the operator chose.
+constexpr std::string_view kWithoutRings = "[trace]\nbus_kib = 0\nsamples_kib = 0\ndrive_kib = 0\n";
+
+/// `trace`: the table of that name. Each station has a drive line of its own, as drives whose port is no bus
+/// need it.
+std::vector<std::string> daemon_command(const Options& options, const Pty& bus, const std::vector<Pty>& lines,
+                                        std::string_view trace)
 {
     const std::filesystem::path file = options.folder / "dpslaved.toml";
     std::ofstream out{file};
-    out << fmt::format(
-        "[bus]\nport = \"{}\"\nbaud = 1500000\ndirection = \"none\"\nmax_tsdr = 1023\n"
-        "[control]\nsocket = \"{}\"\noperator_group = \"root\"\n"
-        "[trace]\nbus_kib = 0\nsamples_kib = 0\ndrive_kib = 0\n", // their memory is what the operator chose
-        bus.name, (options.folder / "socket").string());
+    out << fmt::format("[bus]\nport = \"{}\"\nbaud = 1500000\ndirection = \"none\"\nmax_tsdr = 1023\n"
+                       "[control]\nsocket = \"{}\"\noperator_group = \"root\"\n"
+                       "{}",
+                       bus.name, (options.folder / "socket").string(), trace);
     for (std::size_t i = 0; i < lines.size(); ++i)
         out << fmt::format("[[line]]\nname = \"{0}\"\nport = \"{1}\"\nprotocol = \"ei-ascii\"\nbaud = 19200\n"
                            "[[station]]\nname = \"s{0}\"\naddress = {2}\nprofile = \"590\"\nline = \"{0}\"\n"
@@ -153,7 +157,7 @@ nanoseconds start_of_daemon(const Options& options)
 {
     const Pty bus;
     const std::vector<Pty> lines(1);
-    const auto command = daemon_command(options, bus, lines);
+    const auto command = daemon_command(options, bus, lines, kWithoutRings);
     std::optional<Child> daemon;
     return time_of([&] {
         daemon.emplace(command, options.folder / "log");
@@ -213,30 +217,44 @@ void await_line(const std::filesystem::path& log, const std::string& words)
     throw std::runtime_error{"nobody said: " + words};
 }
 
-Row measure_memory(const Options& options, std::size_t stations, double limit)
+double memory_of_libraries(const Options& options)
 {
     const std::filesystem::path log = options.folder / "log";
-    unsigned libraries = 0, daemon = 0;
-    {
-        const Child sleeper{{options.sleeper}, log};
-        await_line(log, "locked");
-        libraries = sleeper.kib("VmRSS");
-    }
-    {
-        const Pty bus;
-        const std::vector<Pty> lines(stations);
-        const Child child{daemon_command(options, bus, lines), log};
-        await_line(log,
-                   fmt::format("s{}: the drive does not answer", stations - 1)); // all has been done once
-        await_answer(bus);
-        daemon = child.kib("VmRSS");
-    }
-    fmt::print("    {} station(s) {} kB, the libraries {} kB\n", stations, daemon, libraries);
-    return {.id = "M12",
+    const Child sleeper{{options.sleeper}, log};
+    await_line(log, "locked");
+    return sleeper.kib("VmRSS");
+}
+
+/// When it has done everything once.
+double memory_of_daemon(const Options& options, std::size_t stations, std::string_view trace)
+{
+    const Pty bus;
+    const std::vector<Pty> lines(stations);
+    const std::filesystem::path log = options.folder / "log";
+    const Child daemon{daemon_command(options, bus, lines, trace), log};
+    await_line(log, fmt::format("s{}: the drive does not answer", stations - 1));
+    await_answer(bus);
+    return daemon.kib("VmRSS");
+}
+
+Row measure_memory(const Options& options, std::size_t stations, double limit)
+{
+    Row row{.id = "M12",
             .metric = fmt::format("RSS / that of the libraries, locked: {} station{}", stations,
                                   stations == 1 ? "" : "s, each on a line of its own"),
             .limit = limit,
-            .blocks = {static_cast<double>(daemon) / libraries}};
+            .noise = Noise::p50};
+    std::vector<double> daemons, libraries;
+    for (std::size_t block = 0; block < (options.quick ? 1 : kBlocks); ++block) {
+        libraries.push_back(memory_of_libraries(options));
+        daemons.push_back(memory_of_daemon(options, stations, kWithoutRings));
+        row.blocks.push_back(daemons.back() / libraries.back());
+        row.aa.push_back(memory_of_libraries(options) / libraries.back());
+    }
+    fmt::print(
+        "    {} station(s) {:.0f} kB, the libraries {:.0f} kB; with the recorder as shipped {:.0f} kB\n",
+        stations, median(daemons), median(libraries), memory_of_daemon(options, stations, ""));
+    return row;
 }
 
 std::vector<Row> measure(const Options& options)
