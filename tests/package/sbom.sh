@@ -1,14 +1,13 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# sbom.sh SBOM PROGRAM...: fails unless the list that SBOM makes of the programs has exactly the packages of the libraries that
-# ldd finds for them, with the versions that are installed.
+# sbom.sh LIST PROGRAM...: fails unless the SPDX list has exactly the packages of the libraries that ldd finds for the programs,
+# with the versions that are installed.
 set -eu
 command -v dpkg-query >/dev/null && command -v ldd >/dev/null || { echo "dpkg-query or ldd is not installed" && exit 77; }
-sbom=$1
+list=$1
 shift
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-"$sbom" dpslaved 0 "$(dpkg --print-architecture)" "$@" > "$scratch/sbom"
 
 ldd "$@" | grep -oE '/[^ ]+\.so[^ ]*' | sort -u | while read -r library; do
     # A package may own it by the name of before /lib became /usr/lib.
@@ -16,7 +15,7 @@ ldd "$@" | grep -oE '/[^ ]+\.so[^ ]*' | sort -u | while read -r library; do
         dpkg-query --search "/usr$library"
 done | sed 's/: .*//' | sort -u | xargs dpkg-query --show --showformat '${Package} ${Version}\n' | sort -u > "$scratch/loaded"
 
-python3 - "$scratch/sbom" > "$scratch/listed" <<'END'
+python3 - "$list" > "$scratch/listed" <<'END'
 import json, sys
 document = json.load(open(sys.argv[1]))
 loads = {one["relatedSpdxElement"] for one in document["relationships"] if one["relationshipType"] == "DYNAMIC_LINK"}
@@ -26,4 +25,4 @@ END
 LC_ALL=C sort -o "$scratch/loaded" "$scratch/loaded"
 LC_ALL=C sort -o "$scratch/listed" "$scratch/listed"
 diff "$scratch/loaded" "$scratch/listed" || { echo "< is loaded, > is in the list" && exit 1; }
-grep -q '"STATIC_LINK"' "$scratch/sbom" || { echo "the libraries that are headers are missing" && exit 1; }
+grep -q '"STATIC_LINK"' "$list" || { echo "the libraries that are headers are missing" && exit 1; }
