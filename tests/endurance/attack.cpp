@@ -38,6 +38,10 @@ constexpr int kMostTimes = 16;
 constexpr uid_t kStrangers = 65530; ///< and the three behind it
 constexpr auto kWatchdog = 5s;
 
+/// The slot time of the master, and what the daemon promises (max_tsdr). With the 150 bit times of the GSD it
+/// would keep back replies that the null responder, which promises nothing, still gives within the slot.
+constexpr unsigned kSlotBits = 300;
+
 /// 11 bit times at 1.5 Mbit/s: no station may answer earlier.
 constexpr auto kMinTsdr = 7334ns;
 
@@ -130,6 +134,7 @@ public:
     explicit Scene(int cpu)
         : installation_({.bus_port = bus_.port(),
                          .cpu = cpu,
+                         .max_tsdr = kSlotBits,
                          .environment = {{"NOTIFY_SOCKET", folder_ / "notify"},
                                          {"WATCHDOG_USEC", std::to_string(kWatchdog / 1us)}}})
     {

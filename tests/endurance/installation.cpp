@@ -78,11 +78,12 @@ void Installation::unplug_drive()
 
 std::string Installation::config(bool visitor, unsigned refresh_s) const
 {
-    std::string text =
-        fmt::format("[bus]\nport = \"{}\"\nbaud = 1500000\ndirection = \"none\"\n[realtime]\ncpu = {}\n"
-                    "[control]\nsocket = \"{}\"\n"
-                    "[[line]]\nname = \"p3\"\nport = \"{}\"\nprotocol = \"ei-ascii\"\nbaud = 38400\n",
-                    setup_.bus_port, setup_.cpu, socket().string(), (folder_ / "drive-gateway").string());
+    std::string text = fmt::format(
+        "[bus]\nport = \"{}\"\nbaud = 1500000\ndirection = \"none\"\nmax_tsdr = {}\n[realtime]\ncpu = {}\n"
+        "[control]\nsocket = \"{}\"\n"
+        "[[line]]\nname = \"p3\"\nport = \"{}\"\nprotocol = \"ei-ascii\"\nbaud = 38400\n",
+        setup_.bus_port, setup_.max_tsdr, setup_.cpu, socket().string(),
+        (folder_ / "drive-gateway").string());
     for (unsigned unit = 0; unit < (visitor ? 3U : 2U); ++unit)
         text += fmt::format(
             "[[station]]\nname = \"station{0}\"\naddress = {0}\nprofile = \"590\"\nline = \"p3\"\n"

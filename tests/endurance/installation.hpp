@@ -33,8 +33,9 @@ struct DaemonCounts {
 };
 
 struct Setup {
-    std::string bus_port; ///< the end of the daemon
-    int cpu = -1;         ///< [realtime] cpu
+    std::string bus_port;  ///< the end of the daemon
+    int cpu = -1;          ///< [realtime] cpu
+    unsigned max_tsdr = 0; ///< [bus] max_tsdr, bit times; 0: that of the GSD
     dpslave::test::Environment environment{};
 };
 
