@@ -222,7 +222,7 @@ void Layer2::on_request(const Telegram& request, Instant at)
     pending_ = {.address = request.da,
                 .octets = reply.octets,
                 .not_before = at + duration_of(reply.not_before, baud_),
-                .not_after = at + duration_of(reply.not_after, baud_) - settings_.start_up_latency};
+                .not_after = at + duration_of(reply.not_after, baud_) - settings_.start_up_latency - unread_};
 }
 
 /// The line is in use: the moment for the reply is over. What the request did and its stored reply stay.

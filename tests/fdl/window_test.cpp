@@ -48,13 +48,14 @@ TEST_F(FdlStation, NewMinTsdrBeginsWithTheReplyAfterTheAcknowledgeOfItsOwnSetPrm
 /// Without the bus: the exact edges of the window.
 class ReplyWindow : public testing::Test {
 protected:
-    fdl::Layer2& station_with(Tbit max_tsdr, nanoseconds start_up_latency = {})
+    fdl::Layer2& station_with(Tbit max_tsdr, nanoseconds start_up_latency = {}, nanoseconds unread = {})
     {
         station.emplace(fdl::Layer2Settings{Baud::k187_5, {}, start_up_latency});
         std::array<Tbit, kBauds.size()> all{};
         all[index_of(Baud::k187_5)] = max_tsdr;
         station->attach(kUs, user, all);
         station->on_time(kRead);
+        station->may_have_lain(unread);
         station->on_bytes(octets("10 05 02 49 50 16"), kRead);
         return *station;
     }
@@ -80,6 +81,47 @@ TEST_F(ReplyWindow, OpensAtMinTsdrAndSaysSoAsDeadline)
 
     EXPECT_TRUE(s.take_transmit());
     EXPECT_FALSE(s.take_transmit()); // a reply is given once
+}
+
+/// Given a reader that stood still: how old the request is it does not know, only how old it may be.
+TEST_F(ReplyWindow, EndsEarlierByTheTimeForWhichTheRequestMayHaveLainUnread)
+{
+    fdl::Layer2& s = station_with(100_tbit, {}, bits(30));
+    s.on_time(kRead + bits(70));
+    EXPECT_TRUE(s.take_transmit());
+
+    fdl::Layer2& later = station_with(100_tbit, {}, bits(30));
+    later.on_time(kRead + bits(70) + nanoseconds{1});
+    EXPECT_FALSE(later.take_transmit());
+    EXPECT_EQ(later.counters().late, 1u);
+}
+
+TEST_F(ReplyWindow, OpensNoEarlierForARequestThatMayHaveLainUnread)
+{
+    fdl::Layer2& s = station_with(100_tbit, {}, bits(30));
+    s.on_time(kRead + bits(11) - nanoseconds{1});
+    EXPECT_FALSE(s.take_transmit());
+    s.on_time(kRead + bits(11));
+    EXPECT_TRUE(s.take_transmit());
+}
+
+TEST_F(ReplyWindow, HasPassedWhereTheRequestMayHaveLainLonger)
+{
+    fdl::Layer2& s = station_with(100_tbit, {}, std::chrono::seconds{1});
+    s.on_time(kRead + bits(11));
+
+    EXPECT_FALSE(s.take_transmit());
+    EXPECT_EQ(s.counters().late, 1u);
+}
+
+TEST_F(ReplyWindow, IsWholeAgainForWhatIsReadInTime)
+{
+    fdl::Layer2& s = station_with(100_tbit, {}, std::chrono::seconds{1});
+    s.may_have_lain({});
+    s.on_bytes(octets("10 05 02 49 50 16"), kRead + bits(500));
+    s.on_time(kRead + bits(600));
+
+    EXPECT_TRUE(s.take_transmit());
 }
 
 TEST_F(ReplyWindow, IsOpenUntilMaxTsdr)

@@ -84,6 +84,10 @@ public:
     /// nullptr: nobody is told.
     void listen(TelegramListener* listener) { listener_ = listener; }
 
+    /// What is read from now on may have lain unread for so long, because the caller stood still: the window
+    /// of a reply to it ends so much earlier, and never begins earlier. 0, as at the beginning: none of it
+    /// has.
+    void may_have_lain(std::chrono::nanoseconds unread) { unread_ = unread; }
     /// Octets read from the line in one go; `read_at` is taken right after the read. `more_follows`: what was
     /// read goes on in the next call, so a request at the end of these octets is not the newest thing heard.
     void on_bytes(Bytes bytes, Instant read_at, bool more_follows = false);
@@ -167,8 +171,9 @@ private:
     TelegramListener* listener_ = nullptr;
 
     std::optional<Pending> pending_;
-    Instant window_ended_{}; // of the reply handed out last
-    Bytes sent_;             // that reply, until the next request; empty: none, or its echo was heard
+    std::chrono::nanoseconds unread_{0}; // may_have_lain()
+    Instant window_ended_{};             // of the reply handed out last
+    Bytes sent_; // that reply, until the next request; empty: none, or its echo was heard
     std::uint8_t answered_address_ = 0;
     Instant last_telegram_{};
     Queue<Unanswered, 8> unanswered_;

@@ -77,10 +77,13 @@ Instant BusThread::next_wake() const
     return next;
 }
 
-/// Waits until `when` at most, not at all if that is near. True: the port has something to read.
+/// Waits until `when` at most, not at all if that is near. True: the port has something to read. It came at
+/// once or after the port was looked at last; but where a tick is overdue too, this thread stood still.
 bool BusThread::octets_before(Instant when)
 {
-    auto wait = when - io::monotonic_now();
+    const Instant begins = io::monotonic_now();
+    unread_ = begins - processed_at_;
+    auto wait = when - begins;
     if (wait <= kSpin) wait = {};
     if (wait > kTick) wait = std::chrono::nanoseconds::max(); // the ticker ends it
     std::array<epoll_event, 3> ready{};
@@ -88,7 +91,7 @@ bool BusThread::octets_before(Instant when)
     for (const epoll_event& event : epoll_.wait(ready, wait)) {
         if (event.data.u64 == kPortKey) octets = true;
         if (event.data.u64 == kTickKey) {
-            ticker_.clear();
+            unread_ = std::max(unread_, ticker_.clear(io::monotonic_now()));
             update_due_ = true;
         }
     }
@@ -99,7 +102,10 @@ bool BusThread::octets_before(Instant when)
 /// that finds nothing makes the kernel wait for its own workers, which takes milliseconds on a busy machine.
 void BusThread::process(bool octets)
 {
-    if (octets) port_.read(layer2_);
+    if (octets) {
+        layer2_.may_have_lain(unread_);
+        port_.read(layer2_);
+    }
     processed_at_ = io::monotonic_now();
     layer2_.on_time(processed_at_);
     port_.note_silence(layer2_);

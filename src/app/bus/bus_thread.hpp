@@ -11,6 +11,7 @@
 #include "dpslave/config/config.hpp"
 #include "dpslave/dp/bus_members.hpp"
 #include "dpslave/fdl/layer2.hpp"
+#include "dpslave/io/clock.hpp"
 #include "dpslave/io/epoll.hpp"
 #include "dpslave/io/event_fd.hpp"
 #include "dpslave/io/ticker.hpp"
@@ -68,7 +69,9 @@ private:
     Histogram turnaround_us_;
     Histogram turnaround_tbit_;
     std::uint64_t too_late_ = 0;
-    Instant processed_at_{}; ///< when layer 2 had the time last: right before a reply
+    /// When the port was looked at, and layer 2 had the time, last: right before a reply.
+    Instant processed_at_ = io::monotonic_now();
+    std::chrono::nanoseconds unread_{0}; ///< what is there to read came at most so long ago
     Instant next_bus_snapshot_{}, next_members_{};
     bool memory_is_ready_ = false;
     Instant published_until_{}; ///< what was due by then was looked at, one station at a time
