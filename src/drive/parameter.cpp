@@ -64,8 +64,8 @@ void AccessState::lose()
 
 bool Reading::is_excluded() const
 {
-    return !asked || state == WordState::invalid_tag || state == WordState::refused ||
-           state == WordState::read_only || state == WordState::unscaled;
+    return state == WordState::invalid_tag || state == WordState::refused || state == WordState::read_only ||
+           state == WordState::unscaled;
 }
 
 /// An exclusion stands, but not that of a number whose scale the table has by now.

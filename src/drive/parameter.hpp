@@ -20,7 +20,6 @@ enum class Knowledge : std::uint8_t {
     held,         ///< a read has shown the word
     differs,      ///< a read has shown another word
 };
-inline constexpr std::size_t kKnowledges = 6;
 
 enum class KnowledgeEvent : std::uint8_t {
     layout_begins,      ///< the first word of a layout, of a parameter that reads show
@@ -37,7 +36,7 @@ enum class KnowledgeEvent : std::uint8_t {
 /// One row of the table: what is known after the event, for each knowledge before it.
 struct KnowledgeRow {
     KnowledgeEvent on;
-    std::array<Knowledge, kKnowledges> after;
+    std::array<Knowledge, 6> after;
 };
 
 constexpr KnowledgeRow knowledge_row(KnowledgeEvent on, Knowledge unknown, Knowledge acknowledged,

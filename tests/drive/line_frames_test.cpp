@@ -33,6 +33,7 @@ public:
         }
         first = frame.begun;
         last = frame.at;
+        EXPECT_EQ(frame.protocol, LineProtocol::ei_ascii);
     }
     std::vector<std::string> lines;
     Instant first{}, last{}; ///< of the newest frame
@@ -79,6 +80,12 @@ TEST_F(EiLineFrames, AQuestionAndItsAnswerAreAsOnTheWire)
     EXPECT_THAT(noted_of_a_read(), ElementsAre(kAskOutput, std::string{"taken 00: "} + kOutputIsA));
 }
 
+TEST_F(EiLineFrames, ADriveIsNotedByGroupAndUnit)
+{
+    exchange.poll({.group = 1, .unit = 15}, kOutput);
+    EXPECT_THAT(noted(), ElementsAre("sent 1F: 04 31 31 46 46 6F 77 05", "silence 1F"));
+}
+
 TEST_F(EiLineFrames, AnAnswerHasTheTimesOfItsFirstAndItsLastCharacter)
 {
     a.turnaround = 7ms;
@@ -120,6 +127,13 @@ TEST_F(EiLineFrames, AnAnswerThatBreaksOffIsTruncated)
     EXPECT_THAT(noted_of_a_read(Fault::half_answer), ElementsAre(kAskOutput, "truncated 00: 02 6F 77 3E 30"));
 }
 
+TEST_F(EiLineFrames, AnAnswerThatBreaksOffIsNotedWhenItIsGivenUp)
+{
+    a.faults = {Fault::half_answer};
+    exchange.poll(kUnitA, kOutput);
+    EXPECT_THAT(noted(), Contains("truncated 00: 02 6F 77 3E 30"));
+}
+
 TEST_F(EiLineFrames, WhatBeginsAsNoFrameIsNoneUntilTheLineIsSilent)
 {
     EXPECT_THAT(noted_of_a_read(Fault::stray_octet),
@@ -158,6 +172,14 @@ TEST_F(EiLineFrames, AnAnswerForAnotherMnemonicThatNobodyOwesIsForeign)
                 Contains(testing::StartsWith("foreign 00: 02 7A 7A")));
 }
 
+TEST_F(EiLineFrames, AnEotWhereAnAckIsWaitedForIsForeign)
+{
+    line.comes_by_itself("\x04", 17ms);
+    exchange.select(kUnitA, kOutput, ">0001");
+    EXPECT_THAT(noted(), testing::IsSupersetOf({"foreign 00: 04", "taken 00: 06"}));
+    EXPECT_EQ(exchange.counts(kUnitA).foreign, 1U);
+}
+
 TEST_F(EiLineFrames, ASecondCopyIsADuplicate)
 {
     line.comes_by_itself("\x02ow>000A\x03T", 60ms);
@@ -194,6 +216,17 @@ TEST_F(EiLineFramesWithEcho, TheEchoIsNotedBeforeTheAnswer)
 {
     EXPECT_THAT(noted_of_a_read(), ElementsAre(kAskOutput, "echo 00: 04 30 30 30 30 6F 77 05",
                                                std::string{"taken 00: "} + kOutputIsA));
+}
+
+TEST_F(EiLineFramesWithEcho, AnEotThatBeganLikeAnEchoIsNotedThoughNothingFollows)
+{
+    a.alive = line.echoes = false;
+    exchange.poll(kUnitA, kOutput);
+    line.comes_by_itself("\x04");
+    line.time += 10ms;
+    exchange.listen();
+
+    EXPECT_THAT(noted(), Contains("unclear 00: 04"));
 }
 
 TEST(Judgements, HaveEachANameAndWordsOfTheirOwn)

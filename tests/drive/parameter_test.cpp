@@ -126,13 +126,47 @@ TEST(Writing, ThatIsReadBackIsAcceptedThoughItWasRefused)
     EXPECT_EQ(writing.knowledge, held);
 }
 
-TEST(Writing, OfAReadOnlyTagStaysRefusedThoughTheDriveHoldsTheWord)
+TEST(Writing, OfATagThatCannotBeWrittenStaysRefusedThoughTheDriveHoldsTheWord)
+{
+    for (const auto error : {AccessError::read_only, AccessError::invalid_tag, AccessError::unsupported_type,
+                             AccessError::contradicted}) {
+        Writing writing = output(5, true);
+        writing.write_answered(5, error, false, kNow);
+        writing.hold(AccessError::no_answer);
+        writing.wanted_seen(kNow + 1s);
+        EXPECT_TRUE(writing.is_refused()) << static_cast<int>(error);
+        EXPECT_EQ(writing.state, state_of(error));
+        EXPECT_EQ(writing.failures, 0) << "the read was an answer";
+    }
+}
+
+TEST(Writing, ThatIsReadBackKeepsTheTimeOfItsAnswer)
 {
     Writing writing = output(5, true);
-    writing.write_answered(5, AccessError::read_only, false, kNow);
+    writing.write_answered(5, AccessError::none, false, kNow);
     writing.wanted_seen(kNow + 1s);
-    EXPECT_TRUE(writing.is_refused());
-    EXPECT_EQ(writing.state, WordState::read_only);
+    EXPECT_EQ(writing.answered_at, kNow);
+    EXPECT_EQ(writing.updated_at, kNow);
+    EXPECT_EQ(writing.knowledge, held);
+}
+
+TEST(Writing, ThatWasOnlyAssumedHasTheTimeOfTheReadThatShowsIt)
+{
+    Writing writing = output(5, true);
+    writing.layout_begins();
+    writing.wanted_seen(kNow);
+    EXPECT_EQ(writing.word, 5);
+    EXPECT_EQ(writing.answered_at, kNow);
+    EXPECT_EQ(writing.updated_at, kNow);
+}
+
+TEST(Writing, InABlockIsUnprovenAndAloneItIsAcknowledged)
+{
+    Writing writing = output(5, false);
+    writing.write_answered(5, AccessError::none, true, kNow);
+    EXPECT_EQ(writing.knowledge, unproven);
+    writing.write_answered(5, AccessError::none, false, kNow);
+    EXPECT_EQ(writing.knowledge, acknowledged);
 }
 
 TEST(Writing, ThatLostItsAnswerIsProvenByAReadThatShowsTheWord)
@@ -153,6 +187,15 @@ TEST(Writing, OfTheFirstWordOfALayoutIsAssumedOnlyWhereAReadIsToShowIt)
     Writing not_read = output(5, false);
     not_read.layout_begins();
     EXPECT_FALSE(not_read.is_settled());
+}
+
+TEST(Writing, OfTheFirstWordOfALayoutIsMadeWhereTheDriveIsKnownToHoldAnotherOne)
+{
+    Writing writing = output(5, true);
+    writing.write_answered(5, AccessError::none, false, kNow);
+    writing.wanted = 6;
+    writing.layout_begins();
+    EXPECT_FALSE(writing.is_settled());
 }
 
 TEST(Writing, ToADriveThatIsBackIsMadeAgainUnlessAReadIsToShowTheWord)
@@ -176,12 +219,117 @@ TEST(Writing, ThatWasRefusedIsMadeAgainToADriveThatIsBack)
     EXPECT_FALSE(writing.is_settled());
 }
 
+TEST(Writing, ThatWasRefusedAsReadOnlyIsAcceptedIfTheDriveThatIsBackHoldsTheWord)
+{
+    Writing writing = output(5, true);
+    writing.write_answered(5, AccessError::read_only, false, kNow);
+    writing.drive_returned();
+    writing.wanted_seen(kNow + 1s);
+    EXPECT_FALSE(writing.is_refused());
+    EXPECT_EQ(writing.state, WordState::good);
+}
+
+TEST(Writing, IsHeldByADriveThatIsBackOnlyWhereTheTagWasDropped)
+{
+    struct Before {
+        AccessError error;
+        WordState state;
+    };
+    for (const Before& one : {Before{AccessError::none, WordState::good},
+                              Before{AccessError::out_of_range, WordState::out_of_range},
+                              Before{AccessError::invalid_tag, WordState::stale},
+                              Before{AccessError::no_scale, WordState::stale}}) {
+        Writing writing = output(5, true);
+        writing.write_answered(5, one.error, false, kNow);
+        writing.drive_returned();
+        EXPECT_EQ(writing.state, one.state) << static_cast<int>(one.error);
+    }
+}
+
 TEST(Writing, AtAnotherPortIsMadeAgainEvenWhereReadsShowTheWord)
 {
     Writing writing = output(5, true);
     writing.write_answered(5, AccessError::none, false, kNow);
     writing.port_changed();
     EXPECT_FALSE(writing.is_settled());
+}
+
+TEST(Writing, ThatWasRefusedIsNotRefusedByTheDriveAtAnotherPort)
+{
+    Writing writing = output(5, true);
+    writing.write_answered(5, AccessError::out_of_range, false, kNow);
+    writing.port_changed();
+    EXPECT_FALSE(writing.is_refused());
+    EXPECT_EQ(writing.state, WordState::stale);
+}
+
+// ---- what an error means
+
+TEST(AccessState, IsThatOfItsError)
+{
+    struct Meaning {
+        AccessError error;
+        WordState state;
+    };
+    for (const Meaning& one :
+         {Meaning{AccessError::none, WordState::good}, Meaning{AccessError::no_answer, WordState::stale},
+          Meaning{AccessError::deferred, WordState::stale},
+          Meaning{AccessError::not_understood, WordState::refused},
+          Meaning{AccessError::invalid_tag, WordState::invalid_tag},
+          Meaning{AccessError::read_only, WordState::read_only},
+          Meaning{AccessError::out_of_range, WordState::out_of_range},
+          Meaning{AccessError::not_stopped, WordState::refused},
+          Meaning{AccessError::not_config_mode, WordState::refused},
+          Meaning{AccessError::unsupported_type, WordState::refused},
+          Meaning{AccessError::value_not_encoded, WordState::out_of_range},
+          Meaning{AccessError::no_scale, WordState::unscaled},
+          Meaning{AccessError::contradicted, WordState::unscaled},
+          Meaning{AccessError::not_kept, WordState::refused}}) {
+        AccessState access;
+        access.answered(one.error);
+        EXPECT_EQ(access.state, one.state) << static_cast<int>(one.error);
+        EXPECT_EQ(access.error, one.error);
+    }
+}
+
+TEST(Reading, IsLeftOutOfTheRoundsWhereTheDriveGivesNoValue)
+{
+    using enum WordState;
+    for (const WordState state : {invalid_tag, read_only, unscaled, refused}) {
+        Reading reading;
+        reading.state = state;
+        EXPECT_TRUE(reading.is_excluded()) << static_cast<int>(state);
+    }
+    for (const WordState state : {untried, good, stale, out_of_range}) {
+        Reading reading;
+        reading.state = state;
+        EXPECT_FALSE(reading.is_excluded()) << static_cast<int>(state);
+    }
+}
+
+TEST(Writing, IsDroppedWhereTheDriveHasNoSuchTagOrItsScaleIsNotKnown)
+{
+    using enum WordState;
+    for (const WordState state :
+         {untried, good, stale, invalid_tag, read_only, out_of_range, unscaled, refused}) {
+        Writing writing;
+        writing.state = state;
+        EXPECT_EQ(writing.is_dropped(), state == invalid_tag || state == unscaled) << static_cast<int>(state);
+    }
+}
+
+TEST(DriveParameter, BeginsWithoutAnyUseAndWithoutAnyKnowledge)
+{
+    const DriveParameter one;
+    EXPECT_EQ(one.reading.uses, 0);
+    EXPECT_FALSE(one.reading.unscaled);
+    EXPECT_FALSE(one.reading.tried);
+    EXPECT_EQ(one.reading.failures, 0);
+    EXPECT_FALSE(one.writing.is_output);
+    EXPECT_FALSE(one.writing.readable);
+    EXPECT_EQ(one.writing.parameter, 0U);
+    EXPECT_EQ(one.writing.wanted, 0);
+    EXPECT_EQ(one.writing.known, 0);
 }
 
 // ---- an access without a good answer
@@ -197,6 +345,17 @@ TEST(AccessState, IsHeldFromTheFirstAccessOnThatBringsNoAnswer)
     access.answered(AccessError::none);
     EXPECT_EQ(access.state, WordState::good);
     EXPECT_EQ(access.failures, 0);
+}
+
+TEST(AccessState, ThatIsHeldSaysWhyItWasNotRefreshedLast)
+{
+    AccessState access;
+    access.answered(AccessError::none);
+    access.hold(AccessError::no_answer);
+    access.hold(AccessError::deferred);
+    EXPECT_EQ(access.state, WordState::stale);
+    EXPECT_EQ(access.error, AccessError::deferred);
+    EXPECT_EQ(access.failures, 2);
 }
 
 TEST(AccessState, OfARefusedTagStaysRefusedWhileNoAnswerComes)

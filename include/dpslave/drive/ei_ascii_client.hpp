@@ -31,7 +31,7 @@ struct EiUnit {
 class EiForms;
 
 struct EiTiming {
-    std::uint32_t baud = 9600; ///< bit/s; ten bits a character
+    std::uint32_t baud = 9600; ///< bit/s, not 0; ten bits a character
     std::chrono::milliseconds timeout{
         200}; ///< from the end of the request to the first character of the answer
     LineRules rules{};

@@ -63,7 +63,7 @@ Judgement judgement_of(Verdict verdict)
 std::chrono::nanoseconds characters(std::size_t count, std::uint32_t baud)
 {
     return std::chrono::nanoseconds{
-        static_cast<std::int64_t>(count * 10 * std::uint64_t{1'000'000'000} / std::max(baud, 1U))};
+        static_cast<std::int64_t>(count * 10 * std::uint64_t{1'000'000'000} / baud)};
 }
 
 std::chrono::nanoseconds settle_of(const EiTiming& timing)
@@ -82,7 +82,6 @@ DriveNumber number_of(UnitAddress unit)
 
 void EchoFilter::sent(Bytes request)
 {
-    expected_.clear();
     if (mode_ != EchoMode::off) expected_.assign(request.begin(), request.end());
     matched_ = 0;
 }
@@ -118,12 +117,12 @@ void EchoWatch::sent(Bytes request)
 bool EchoWatch::feed(std::uint8_t octet)
 {
     heard_ += static_cast<char>(octet);
-    const bool is_back =
-        (!last_.empty() && heard_.ends_with(last_)) || (!before_.empty() && heard_.ends_with(before_));
-    if (is_back) heard_.clear();
     const std::size_t longest = std::max(last_.size(), before_.size());
-    if (heard_.size() > longest) heard_.erase(0, heard_.size() - longest);
-    return is_back;
+    heard_.erase(0, heard_.size() - std::min(heard_.size(), longest));
+    const auto is_back = [this](const std::string& request) {
+        return !request.empty() && heard_.ends_with(request);
+    };
+    return is_back(last_) || is_back(before_);
 }
 
 Exchange::Exchange(SerialLine& line, EiTiming timing)
@@ -223,13 +222,13 @@ Exchange::End Exchange::wait(Instant begins_by, WaitsFor what)
         const Instant until = in_frame() ? std::min(now + gap(), ends_by) : begins_by;
         const std::size_t got = now < until ? line_.read(buffer, until - now) : 0;
         octets.clear();
-        if (got != 0) heard_at_ = line_.now();
-        hear(Bytes{buffer}.first(got), octets);
-        if (got == 0 && echo_.withholds()) echo_.silence(octets);
+        if (got != 0)
+            hear(Bytes{buffer}.first(got), octets);
+        else if (echo_.withholds())
+            echo_.silence(octets);
         if (const auto end = take(octets, what)) return *end;
         if (got != 0 || !octets.empty()) continue;
-        if (parser_) return *broken(until < ends_by ? Flaw::none : Flaw::too_long, WaitsFor::value);
-        skips_ = false;
+        if (parser_) return *broken(until < ends_by ? Flaw::none : Flaw::too_long, what);
         notes_.no_answer(line_.now());
         if (trouble_.empty()) trouble_ = noise ? "noise and no answer" : "no answer";
         return End::silence;
@@ -247,18 +246,18 @@ bool Exchange::fall_silent()
         const auto pause = in_frame() ? gap() : timing_.rules.hold_back;
         const auto rest = std::max<std::chrono::nanoseconds>(heard_at_ + pause - now, {});
         const std::size_t got = line_.read(buffer, rest);
-        if (got == 0) {
-            parser_.reset();
-            skips_ = false;
-            notes_.silence();
-            echo_.sent({});
-            owed_.settle(line_.now()); // all that has come is judged
-            return true;
-        }
-        heard_at_ = line_.now();
         octets.clear();
-        hear(Bytes{buffer}.first(got), octets);
+        if (got != 0)
+            hear(Bytes{buffer}.first(got), octets);
+        else
+            echo_.silence(octets);
         take(octets, WaitsFor::nothing);
+        if (got != 0) continue;
+        parser_.reset();
+        skips_ = false;
+        notes_.silence();
+        owed_.settle(line_.now()); // all that has come is judged
+        return true;
     }
     return false;
 }
@@ -266,6 +265,7 @@ bool Exchange::fall_silent()
 /// Appends what is no echo.
 void Exchange::hear(Bytes octets, std::string& out)
 {
+    heard_at_ = line_.now();
     for (const std::uint8_t octet : octets) {
         if (echo_.feed(octet, out)) {
             notes_.came(echo_.echo(), heard_at_);
@@ -279,7 +279,7 @@ std::optional<Exchange::End> Exchange::take(std::string_view octets, WaitsFor wh
 {
     std::optional<End> end;
     std::size_t i = 0;
-    for (; i < octets.size() && !skips_ && !end; ++i) {
+    for (; i < octets.size() && !skips_; ++i) {
         if (!parser_ && !is_noise(octets[i])) {
             notes_.silence(); // the noise before it is no part of it
             parser_.emplace(octets[i] == kAck ? AnswerParser::To::select : AnswerParser::To::poll);
@@ -292,9 +292,11 @@ std::optional<Exchange::End> Exchange::take(std::string_view octets, WaitsFor wh
         const bool is_alone = std::all_of(rest.begin(), rest.end(), is_noise);
         const AnswerParser done = *parser_;
         parser_.reset();
-        end = status == AnswerParser::Status::broken ? broken(done.flaw(), what)
-                                                     : take_frame(done.answer(), is_alone, what);
-        if (end) skips_ = skips_ || !is_alone;
+        const auto ended = status == AnswerParser::Status::broken ? broken(done.flaw(), what)
+                                                                  : take_frame(done.answer(), is_alone, what);
+        if (!ended) continue;
+        end = ended;
+        what = WaitsFor::nothing; // what comes behind it is judged as if it came later
     }
     notes_.came(bytes_of(octets.substr(i)), heard_at_);
     return end;
@@ -328,22 +330,17 @@ std::optional<Exchange::End> Exchange::take_value(const Answer& frame, WaitsFor 
 {
     const Verdict verdict = owed_.heard(form_of(frame.mnemonic), bytes_of(frame.text), line_.now());
     notes_.judge(judgement_of(verdict));
-    switch (verdict) {
-        case Verdict::answer:
-        case Verdict::answer_or_older:
-        case Verdict::before_write:
-            answer_ = frame.text;
-            trouble_.clear();
-            return verdict == Verdict::answer            ? End::value
-                   : verdict == Verdict::answer_or_older ? End::older
-                                                         : End::before;
-        case Verdict::foreign: owed_.foreign(asked_); [[fallthrough]];
-        case Verdict::owed:
-            if (what == WaitsFor::value)
-                trouble_ = "asked for " + quoted(asked_for_) + ", answered for " + quoted(frame.mnemonic);
-            break;
-        case Verdict::duplicate: break;
-    }
+    const auto taken = [&](End end) {
+        answer_ = frame.text;
+        trouble_.clear();
+        return end;
+    };
+    if (verdict == Verdict::answer) return taken(End::value);
+    if (verdict == Verdict::answer_or_older) return taken(End::older);
+    if (verdict == Verdict::before_write) return taken(End::before);
+    if (verdict == Verdict::foreign) owed_.foreign(asked_);
+    if (what == WaitsFor::value)
+        trouble_ = "asked for " + quoted(asked_for_) + ", answered for " + quoted(frame.mnemonic);
     return std::nullopt;
 }
 

@@ -2,6 +2,7 @@
 #include "ei_forms.hpp"
 
 #include "drive/digits.hpp"
+#include "ei_exchange.hpp"
 
 #include "dpslave/drive/ei_ascii.hpp"
 
@@ -18,14 +19,8 @@ bool is_open(const Tag& tag)
 
 AccessError error_of(ei::ValueFlaw flaw)
 {
-    switch (flaw) {
-        case ei::ValueFlaw::too_many_decimals: return AccessError::contradicted;
-        case ei::ValueFlaw::out_of_span: return AccessError::out_of_range;
-        case ei::ValueFlaw::not_a_value:
-        case ei::ValueFlaw::wrong_form:
-        case ei::ValueFlaw::unsupported_type: break;
-    }
-    return AccessError::unsupported_type;
+    if (flaw == ei::ValueFlaw::too_many_decimals) return AccessError::contradicted;
+    return flaw == ei::ValueFlaw::out_of_span ? AccessError::out_of_range : AccessError::unsupported_type;
 }
 
 /// Digits, a point at most, a sign at most.
@@ -79,7 +74,7 @@ std::string no_scale(const Tag& tag, std::string_view text)
 
 EiForms::Key EiForms::key(UnitAddress unit, const Tag& tag)
 {
-    return {static_cast<std::uint16_t>(unit.group << 8 | unit.unit), tag.number};
+    return {ei::number_of(unit), tag.number};
 }
 
 EiForms::Taken EiForms::take(UnitAddress unit, const Tag& tag, std::string_view text)
