@@ -26,14 +26,14 @@ Form form_of(std::uint8_t unit, std::uint8_t function, std::size_t rest)
 
 Form form_of_answer(std::uint8_t unit, Bytes pdu)
 {
-    if (pdu[0] == kLoopback && pdu.size() == 5) return form_of(unit, pdu[0], be16(pdu, 3));
+    if (pdu[0] == kLoopback && pdu.size() == 5) return form_of(unit, kLoopback, be16(pdu, 3));
     return form_of(unit, pdu[0], pdu.size());
 }
 
 std::chrono::nanoseconds characters(std::size_t count, const ClientSettings& settings)
 {
     return std::chrono::nanoseconds{static_cast<std::int64_t>(count) * settings.bits_of_a_character *
-                                    std::nano::den / std::max<std::uint32_t>(settings.baud, 1)};
+                                    std::nano::den / settings.baud};
 }
 
 /// As it is on the wire.
@@ -48,17 +48,13 @@ ByteBuffer<kLongestFrame> framed(std::uint8_t unit, Bytes pdu)
     return frame;
 }
 
+/// Where answers name the drive, none is taken that may be older.
 drive::Judgement judgement_of(Verdict verdict, Bytes pdu)
 {
-    switch (verdict) {
-        case Verdict::answer: return exception_of(pdu) ? drive::Judgement::refused : drive::Judgement::taken;
-        case Verdict::answer_or_older: return drive::Judgement::older;
-        case Verdict::before_write: return drive::Judgement::before_write;
-        case Verdict::owed: return drive::Judgement::late;
-        case Verdict::duplicate: return drive::Judgement::duplicate;
-        case Verdict::foreign: break;
-    }
-    return drive::Judgement::foreign;
+    if (verdict == Verdict::answer)
+        return exception_of(pdu) ? drive::Judgement::refused : drive::Judgement::taken;
+    if (verdict == Verdict::owed) return drive::Judgement::late;
+    return verdict == Verdict::duplicate ? drive::Judgement::duplicate : drive::Judgement::foreign;
 }
 
 std::chrono::nanoseconds settle_of(const ClientSettings& settings)
@@ -78,9 +74,7 @@ ModbusClient::Exchange::Exchange(FrameLine& line, ClientSettings settings)
             : settings_.rules.echo == EchoMode::on ? Echo::heard
                                                    : Echo::unknown),
       notes_(settings_.rules.frames, drive::LineProtocol::modbus_rtu, characters(1, settings_))
-{
-    settings_.baud = std::max<std::uint32_t>(settings_.baud, 1);
-}
+{}
 
 std::chrono::nanoseconds ModbusClient::Exchange::duration_of(std::size_t count) const
 {
@@ -119,29 +113,24 @@ bool ModbusClient::Exchange::may_ask(std::uint8_t unit, Bytes request, bool gave
            (gave_data || !owed_.owes(unit, question.refusal));
 }
 
-ModbusClient::Exchange::End ModbusClient::Exchange::ask(std::uint8_t unit, Bytes request)
+bool ModbusClient::Exchange::ask(std::uint8_t unit, Bytes request)
 {
-    trouble_.clear();
     unit_ = unit;
     heard_unit_ = false;
-    if (!fall_silent()) return End::damaged;
+    if (!fall_silent()) return false;
     const drive::Question question = question_of(unit, request);
-    if (!owed_.may_ask(question, line_.now())) {
-        trouble_ = "an answer to an earlier request of this form is still owed";
-        return End::not_asked;
-    }
     const Instant begun = line_.now();
     if (!line_.send(unit, request)) {
         trouble_ = "the line does not accept the request";
-        return End::silence;
+        return false;
     }
     notes_.sent(unit, framed(unit, request), begun);
     const Instant sent_at = line_.now() + duration_of(request.size() + kFrame); // send() need not wait
     owed_.asked(question, sent_at);
     echo_due_ = echo_ != Echo::none;
-    const End end = wait(request, sent_at + settings_.timeout + question.wire_time);
+    const bool is_answered = wait(request, sent_at + settings_.timeout + question.wire_time);
     owed_.wait_is_over();
-    return end;
+    return is_answered;
 }
 
 /// Without a pause a slave does not take what follows for the beginning of a request. What is heard meanwhile
@@ -165,7 +154,7 @@ bool ModbusClient::Exchange::fall_silent()
     return false;
 }
 
-ModbusClient::Exchange::End ModbusClient::Exchange::wait(Bytes request, Instant until)
+bool ModbusClient::Exchange::wait(Bytes request, Instant until)
 {
     trouble_ = "no answer";
     for (Instant now = line_.now(); now < until; now = line_.now()) {
@@ -174,21 +163,21 @@ ModbusClient::Exchange::End ModbusClient::Exchange::wait(Bytes request, Instant 
                 heard_at_ = line_.now();
                 if (!take_frame(request)) break;
                 trouble_.clear();
-                return End::answer;
+                return true;
             case FrameLine::Heard::broken:
                 broken();
                 trouble_ = "an answer with a wrong check sum or parity, or one that broke off";
                 // Noise before the echo or the echo itself: the drive may have heard better. The next copy is
                 // taken for the echo; it cannot be proven to be the answer.
                 if (echo_due_) break;
-                return End::damaged;
+                return false;
             case FrameLine::Heard::rest: note(drive::Judgement::no_frame); break;
-            case FrameLine::Heard::silence: notes_.no_answer(line_.now()); return End::silence;
-            case FrameLine::Heard::gone: trouble_ = "the port has gone"; return End::silence;
+            case FrameLine::Heard::silence: notes_.no_answer(line_.now()); return false;
+            case FrameLine::Heard::gone: trouble_ = "the port has gone"; return false;
         }
     }
     notes_.no_answer(line_.now());
-    return End::silence;
+    return false;
 }
 
 void ModbusClient::Exchange::note(drive::Judgement judgement)
@@ -223,7 +212,7 @@ bool ModbusClient::Exchange::take_echo(Bytes request, Bytes frame)
 bool ModbusClient::Exchange::take_frame(Bytes request)
 {
     const Bytes frame = line_.frame();
-    if (frame.size() < 2 || take_echo(request, frame)) return false;
+    if (take_echo(request, frame)) return false;
     const Bytes pdu = frame.subspan(1);
     const Verdict verdict = judge(request, frame);
     if (verdict == Verdict::answer) {
@@ -241,11 +230,10 @@ bool ModbusClient::Exchange::take_frame(Bytes request)
 /// Of a frame that has the form of an answer to `request` the rest has to fit, too.
 Verdict ModbusClient::Exchange::judge(Bytes request, Bytes frame)
 {
-    if (frame.size() < 2) return Verdict::foreign; // no line gives one
     const Bytes pdu = frame.subspan(1);
     const Form form = form_of_answer(frame[0], pdu);
     const bool gateway = (pdu[0] & kIsException) != 0 && pdu.size() == 2 && is_of_gateway(pdu[1]);
-    const bool has_form = !request.empty() && frame[0] == unit_ && form == question_of(unit_, request).answer;
+    const bool has_form = !request.empty() && form == question_of(unit_, request).answer;
     const Verdict verdict =
         has_form && !answers(request, pdu) ? Verdict::foreign : owed_.heard(form, frame, line_.now());
     note(judgement_of(verdict, pdu));

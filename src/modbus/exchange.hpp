@@ -15,16 +15,9 @@ class ModbusClient::Exchange {
 public:
     Exchange(FrameLine& line, ClientSettings settings);
 
-    /// How the wait for an answer ended.
-    enum class End : std::uint8_t {
-        answer,  ///< to this request and no other: answer(), an exception included
-        silence, ///< also: the port has gone
-        damaged,
-        not_asked, ///< what answers it could not be taken
-    };
-
-    /// `request` from the function code on.
-    End ask(std::uint8_t unit, Bytes request);
+    /// `request` from the function code on. True: answer() is that to this request and to no other, an
+    /// exception included; else trouble() says why. Precondition: may_ask().
+    bool ask(std::uint8_t unit, Bytes request);
     Bytes answer() const { return answer_; } ///< from the function code on
     const std::string& trouble() const { return trouble_; }
 
@@ -43,7 +36,7 @@ private:
     drive::Question question_of(std::uint8_t unit, Bytes request) const;
     bool differs_from_echo(Bytes request) const;
     bool fall_silent();
-    End wait(Bytes request, Instant until);
+    bool wait(Bytes request, Instant until);
     bool take_frame(Bytes request);
     bool take_echo(Bytes request, Bytes frame);
     drive::OwedAnswers::Verdict judge(Bytes request, Bytes frame);

@@ -80,11 +80,9 @@ ModbusUnit ModbusClient::functions_of(std::uint8_t unit) const
 
 ModbusClient::Reply ModbusClient::ask(std::uint8_t unit, Bytes request)
 {
-    const Exchange::End end = exchange_->ask(unit, request);
+    const bool is_answered = exchange_->ask(unit, request);
     trouble_ = exchange_->trouble();
-    if (end == Exchange::End::not_asked)
-        return {.error = AccessError::deferred, .exception = {}, .answer = {}};
-    if (end != Exchange::End::answer) return {.error = AccessError::no_answer, .exception = {}, .answer = {}};
+    if (!is_answered) return {.error = AccessError::no_answer, .exception = {}, .answer = {}};
     const auto exception = exception_of(exchange_->answer());
     if (!exception) return {.error = {}, .exception = {}, .answer = exchange_->answer()};
     trouble_ = exception_text(*exception);

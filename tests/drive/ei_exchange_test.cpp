@@ -297,6 +297,7 @@ TEST_F(EiExchange, NamesTheMnemonicsWhenALateAnswerCameInsteadOfAValue)
     line.comes(value("ox", ">00AA"), 50ms);
     EXPECT_EQ(exchange->poll(kFirst, kOw), End::silence);
     EXPECT_EQ(exchange->trouble(), "asked for 'ow', answered for 'ox'");
+    EXPECT_EQ(exchange->counts(kFirst).foreign, 0U) << "it was asked for";
 }
 
 TEST_F(EiExchange, NamesNoMnemonicWhenALateAnswerCameInsteadOfAnAck)
@@ -317,6 +318,13 @@ TEST_F(EiExchange, SaysNothingMoreOfATroubleOnceTheAnswerIsThere)
     line.comes("\x06", 50ms);
     EXPECT_EQ(exchange->select(kFirst, kOw, ">0001"), End::ack);
     EXPECT_EQ(exchange->trouble(), "") << "of the question before it";
+}
+
+TEST_F(EiExchange, SaysNothingOfWhatWasDamagedBeforeTheQuestion)
+{
+    line.comes("\x02ow>000A\x03U", 0ms);
+    EXPECT_EQ(exchange->poll(kFirst, kOw), End::silence);
+    EXPECT_EQ(exchange->trouble(), "no answer");
 }
 
 TEST_F(EiExchange, CountsDamagedAnswersAndThoseOfThemWithAWrongCheckSum)
@@ -349,6 +357,7 @@ TEST_F(EiExchange, WhatComesInOneReadWithTheAnswerIsJudgedAsIfItCameLater)
         const std::string late = value("ox", ">00BB");
         line.comes(value("ow", ">000A") + late.substr(0, in_one_read), 50ms);
         EXPECT_EQ(exchange->poll(kFirst, kOw), End::value);
+        EXPECT_EQ(exchange->trouble(), "") << "the answer is there";
         if (in_one_read < late.size()) line.comes(late.substr(in_one_read), 1ms);
         line.time += 1ms;
         exchange->listen();

@@ -28,7 +28,8 @@ public:
     /// Waits for the next frame, at most until `until`; what has come already is given at once.
     virtual Heard receive(Instant until) = 0;
 
-    /// The last frame of receive(): unit first, without check sum. Valid until the next call.
+    /// The last frame of receive(): unit first, without check sum. Valid until the next call. It has a unit
+    /// and a function at least.
     virtual Bytes frame() const = 0;
 
     /// What the last receive() gave a frame, something broken or a rest for, as it was on the wire.

@@ -30,7 +30,7 @@ struct ModbusUnit {
 };
 
 struct ClientSettings {
-    std::uint32_t baud = 9600;
+    std::uint32_t baud = 9600;    ///< bit/s, not 0
     int bits_of_a_character = 10; ///< from the start bit to the last stop bit
     /// From the end of a request until its answer has to be there, the time of its characters on the line not
     /// counted.
