@@ -172,7 +172,7 @@ bool ModbusClient::Exchange::wait(Bytes request, Instant until)
                 if (echo_due_) break;
                 return false;
             case FrameLine::Heard::rest: note(drive::Judgement::no_frame); break;
-            case FrameLine::Heard::silence: notes_.no_answer(line_.now()); return false;
+            case FrameLine::Heard::silence: break; // the time is over
             case FrameLine::Heard::gone: trouble_ = "the port has gone"; return false;
         }
     }
@@ -232,7 +232,7 @@ Verdict ModbusClient::Exchange::judge(Bytes request, Bytes frame)
 {
     const Bytes pdu = frame.subspan(1);
     const Form form = form_of_answer(frame[0], pdu);
-    const bool gateway = (pdu[0] & kIsException) != 0 && pdu.size() == 2 && is_of_gateway(pdu[1]);
+    const bool gateway = pdu.size() == 2 && is_of_gateway(pdu[1]); // only an exception is that short
     const bool has_form = !request.empty() && form == question_of(unit_, request).answer;
     const Verdict verdict =
         has_form && !answers(request, pdu) ? Verdict::foreign : owed_.heard(form, frame, line_.now());
