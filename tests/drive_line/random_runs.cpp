@@ -194,15 +194,22 @@ std::unique_ptr<drive::Backend> ei_client_on(drive::SerialLine& port, const EiLi
 
 std::unique_ptr<drive::Backend> modbus_client(ModbusFrames& line, const Conditions& conditions)
 {
+    return modbus_client_on(line, line, conditions);
+}
+
+std::unique_ptr<drive::Backend> modbus_client_on(modbus::FrameLine& port, const ModbusFrames& line,
+                                                 const Conditions& conditions)
+{
     modbus::ClientSettings settings;
     settings.baud = conditions.baud;
+    settings.bits_of_a_character = conditions.bits_of_a_character;
     settings.timeout = std::chrono::duration_cast<std::chrono::milliseconds>(conditions.line.timeout);
     settings.rules.hold_back = conditions.line.port_holds;
     settings.rules.echo = conditions.echo;
     for (const SimulatedDrive& drive : line.drives)
         settings.units.push_back(
             {.unit = drive.unit, .reads_by_4 = true, .has_loopback = drive.has_loopback});
-    return std::make_unique<modbus::ModbusClient>(line, settings);
+    return std::make_unique<modbus::ModbusClient>(port, settings);
 }
 
 RunResult run_ei(std::uint64_t seed, const MakeEiBackend& backend, RunOptions options)

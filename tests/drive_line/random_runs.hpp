@@ -22,6 +22,7 @@ struct Conditions {
     Faults faults;
     drive::EchoMode echo = drive::EchoMode::off; ///< as configured
     std::uint32_t baud = 9600;
+    int bits_of_a_character = 10; ///< as configured
     std::size_t drives = 1;
     bool tags_are_shared = true;
     void make_calm(); ///< no faults but those of the drives themselves
@@ -51,6 +52,8 @@ std::unique_ptr<drive::Backend> ei_client(EiLine& line, const Conditions& condit
 std::unique_ptr<drive::Backend> ei_client_on(drive::SerialLine& port, const EiLine& line,
                                              const Conditions& conditions);
 std::unique_ptr<drive::Backend> modbus_client(ModbusFrames& line, const Conditions& conditions);
+std::unique_ptr<drive::Backend> modbus_client_on(modbus::FrameLine& port, const ModbusFrames& line,
+                                                 const Conditions& conditions);
 
 struct RunOptions {
     std::uint64_t transactions = 2'000;

@@ -22,6 +22,10 @@ TEST_P(RowOfADrive, F01_WhoseCableIsPulledForAMomentHoldsTheLastValueAndNoOlderO
         EXPECT_TRUE(master->does(std::string{"wait "} + pulled));
         EXPECT_TRUE(master_wants(value + 2));
         EXPECT_TRUE(master_stays_in_data_exchange());
+        if (pulled == std::string{"5s"}) { // longer than any reading with its repeats
+            EXPECT_TRUE(gateway->word_becomes(55, "state", "stale"));
+            EXPECT_THAT(gateway->dpctl({"io"}).out, HasSubstr("stale"));
+        }
         gateway->drive_line().send_line("restore");
         fault_ends();
         value += 2;
@@ -34,6 +38,8 @@ TEST_P(RowOfADrive, F01_WhoseCableIsPulledForAMomentHoldsTheLastValueAndNoOlderO
     EXPECT_TRUE(gateway->daemon().ever_said("unwinder: the drive does not answer"))
         << "the longest was noticed";
     EXPECT_TRUE(gateway->daemon().says("unwinder: the drive answers"));
+    EXPECT_TRUE(gateway->word_becomes(55, "state", "good"));
+    EXPECT_TRUE(eventually([&] { return gateway->dpctl({"io"}).out.find("stale") == std::string::npos; }));
     EXPECT_TRUE(never_an_older_one(taken()));
     EXPECT_TRUE(never_an_older_one(seen()));
 }

@@ -13,6 +13,7 @@ namespace dpslave::test {
 namespace {
 
 using ::testing::Each;
+using ::testing::HasSubstr;
 
 class RowOfTheProcess : public FaultRow {
 protected:
@@ -25,7 +26,9 @@ protected:
         EXPECT_EQ(gateway->daemon().end(signal), 128 + signal);
         const std::size_t held = taken().size();
         fault_ends();
-        EXPECT_EQ(gateway->dpctl({"status"}).status, 3) << "dpctl says that there is no daemon";
+        const Outcome asked = gateway->dpctl({"status"});
+        EXPECT_EQ(asked.status, 3);
+        EXPECT_THAT(asked.err, HasSubstr("nothing answers on " + gateway->socket().string()));
         restarts = true;
         gateway->start_daemon();
         EXPECT_TRUE(master->does("wait 60s for state data-exchange"));
@@ -117,10 +120,13 @@ TEST_F(RowOfTheDriverEnable, F19_OfAStuckTransmitterIsReleasedByTheGuard)
     EXPECT_TRUE(eventually([&] { return !chip.high(kLine); }));
     recovered();
     EXPECT_TRUE(gateway->daemon().says("was active for longer than any telegram takes"));
+    EXPECT_TRUE(master->does("wait 30s for state not data-exchange"));
     EXPECT_EQ(taken().back(), 1);
     stopped.reset();
     fault_ends();
     goes_on();
+    EXPECT_TRUE(eventually([&] { return gateway->counter("bus", "overtaken") > 0; }))
+        << "what the master asked meanwhile is counted";
 }
 
 TEST_F(RowOfTheDriverEnable, F20_WhoseChipIsPulledSilencesTheDaemonUntilItIsBack)

@@ -11,8 +11,8 @@ constexpr unsigned kPause = 33; ///< T_SYN, in bit times
 
 } // namespace
 
-BitLine::BitLine(double errors, unsigned data_bits, std::uint32_t seed)
-    : errors_(errors), data_bits_(data_bits), random_(seed), until_hit_(next_distance())
+BitLine::BitLine(double errors, unsigned data_bits, std::uint32_t seed, Parity parity)
+    : errors_(errors), data_bits_(data_bits), parity_(parity), random_(seed), until_hit_(next_distance())
 {}
 
 /// How many bits arrive well before the next one that does not: of a geometric distribution.
@@ -42,11 +42,12 @@ std::vector<Character> BitLine::received(const std::vector<std::uint8_t>& octets
     for (const std::uint8_t octet : octets) {
         put(false);
         for (unsigned bit = 0; bit < data_bits_; ++bit) put((octet >> bit & 1U) != 0);
-        put(std::popcount(octet) % 2 != 0);
+        if (parity_ == Parity::even) put(std::popcount(octet) % 2 != 0);
         put(true);
     }
     const std::size_t end = levels_.size();
-    const std::size_t length = data_bits_ + 3;
+    const std::size_t stop_bit = data_bits_ + (parity_ == Parity::even ? 2 : 1); // the start bit is 0
+    const std::size_t length = stop_bit + 1;
     levels_.insert(levels_.end(), length, 1); // then the line rests
 
     std::vector<Character> all;
@@ -57,8 +58,9 @@ std::vector<Character> BitLine::received(const std::vector<std::uint8_t>& octets
         }
         unsigned octet = 0;
         for (unsigned bit = 0; bit < data_bits_; ++bit) octet |= unsigned{levels_[at + 1 + bit]} << bit;
-        const bool parity = (levels_[at + 1 + data_bits_] != 0) == (std::popcount(octet) % 2 != 0);
-        const bool stop = levels_[at + 2 + data_bits_] != 0;
+        const bool parity =
+            parity_ == Parity::none || (levels_[at + 1 + data_bits_] != 0) == (std::popcount(octet) % 2 != 0);
+        const bool stop = levels_[at + stop_bit] != 0;
         all.push_back({static_cast<std::uint8_t>(octet), parity && stop});
         at += length;
         while (!stop && at < end && levels_[at] == 0) ++at; // a start bit is a change to zero

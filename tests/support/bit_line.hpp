@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Characters as bits on a line with errors, and a UART that samples them: start bit, data bits (lowest
-/// first), even parity, stop bit. Everything comes from one seed.
+/// first), even parity or none, stop bit. Everything comes from one seed.
 #pragma once
 
 #include <cstddef>
@@ -15,10 +15,12 @@ struct Character {
     bool good = true; ///< false: wrong parity, or no stop bit
 };
 
+enum class Parity : std::uint8_t { none, even };
+
 class BitLine {
 public:
     /// `errors`: of each bit, the chance to arrive inverted, 0 up to and without 1. `data_bits`: 7 or 8.
-    BitLine(double errors, unsigned data_bits, std::uint32_t seed);
+    BitLine(double errors, unsigned data_bits, std::uint32_t seed, Parity parity = Parity::even);
 
     /// What a UART receives of octets that follow each other behind a pause of T_SYN, which has its errors,
     /// too. A character whose start bit was hit begins with the next zero.
@@ -33,6 +35,7 @@ private:
 
     double errors_;
     unsigned data_bits_;
+    Parity parity_;
     std::mt19937 random_;
     std::uint64_t until_hit_;
     std::uint64_t hits_ = 0;

@@ -56,8 +56,9 @@ noise_is_survived() {
 # A year on, two years back, and a year on again: in the end the clock is right. `eventually` goes by this clock, so it
 # is asked between the steps.
 clock_steps_are_not_noticed() {
-    local pid step value=700
+    local pid step too_late value=700
     pid=$(main_pid)
+    too_late=$(counter too_late)
     mark_log
     for step in "+1 year" "-2 years" "+1 year"; do
         date -s "$step"
@@ -68,6 +69,7 @@ clock_steps_are_not_noticed() {
         eventually grep -q "tag 56 written ${value%??}.00" "$bench/drive.log"
     done
     expect_equal "the process" "$(main_pid)" "$pid"
+    expect_equal "too_late" "$(counter too_late)" "$too_late"
     expect_no_text "$(service_log)" "Wait_Prm"
     expect_no_text "$(service_log)" "does not answer"
 }

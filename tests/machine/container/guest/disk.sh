@@ -35,8 +35,11 @@ serves_with_read_only_root() {
     mount -o remount,bind,ro /
     ! touch /var/tmp/x 2>/dev/null || fail "/ can still be written"
     serves 72.0
+    expect_equal "too_late" "$(counter bus too_late)" 0
     expect_status 0 systemctl restart dpslaved
     eventually exchanging
+    goes_on_exchanging
+    expect_equal "too_late of the new process" "$(counter bus too_late)" 0
 }
 prove "F26: given a read-only root, when the service serves and is restarted, then it is back in Data_Exchange" \
     serves_with_read_only_root
