@@ -8,6 +8,7 @@
 #include <csignal>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 namespace conformance {
 
@@ -91,17 +92,28 @@ DaemonSlave::DaemonSlave(const Family& family)
     : family_(family), bus_(new_bus()), gateway_(wiring_of(family, bus_))
 {}
 
-/// Sends after T_SYN, in which nobody may speak.
-void DaemonSlave::put(const Octets& octets)
+/// Of T_SYN, in which nobody may speak.
+void DaemonSlave::after_pause()
 {
     expect_nothing(std::chrono::steady_clock::now() + kTsyn);
-    write(octets);
 }
 
 void DaemonSlave::write(const Octets& octets)
 {
     if (dpslave::sim::write_all(bus_.master.get(), octets, 1s) != octets.size())
         throw std::runtime_error{"the bus takes no octets"};
+}
+
+void DaemonSlave::write_request(const Octets& request)
+{
+    sent_.note_request(request);
+    write(request);
+}
+
+void DaemonSlave::write_other(const Octets& octets)
+{
+    sent_.note_other(octets);
+    write(octets);
 }
 
 void DaemonSlave::expect_nothing(Time until)
@@ -119,6 +131,7 @@ std::optional<Octets> DaemonSlave::reply_until(Time slot_ends)
             const auto end = heard_.begin() + static_cast<std::ptrdiff_t>(length);
             Octets telegram(heard_.begin(), end);
             heard_.erase(heard_.begin(), end);
+            sent_.note_answer();
             return telegram;
         }
         const auto left = slot_ends - std::chrono::steady_clock::now();
@@ -138,16 +151,30 @@ std::optional<Octets> DaemonSlave::reply_until(Time slot_ends)
 
 std::optional<Octets> DaemonSlave::ask(const Octets& request)
 {
-    put(request);
+    const Octets damaged = std::exchange(damaged_, {});
+    after_pause();
+    write_request(request);
     auto reply = reply_until(std::chrono::steady_clock::now() + kSlot);
+    bool is_repeated = false;
     for (int tries = 1; !reply && tries < kTries; ++tries) {
-        reply = reply_until(std::chrono::steady_clock::now() + kTsyn);
-        if (reply) return reply; // in time, but late in this program
-        write(request);
+        reply = reply_before_repetition(damaged);
+        if (reply) break; // in time, but late in this program
+        write_request(request);
+        is_repeated = true;
         reply = reply_until(std::chrono::steady_clock::now() + kSlot);
-        if (reply) drop_doubles(*reply);
     }
+    if (reply && is_repeated) drop_doubles(*reply);
     return reply;
+}
+
+/// `damaged`: what was sent before the request. It is sent before a repetition too: a slave that takes a
+/// request for the rest of it is silent to each of them.
+std::optional<Octets> DaemonSlave::reply_before_repetition(const Octets& damaged)
+{
+    auto reply = reply_until(std::chrono::steady_clock::now() + kTsyn);
+    if (reply || damaged.empty()) return reply;
+    write_other(damaged);
+    return reply_until(std::chrono::steady_clock::now() + kSlot);
 }
 
 /// A request that was repeated may have been answered in time and reached this program late: then each of its
@@ -160,7 +187,9 @@ void DaemonSlave::drop_doubles(const Octets& reply)
 
 testing::AssertionResult DaemonSlave::is_silent_to(const Octets& octets)
 {
-    put(octets);
+    after_pause();
+    write_other(octets);
+    damaged_ = is_whole(octets) ? Octets{} : octets;
     const auto reply = reply_until(std::chrono::steady_clock::now() + kSlot);
     if (!reply) return testing::AssertionSuccess();
     return testing::AssertionFailure() << test::show(octets) << " is answered with " << test::show(*reply);
@@ -168,7 +197,9 @@ testing::AssertionResult DaemonSlave::is_silent_to(const Octets& octets)
 
 void DaemonSlave::send(const Octets& telegram)
 {
-    put(telegram);
+    after_pause();
+    write_other(telegram);
+    damaged_.clear();
 }
 
 void DaemonSlave::pass(std::chrono::milliseconds time)
@@ -189,19 +220,39 @@ void DaemonSlave::begin_case()
     for (const unsigned tag : {kTripTag, kStatusTag}) set(tag, 0);
     gateway_.drive().skip();
     written();
-    restart(test::kUs);
+    start(test::kUs);
+}
+
+/// What its bus thread publishes may be a moment old, and a reply may still be on its way.
+void DaemonSlave::end_case()
+{
+    testing::AssertionResult result = testing::AssertionSuccess();
+    dpslave::test::eventually([&] {
+        while (reply_until(std::chrono::steady_clock::now() + kTsyn)) {
+        }
+        return static_cast<bool>(result = sent_.agree(gateway_.json({"counters"})));
+    });
+    EXPECT_TRUE(result);
 }
 
 /// It does not end by itself: the supply is gone.
 void DaemonSlave::restart(std::uint8_t address)
 {
+    end_case();
     gateway_.daemon().end(SIGKILL);
+    start(address);
+}
+
+void DaemonSlave::start(std::uint8_t address)
+{
     std::string text = gateway_.config_text();
     const std::string key = "\naddress = ";
     const auto at = text.find(key) + key.size();
     text.replace(at, text.find('\n', at) - at, std::to_string(address));
     dpslave::test::write_file(gateway_.config(), text);
     gateway_.start_daemon();
+    sent_.begin(address);
+    damaged_.clear();
 }
 
 /// Returns when the drive has done it.

@@ -4,6 +4,7 @@
 
 #include "dpsim/common/system.hpp"
 #include "family.hpp"
+#include "sent_counts.hpp"
 #include "slave_at_wire.hpp"
 #include "system/gateway.hpp"
 
@@ -18,6 +19,8 @@ public:
 
     /// Device and drive are switched off and on: nothing is left of the case before.
     void begin_case();
+    /// The daemon has counted each request that it has not answered.
+    void end_case();
 
     std::optional<Octets> ask(const Octets& request) override;
     testing::AssertionResult is_silent_to(const Octets& octets) override;
@@ -34,16 +37,22 @@ public:
 private:
     using Time = std::chrono::steady_clock::time_point;
 
-    void put(const Octets& octets);
+    void after_pause();
     void write(const Octets& octets);
+    void write_request(const Octets& request);
+    void write_other(const Octets& octets);
     void expect_nothing(Time until);
     std::optional<Octets> reply_until(Time slot_ends);
+    std::optional<Octets> reply_before_repetition(const Octets& damaged);
+    void start(std::uint8_t address);
     void drop_doubles(const Octets& reply);
     void tell_drive(const std::string& command);
 
     const Family& family_;
     dpslave::sim::Pty bus_;
     dpslave::test::Gateway gateway_;
+    SentCounts sent_;
+    Octets damaged_;                ///< what was sent last, if it is no telegram
     Octets heard_;                  ///< behind the last telegram
     std::size_t written_until_ = 0; ///< line of what the drive says
 };

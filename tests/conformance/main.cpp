@@ -63,6 +63,7 @@ public:
         daemon->begin_case();
         Bench bench{family_, *daemon};
         case_.run(bench);
+        daemon->end_case();
     }
 
 private:

@@ -22,7 +22,7 @@ public:
     // ---- the wire. Each telegram goes out T_SYN after the last octet on the line.
 
     /// A request that has to be answered. What the machine was too busy for is repeated, as a master does:
-    /// the slave must not speak late.
+    /// the slave must not speak late. It must have counted each of them that it did not answer.
     std::optional<Octets> ask(const Octets& request) override = 0;
     /// Octets that must not be answered, and a slot time without a word.
     virtual testing::AssertionResult is_silent_to(const Octets& octets) = 0;
