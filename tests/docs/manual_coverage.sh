@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
 # manual_coverage.sh ROOT: fails if a row of docs/reference/manual-coverage.md is missing, doubled or without a proof, or if a
-# proof names a test or a file that does not exist; also one of docs/internals/security.md. It first makes sure that it would
+# proof names a test or a file that does not exist. In docs/internals/security.md each row that is met names a test. It first makes sure that it would
 # notice.
 set -eu
 cd "$1"
@@ -150,14 +150,16 @@ fi
 
 # ---- the proofs of the other table
 
+test_name='`([a-z_]+\.[A-Z][A-Za-z0-9]*\.[A-Za-z0-9_]+|tests/[a-z_/.]+)`'
 unproven() { # TABLE
-    grep -oE '`(system\.[A-Za-z0-9_.]+|tests/[a-z_/.]+)`' "$1" | tr -d '`' | sed 's/^/- /' | unknown | while read -r _ name; do
+    grep -E '^\| [A-Z]+ [0-9]+\.[0-9]+[^|]*\| met \|' "$1" | grep -vE "$test_name" | sed -E 's/^\| ([A-Z0-9. ]+) .*/\1: it is met, and no test is named/'
+    grep -oE "$test_name" "$1" | tr -d '`' | sed 's/^/- /' | unknown | while read -r _ name; do
         [ -f "$name" ] || echo "there is neither a test nor a file $name"
     done
 }
 table=docs/internals/security.md
-sed 's/system\.Attack\.From/system.Attack.No/' "$table" > "$scratch/damaged.md"
-[ -n "$(unproven "$scratch/damaged.md")" ] || { echo "this check is blind, it did not notice: system.Attack.No" >&2 && exit 2; }
+sed -E -e 's/system\.Attack\.From/system.Attack.No/' -e 's/^(\| CR 3\.8 .*) Test `.*` \|$/\1 |/' "$table" > "$scratch/damaged.md"
+[ "$(unproven "$scratch/damaged.md" | wc -l)" -eq 2 ] || { echo "this check is blind to a test that is not there, or to a row without one" >&2 && exit 2; }
 unproven "$table" > "$scratch/faults"
 if [ -s "$scratch/faults" ]; then
     sed "s|^|$table: |" "$scratch/faults" >&2
