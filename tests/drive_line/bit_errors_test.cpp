@@ -73,7 +73,7 @@ TEST_P(BitErrorsOfModbus, F09_NeverShowAValueThatTheDriveDidNotHoldNorWriteOneTh
 
 INSTANTIATE_TEST_SUITE_P(OneIn, BitErrorsOfModbus,
                          testing::Combine(testing::ValuesIn(kErrors),
-                                          testing::Values(::test::Parity::none, ::test::Parity::even)),
+                                          testing::Values(::test::Parity::without, ::test::Parity::even)),
                          [](const auto& one) {
                              return fmt::format("{:.0f}_{}", 1 / std::get<0>(one.param),
                                                 std::get<1>(one.param) == ::test::Parity::even ? "8E1"

@@ -58,8 +58,8 @@ std::vector<Character> BitLine::received(const std::vector<std::uint8_t>& octets
         }
         unsigned octet = 0;
         for (unsigned bit = 0; bit < data_bits_; ++bit) octet |= unsigned{levels_[at + 1 + bit]} << bit;
-        const bool parity =
-            parity_ == Parity::none || (levels_[at + 1 + data_bits_] != 0) == (std::popcount(octet) % 2 != 0);
+        const bool parity = parity_ == Parity::without ||
+                            (levels_[at + 1 + data_bits_] != 0) == (std::popcount(octet) % 2 != 0);
         const bool stop = levels_[at + stop_bit] != 0;
         all.push_back({static_cast<std::uint8_t>(octet), parity && stop});
         at += length;

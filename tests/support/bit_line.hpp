@@ -15,7 +15,7 @@ struct Character {
     bool good = true; ///< false: wrong parity, or no stop bit
 };
 
-enum class Parity : std::uint8_t { none, even };
+enum class Parity : std::uint8_t { without, even };
 
 class BitLine {
 public:
