@@ -147,8 +147,10 @@ void Layer2::take_heard()
     while (const auto* heard = receiver_.next()) {
         if (heard->telegram)
             on_telegram(*heard->telegram, heard->at, heard->newest);
+        else if (baud_state_ == BaudState::baud_search || (search_ && search_->in_doubt()))
+            ++counters_.search_flaws;
         else
-            count(heard->telegram.error());
+            ++counters_.flaws[static_cast<std::size_t>(heard->telegram.error())];
     }
 }
 
@@ -237,14 +239,6 @@ void Layer2::cancel_reply(Instant at)
 void Layer2::leave_unanswered(Unanswered::Why why, std::uint8_t address, Instant at)
 {
     static_cast<void>(unanswered_.push({.why = why, .address = address, .at = at}));
-}
-
-void Layer2::count(Flaw flaw)
-{
-    if (baud_state_ == BaudState::baud_search || (search_ && search_->in_doubt()))
-        ++counters_.search_flaws;
-    else
-        ++counters_.flaws[static_cast<std::size_t>(flaw)];
 }
 
 /// Gives the search what was heard. False: the rate has been given up, and what was heard at it means

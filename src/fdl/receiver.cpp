@@ -174,7 +174,7 @@ bool Receiver::next_in_buffer()
             const bool is_new = begins_flaw();
             // Hunt on; silence is never waited for: a busy bus has none. What has failed is searched only
             // where something may have begun in it.
-            at_ = std::max(at_ + 1, boundary_within(at_, failed_));
+            at_ = std::max(at_ + 1, boundary_within(at_, searched_));
             if (!is_new) continue;
             heard_.telegram = Failure{length.error()};
             return true;
@@ -207,6 +207,7 @@ bool Receiver::next_in_buffer()
         }
         const bool is_new = begins_flaw();
         failed_ = std::max(failed_, end);
+        searched_ = std::max(searched_, failed_);
         at_ = boundary;
         if (is_new) return true;
     }
@@ -319,6 +320,8 @@ void Receiver::forget(std::size_t count)
     forgotten_ += count;
     spoilt_ -= std::min(spoilt_, count);
     counted_ -= std::min(counted_, count);
+    searched_ -=
+        std::min(searched_, count); // the rest of it is searched as if it had come with the beginning
     if (!has_boundary_) return;
     boundaries_ >>= count;
     silences_ >>= count;
@@ -329,7 +332,7 @@ void Receiver::forget(std::size_t count)
 void Receiver::forget_all()
 {
     forgotten_ += used_;
-    used_ = spoilt_ = counted_ = 0;
+    used_ = spoilt_ = counted_ = searched_ = 0;
     gap_ends_ = hunt_at_ = kNever;
     if (!std::exchange(has_boundary_, false)) return;
     boundaries_.reset();

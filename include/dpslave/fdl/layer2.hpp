@@ -155,7 +155,6 @@ private:
     void cancel_reply(Instant at);
     void leave_unanswered(Unanswered::Why why, std::uint8_t address, Instant at);
     void on_own_address(const Telegram& telegram, Instant at);
-    void count(Flaw flaw);
     bool rate_is_kept(std::size_t good, std::size_t bad, Instant at);
     void report_supervision(Instant at);
     void follow_search();

@@ -117,7 +117,9 @@ private:
     bool in_doubt_ = false;  // rx_ begins with a good telegram, and what is in it may be another one
     Bytes input_;            // not in rx_ yet
     std::size_t at_ = 0;     // rx_ is read up to here
-    std::size_t failed_ = 0; // up to here a telegram has failed: it is searched at boundaries only
+    std::size_t failed_ = 0; // up to here a telegram has failed: what is in it is no further flaw
+    /// The same, until all of it has gone: it is searched at boundaries only, however its end comes.
+    std::size_t searched_ = 0;
 };
 
 } // namespace dpslave::fdl

@@ -50,6 +50,34 @@ TEST_F(SilenceInATelegram, NoPlaceIsLeftOfATelegramThatWasGivenUp)
     EXPECT_EQ(next(), "-") << "it is not searched where the one before had its pause";
 }
 
+/// Behind octets that begin like an SD3, without a pause, stands what looks like a request.
+TEST_F(SilenceInATelegram, FailedTelegramIsSearchedAlikeWhenItsEndComesOctetByOctet)
+{
+    const Octets noise = octets("A2 05 30 80 02 0E A2 05 10 02 06 50");
+    const Octets request = octets("68 10 05 02 49 50 16"); // the SD3 ends behind the 10
+    const auto all_of = [this] {
+        std::vector<std::string> all;
+        for (std::string one = next(); one != "-"; one = next()) all.push_back(one);
+        return all;
+    };
+    reads(noise);
+    EXPECT_EQ(next(), "-");
+    reads_behind_silence(request);
+    const auto in_one_read = all_of();
+
+    stays_silent(5000);
+    all_of();
+    reads(noise);
+    EXPECT_EQ(next(), "-");
+    std::vector<std::string> in_pieces;
+    falls_silent_before(request.size());
+    for (std::size_t i = 0; i < request.size(); ++i) {
+        reads({request[i]}, i + 1 < request.size());
+        for (const std::string& one : all_of()) in_pieces.push_back(one);
+    }
+    EXPECT_EQ(in_pieces, in_one_read);
+}
+
 TEST_F(SilenceInATelegram, FailedTelegramIsSearchedOnlyWhereAReadBegan)
 {
     Octets bad = sd2(kUs, kMaster, kSrdFcb0, joined({octets("01 02"), behind}));
