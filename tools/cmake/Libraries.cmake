@@ -55,6 +55,8 @@ function(dpslave_library name)
   target_include_directories(dpslave_${name} PUBLIC ${PROJECT_SOURCE_DIR}/include PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_compile_options(dpslave_${name} PRIVATE ${DPSLAVE_FORTIFY})
   target_link_libraries(dpslave_${name} PUBLIC ${dpslave_${name}_opens} PRIVATE dpslave_flags ${dpslave_${name}_outside})
+  # With dpslave_program(): what no program calls is not in it. The daemon locks its memory, so it would take some of it.
+  target_compile_options(dpslave_${name} PRIVATE -ffunction-sections -fdata-sections)
 endfunction()
 
 # dpslave_program(NAME SOURCES ... LINKS ...): LINKS is its library, if it has one, and what the table says.
@@ -64,6 +66,7 @@ function(dpslave_program name)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_compile_options(${name} PRIVATE ${DPSLAVE_FORTIFY})
   target_link_libraries(${name} PRIVATE dpslave_flags ${arg_LINKS})
+  target_link_options(${name} PRIVATE -Wl,--gc-sections)
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
 
