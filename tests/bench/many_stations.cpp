@@ -75,7 +75,7 @@ Findings measure_many_stations(const Setup& setup)
             .limit = 1.10,
             .noise = Noise::p50};
     Row p50{.id = "M5", .metric = "turnaround p50, 32 stations / 1", .limit = 1.05, .noise = Noise::p50};
-    Row memory{.id = "M5", .metric = "memory of a further station, kB", .limit = 64};
+    Row memory{.id = "M5", .metric = "memory of a further station on the same line, kB", .limit = 64};
     std::mt19937 random{setup.seed};
     const std::size_t telegrams = setup.telegrams(2'000);
     std::vector<double> cpu_us;

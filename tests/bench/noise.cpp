@@ -50,6 +50,12 @@ public:
     {
         for (std::size_t i = 0; i < bits; ++i) push(true);
     }
+    /// An octet with a wrong parity bit, or without its stop bit.
+    void bad_character(std::uint8_t octet, bool stops)
+    {
+        character(octet);
+        levels_[levels_.size() - (stops ? 2 : 1)].flip();
+    }
     void character(std::uint8_t octet)
     {
         push(false);
@@ -177,7 +183,7 @@ private:
 void garbage(Wire& wire, std::mt19937_64& random, const Octets& telegram)
 {
     const auto below = [&random](std::size_t limit) { return random() % limit; };
-    const std::size_t kind = below(4);
+    const std::size_t kind = below(5);
     if (kind == 0)
         for (std::size_t n = 1 + below(40); n > 0; --n) wire.character(static_cast<std::uint8_t>(random()));
     if (kind == 1) { // the head of a long telegram
@@ -193,6 +199,14 @@ void garbage(Wire& wire, std::mt19937_64& random, const Octets& telegram)
         Octets spoilt = telegram;
         spoilt[below(spoilt.size())] ^= static_cast<std::uint8_t>(1 + below(255));
         wire.telegram(spoilt);
+    }
+    if (kind == 4) { // one character without parity or stop bit
+        const std::size_t bad = below(telegram.size());
+        for (std::size_t i = 0; i < telegram.size(); ++i)
+            if (i == bad)
+                wire.bad_character(telegram[i], below(2) == 0);
+            else
+                wire.character(telegram[i]);
     }
 }
 

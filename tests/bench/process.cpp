@@ -141,7 +141,12 @@ void await_answer(const Pty& bus)
             ::tcflush(bus.near.get(), TCOFLUSH); // nobody reads yet
         pollfd ready{.fd = bus.near.get(), .events = POLLIN, .revents = 0};
         constexpr timespec kSlot{.tv_sec = 0, .tv_nsec = 200'000};
-        if (::ppoll(&ready, 1, &kSlot, nullptr) > 0) return;
+        std::array<std::uint8_t, 6> reply{};
+        if (::ppoll(&ready, 1, &kSlot, nullptr) <= 0) continue;
+        if (::read(bus.near.get(), reply.data(), reply.size()) != static_cast<ssize_t>(reply.size()) ||
+            reply[0] != kRequest[0] || reply[1] != kMaster || reply[2] != kFirstStation || reply[3] != 0)
+            throw std::runtime_error{"what the daemon sends is no answer to FDL_Status"};
+        return;
     }
     throw std::runtime_error{"the daemon does not answer FDL_Status"};
 }
@@ -157,7 +162,7 @@ nanoseconds start_of_daemon(const Options& options)
 {
     const Pty bus;
     const std::vector<Pty> lines(1);
-    const auto command = daemon_command(options, bus, lines, kWithoutRings);
+    const auto command = daemon_command(options, bus, lines, "");
     std::optional<Child> daemon;
     return time_of([&] {
         daemon.emplace(command, options.folder / "log");
@@ -240,8 +245,8 @@ double memory_of_daemon(const Options& options, std::size_t stations, std::strin
 Row measure_memory(const Options& options, std::size_t stations, double limit)
 {
     Row row{.id = "M12",
-            .metric = fmt::format("RSS / that of the libraries, locked: {} station{}", stations,
-                                  stations == 1 ? "" : "s, each on a line of its own"),
+            .metric = fmt::format("RSS without the recorder's / that of the libraries, locked: {} station{}",
+                                  stations, stations == 1 ? "" : "s, each on a line of its own"),
             .limit = limit,
             .noise = Noise::p50};
     std::vector<double> daemons, libraries;

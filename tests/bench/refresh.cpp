@@ -150,7 +150,8 @@ std::vector<Row> measure_refresh(nlohmann::json& curves)
         DriveSide side{client, line.time, true};
         constexpr std::size_t kRequest = 8, kAnswer = 5 + 2 * kParameters;
         const nanoseconds by_formula = line.characters(kRequest + kAnswer) + 2 * line.pause() + kTurnaround;
-        add(fmt::format("12 registers Modbus {}", baud), by_formula, cycles(side, line.time, by_formula));
+        add(fmt::format("12 registers read, Modbus {}", baud), by_formula,
+            cycles(side, line.time, by_formula));
     }
     return rows;
 }
