@@ -18,6 +18,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <numeric>
 #include <random>
 #include <stdexcept>
 #include <thread>
@@ -37,6 +38,7 @@ constexpr int kLeastTimes = 4;            ///< that an attack is made: misses co
 constexpr int kMostTimes = 16;
 constexpr uid_t kStrangers = 65530; ///< and the three behind it
 constexpr auto kWatchdog = 5s;
+constexpr auto kPatience = 10ms; ///< behind the slot time: what comes then is missed all the same
 
 /// The slot time of the master, and what the daemon promises (max_tsdr). With the 150 bit times of the GSD it
 /// would keep back replies that the null responder, which promises nothing, still gives within the slot.
@@ -58,8 +60,9 @@ struct Found {
     BusCounts daemon, null;
     std::chrono::nanoseconds silence{};
     std::uint64_t rss_kib = 0, peak_kib = 0;
-    int times = 1;          ///< that it was made
-    bool is_attack = false; ///< not the time before or behind them
+    int times = 1;                          ///< that it was made
+    bool is_attack = false;                 ///< not the time before or behind them
+    std::vector<double> missed_more_each{}; ///< missed_more() of each time
 
     static double missed(const BusCounts& c)
     {
@@ -68,9 +71,18 @@ struct Found {
                    : static_cast<double>(c.requests - c.in_time()) / static_cast<double>(c.requests);
     }
     double missed_more() const { return missed(daemon) - missed(null); }
-    /// Of missed_more(), where each request is missed by chance alone.
+    /// Of missed_more(): by the spread of the times, because misses come in bursts. Of a single time, as if
+    /// each request were missed by chance alone.
     double standard_error() const
     {
+        if (missed_more_each.size() > 1) {
+            const auto count = static_cast<double>(missed_more_each.size());
+            const double mean =
+                std::accumulate(missed_more_each.begin(), missed_more_each.end(), 0.0) / count;
+            double squares = 0;
+            for (const double one : missed_more_each) squares += (one - mean) * (one - mean);
+            return std::sqrt(squares / (count - 1) / count);
+        }
         const auto variance = [](const BusCounts& c) {
             return c.requests == 0 ? 1.0 : missed(c) * (1 - missed(c)) / static_cast<double>(c.requests);
         };
@@ -98,6 +110,7 @@ Found operator+(Found a, const Found& b)
     a.rss_kib = b.rss_kib;
     a.peak_kib = std::max(a.peak_kib, b.peak_kib);
     a.times += b.times;
+    a.missed_more_each.push_back(b.missed_more());
     return a;
 }
 
@@ -173,6 +186,7 @@ public:
         await_sign_of_life();
         found.silence = manager_.take_longest_silence();
         found.rss_kib = installation_.rss_kib();
+        found.missed_more_each = {found.missed_more()};
         return found;
     }
 
@@ -187,7 +201,8 @@ private:
         }
     }
 
-    /// Daemon and null responder in random order, with a pause as a master makes it.
+    /// Daemon and null responder in random order, with a pause as a master makes it. Of both the same is
+    /// asked, with the same patience.
     void exchange(const std::stop_token& stop)
     {
         run_as_master();
@@ -197,8 +212,8 @@ private:
             for (const bool first : {true, false}) {
                 std::this_thread::sleep_for(50us);
                 if (first == daemon_first)
-                    bus_.exchange(slave_);
-                else if (const auto reply = null_bus_.ask(request, 100ms);
+                    bus_.exchange_once(slave_, kPatience);
+                else if (const auto reply = null_bus_.ask(request, kPatience);
                          reply && reply->size() != slave_.reply_with_values().size())
                     throw std::runtime_error{"the null responder gives a wrong reply"};
             }

@@ -77,13 +77,19 @@ void BusMaster::serve(const std::stop_token& stop, const std::vector<SlaveTalk*>
 
 void BusMaster::exchange(SlaveTalk& slave)
 {
-    const auto reply = ask(slave.request(), kHeldUp);
-    if (!reply) return find_out_what_is_late(slave.address());
+    if (!exchange_once(slave, kHeldUp)) find_out_what_is_late(slave.address());
+}
+
+bool BusMaster::exchange_once(SlaveTalk& slave, std::chrono::nanoseconds patience)
+{
+    const auto reply = ask(slave.request(), patience);
+    if (!reply) return false;
     const Octets asked = slave.request();
-    if (slave.takes(*reply)) return;
+    if (slave.takes(*reply)) return true;
     if (++counts_.wrong <= kMostShown)
         fmt::print("a wrong answer behind {} requests:\n  asked {}\n  got   {}\n", counts_.requests,
                    ::test::show(asked), ::test::show({reply->begin(), reply->end()}));
+    return true;
 }
 
 std::optional<Reply> BusMaster::ask(const Octets& request, std::chrono::nanoseconds patience)

@@ -52,8 +52,10 @@ public:
     /// Sends a request, the telegrams of others before it. The reply is valid until the next call. Nothing:
     /// none came within the slot time and `patience`.
     std::optional<Reply> ask(const Octets& request, std::chrono::nanoseconds patience);
-    /// One request to this slave, and what it makes of the reply. Behind one without a reply it makes sure
-    /// that none is on its way any more.
+    /// One request to this slave, and what it makes of the reply. False: none came within the slot time and
+    /// `patience`.
+    bool exchange_once(SlaveTalk& slave, std::chrono::nanoseconds patience);
+    /// The same. Behind a request without a reply it makes sure that none is on its way any more.
     void exchange(SlaveTalk& slave);
     /// Counts the answers that came behind the last request, if any.
     void take_what_is_late();
