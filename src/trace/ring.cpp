@@ -37,7 +37,8 @@ Ring::Ring(std::size_t octets)
 {
     if (octets == 0) return;
     capacity_ = std::bit_ceil(std::max(octets, kLeast)) / kWord;
-    words_ = std::make_unique<std::atomic<std::uint64_t>[]>(capacity_);
+    // Not a page is touched yet: the start of the daemon does not wait for megabytes of them.
+    words_ = std::make_unique_for_overwrite<std::uint64_t[]>(capacity_);
 }
 
 /// Released, so that who reads this word finds begin_ moved. On x86 this is a plain store.

@@ -47,11 +47,14 @@ public:
 
 private:
     static constexpr std::size_t kHeadWords = 4;
-    std::atomic<std::uint64_t>& word(std::uint64_t at) const { return words_[at & (capacity_ - 1)]; }
+    std::atomic_ref<std::uint64_t> word(std::uint64_t at) const
+    {
+        return std::atomic_ref{words_[at & (capacity_ - 1)]};
+    }
     void write(std::uint64_t at, std::uint64_t value) noexcept;
 
-    std::size_t capacity_ = 0; ///< words
-    std::unique_ptr<std::atomic<std::uint64_t>[]> words_;
+    std::size_t capacity_ = 0;               ///< words
+    std::unique_ptr<std::uint64_t[]> words_; ///< each is written before it is read
     /// Where the oldest record begins and behind the newest one, in words since the start. `begin_` is moved
     /// before what lies there is overwritten: a reader that finds it moved throws away what it has copied.
     alignas(64) std::atomic<std::uint64_t> begin_{0};
