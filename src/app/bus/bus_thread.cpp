@@ -77,8 +77,8 @@ Instant BusThread::next_wake() const
     return next;
 }
 
-/// Waits until `when` at most, not at all if that is near. True: the port has something to read. It came at
-/// once or after the port was looked at last; but where a tick is overdue too, this thread stood still.
+/// Waits until `when` at most, not at all if that is near. True: the port has something to read. Where a tick
+/// is overdue, or the port was not looked at for long, this thread stood still, and it may be old.
 bool BusThread::octets_before(Instant when)
 {
     const Instant begins = io::monotonic_now();
@@ -103,7 +103,7 @@ bool BusThread::octets_before(Instant when)
 void BusThread::process(bool octets)
 {
     if (octets) {
-        layer2_.may_have_lain(unread_);
+        layer2_.may_have_lain(unread_ < kStandstill ? std::chrono::nanoseconds{0} : unread_);
         port_.read(layer2_);
     }
     processed_at_ = io::monotonic_now();

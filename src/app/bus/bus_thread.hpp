@@ -37,6 +37,8 @@ private:
     static constexpr std::chrono::milliseconds kTick{10};
     static constexpr std::chrono::microseconds kSpin = BusSender::kSpin;
     static constexpr std::chrono::microseconds kLastLook{1};
+    /// So long a busy machine may keep the thread from its work. Behind more it does not trust what it reads.
+    static constexpr std::chrono::milliseconds kStandstill{50};
     /// While a driver is to be switched off within this time nothing longer is begun.
     static constexpr std::chrono::microseconds kDriverMargin{200};
     /// How often the view of the whole bus is passed on.
