@@ -88,6 +88,16 @@ bool passes_self_test()
     return failures.empty();
 }
 
+/// Waits until the bus thread has been through its first round, with the telegram that lay there or with its
+/// first tick. The lock of the memory would hold it up, for both need the table of the pages.
+void await_first_round(const BusLink& link)
+{
+    constexpr std::chrono::milliseconds kLongest{50}; // some ticks: whatever holds it up, the start goes on
+    const Instant limit = io::monotonic_now() + kLongest;
+    while (link.heartbeat.load(std::memory_order_relaxed) == 0 && io::monotonic_now() < limit)
+        std::this_thread::sleep_for(std::chrono::microseconds{100});
+}
+
 /// Stops the bus thread and waits for its end. False: it hangs in a call of the system.
 bool end(std::jthread& thread, io::EventFd& wake, const BusLink& link)
 {
@@ -153,6 +163,7 @@ ExitStatus run_daemon(const config::Config& config, const std::filesystem::path&
     });
 
     // The bus is served: what takes milliseconds comes now.
+    await_first_round(link);
     if (config.realtime.lock_memory) say_warnings(io::lock_memory());
     link.memory_is_ready.store(true, std::memory_order_relaxed);
     runtime.start();
