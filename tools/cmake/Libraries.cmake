@@ -47,16 +47,25 @@ foreach(row ${rows})
   set(dpslave_${name}_outside ${outside})
 endforeach()
 
-# dpslave_library(NAME SOURCES ... ALONE ...) makes dpslave_NAME, which links what the table lets it open.
+# Code of the start, of callers and of commands is made small: the daemon locks its memory, so all of it stays there. With
+# dpslave_program(): what no program calls is not in it. A build for looking into the code (Debug, noopt) stays one.
+set(DPSLAVE_SMALL -ffunction-sections -fdata-sections)
+if(NOT CMAKE_BUILD_TYPE STREQUAL "Debug" AND NOT CMAKE_CXX_FLAGS MATCHES "-O0")
+  list(APPEND DPSLAVE_SMALL -Os)
+endif()
+
+# dpslave_library(NAME [FAST] SOURCES ... ALONE ...) makes dpslave_NAME, which links what the table lets it open.
+# FAST: a telegram or a drive waits for its code. It is made for speed, in the compiler's own order (M1 of tools/bench).
 function(dpslave_library name)
-  cmake_parse_arguments(arg "" "" "SOURCES;ALONE" ${ARGN})
+  cmake_parse_arguments(arg "FAST" "" "SOURCES;ALONE" ${ARGN})
   dpslave_alone(${arg_ALONE})
   add_library(dpslave_${name} STATIC ${arg_SOURCES})
   target_include_directories(dpslave_${name} PUBLIC ${PROJECT_SOURCE_DIR}/include PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_compile_options(dpslave_${name} PRIVATE ${DPSLAVE_FORTIFY})
   target_link_libraries(dpslave_${name} PUBLIC ${dpslave_${name}_opens} PRIVATE dpslave_flags ${dpslave_${name}_outside})
-  # With dpslave_program(): what no program calls is not in it. The daemon locks its memory, so it would take some of it.
-  target_compile_options(dpslave_${name} PRIVATE -ffunction-sections -fdata-sections)
+  if(NOT arg_FAST)
+    target_compile_options(dpslave_${name} PRIVATE ${DPSLAVE_SMALL})
+  endif()
 endfunction()
 
 # dpslave_program(NAME SOURCES ... LINKS ...): LINKS is its library, if it has one, and what the table says.
@@ -64,7 +73,7 @@ function(dpslave_program name)
   cmake_parse_arguments(arg "" "" "SOURCES;LINKS" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/src)
-  target_compile_options(${name} PRIVATE ${DPSLAVE_FORTIFY})
+  target_compile_options(${name} PRIVATE ${DPSLAVE_FORTIFY} ${DPSLAVE_SMALL})
   target_link_libraries(${name} PRIVATE dpslave_flags ${arg_LINKS})
   target_link_options(${name} PRIVATE -Wl,--gc-sections)
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
