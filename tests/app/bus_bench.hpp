@@ -147,6 +147,7 @@ protected:
         ASSERT_TRUE(driver) << driver.error();
         driver_.emplace(std::move(*driver));
         ASSERT_EQ(driver_->attach(port->tty()), std::nullopt);
+        when_opened();
         bus_ =
             std::make_unique<app::BusThread>(config.bus, *std::move(port), *driver_,
                                              std::make_unique<app::BusStations>(std::move(stations)), link);
@@ -216,6 +217,8 @@ protected:
         return all;
     }
     virtual std::string port_path() { return pty.path(); }
+    /// The port is open, and the bus thread does not run yet.
+    virtual void when_opened() {}
 
     io::Pty pty;
     Master master;

@@ -163,6 +163,25 @@ TEST(BusSender, DistinguishesAPortThatHasGoneFromOneThatIsFull)
     EXPECT_EQ(sender.write_errors(), 2u);
 }
 
+TEST_F(DriverEnableOfTheBus, IsMadeActiveAgainForAReplyBehindTheGuardThatHasLetItGo)
+{
+    auto port = io::Tty::open(pty.path(), {.baud = 500'000});
+    ASSERT_TRUE(port) << port.error();
+    auto driver = io::DriverEnable::open({.direction = io::Direction::rts});
+    ASSERT_TRUE(driver) << driver.error();
+    ASSERT_EQ(driver->attach(*port), std::nullopt);
+    uart::shift_register(uart::Shift::busy); // and it never says anything else
+    app::BusSender sender{*driver};
+    ASSERT_TRUE(sender.send(kStatus, *port, Baud::k500, kNever));
+    ASSERT_TRUE(driver->drop_if_stuck(io::monotonic_now() + milliseconds{20}, milliseconds{10}));
+    ASSERT_FALSE(uart::is_active());
+
+    ASSERT_TRUE(sender.send(kStatus, *port, Baud::k500, kNever));
+
+    EXPECT_TRUE(uart::is_active());
+    driver->detach();
+}
+
 TEST_F(DriverEnableOfTheBus, F19_OfAStuckTransmitterIsDroppedWithTheReplyThatDidNotLeave)
 {
     start({.baud = Baud::k500, .direction = io::Direction::none}, {station(kStation)});

@@ -166,6 +166,26 @@ TEST_F(StoodStill, DoesNotAnswerWhatMayHaveLainUnreadForLongerThanItsWindow)
     EXPECT_TRUE(master.ask(fdl_status(kStation)));
 }
 
+/// What comes between the opening of the port and the bus thread takes its time: a slow line of a GPIO chip.
+class SlowStart : public BusThread {
+protected:
+    void when_opened() override
+    {
+        pty.send(fdl_status(kStation));
+        const Instant over = io::monotonic_now() + std::chrono::milliseconds{100}; // its window is 2 ms
+        ASSERT_TRUE(eventually([over] { return io::monotonic_now() > over; }));
+    }
+};
+
+TEST_F(SlowStart, DoesNotAnswerWhatCameLongBeforeTheBusThreadBegan)
+{
+    start({}, {station(kStation)});
+
+    EXPECT_TRUE(eventually([this] { return snapshot().counters.late == 1; }));
+    EXPECT_EQ(pty.received(), Octets{});
+    EXPECT_TRUE(master.ask(fdl_status(kStation)));
+}
+
 TEST_F(BusThread, SaysWhatItCountsOfItsPageFaults)
 {
     start({}, {station(kStation)});

@@ -24,6 +24,8 @@ public:
 
     const std::string& path() const { return path_; }
     bool is_open() const { return tty_.has_value(); }
+    /// A moment before it was opened last, with nothing in it yet. Instant{}: it was never open.
+    Instant opened() const { return opened_; }
     /// Precondition: is_open().
     Tty& tty() { return *tty_; }
 

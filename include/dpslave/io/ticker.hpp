@@ -3,7 +3,6 @@
 /// and cancel a timer each time.
 #pragma once
 
-#include "dpslave/base/units.hpp"
 #include "dpslave/io/fd.hpp"
 
 #include <chrono>
@@ -16,14 +15,11 @@ public:
     explicit Ticker(std::chrono::nanoseconds period);
     int fd() const { return fd_.get(); } ///< readable after each period until clear()
 
-    /// To be called after each tick: the next one comes only then. How long ago the first one since the last
-    /// call was due: so long may the caller have stood still. 0: none was.
-    std::chrono::nanoseconds clear(Instant now) noexcept;
+    /// To be called after each tick: the next one comes only then.
+    void clear() noexcept;
 
 private:
     Fd fd_;
-    std::chrono::nanoseconds period_;
-    Instant due_; ///< of the next tick
 };
 
 } // namespace dpslave::io

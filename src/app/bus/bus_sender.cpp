@@ -25,12 +25,15 @@ Result<Instant, BusSender::Unsent> BusSender::send(Bytes telegram, io::Tty& tty,
 
 /// Each reply has a pulse of its own. A request was answered while the last reply seems to be on its way
 /// still: the line was free, so it has gone out faster than its rate says (a pty, an emulated UART) - unless
-/// the UART itself says that it has not; then this reply comes behind it, and the driver stays as it is.
+/// the UART itself says that it has not; then this reply comes behind it, and the driver stays as it is, if
+/// the guard has not let it go meanwhile. From then on it may still do so: this reply is then cut, as a stuck
+/// one is.
 bool BusSender::make_active(const io::Tty& tty)
 {
     if (!driver_.works()) return false;
     if (transmission_.is_running()) {
-        if (!shift_register(tty).value_or(true)) return true;
+        const bool goes_out = !shift_register(tty).value_or(true);
+        if (goes_out && driver_.active_since()) return true;
         make_inactive(io::monotonic_now());
     }
     if (!driver_.set(true, io::monotonic_now())) return true;

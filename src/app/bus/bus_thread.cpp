@@ -77,13 +77,10 @@ Instant BusThread::next_wake() const
     return next;
 }
 
-/// Waits until `when` at most, not at all if that is near. True: the port has something to read. Where a tick
-/// is overdue, or the port was not looked at for long, this thread stood still, and it may be old.
+/// Waits until `when` at most, not at all if that is near. True: the port has something to read.
 bool BusThread::octets_before(Instant when)
 {
-    const Instant begins = io::monotonic_now();
-    unread_ = begins - processed_at_;
-    auto wait = when - begins;
+    auto wait = when - io::monotonic_now();
     if (wait <= kSpin) wait = {};
     if (wait > kTick) wait = std::chrono::nanoseconds::max(); // the ticker ends it
     std::array<epoll_event, 3> ready{};
@@ -91,7 +88,7 @@ bool BusThread::octets_before(Instant when)
     for (const epoll_event& event : epoll_.wait(ready, wait)) {
         if (event.data.u64 == kPortKey) octets = true;
         if (event.data.u64 == kTickKey) {
-            unread_ = std::max(unread_, ticker_.clear(io::monotonic_now()));
+            ticker_.clear();
             update_due_ = true;
         }
     }
@@ -102,11 +99,9 @@ bool BusThread::octets_before(Instant when)
 /// that finds nothing makes the kernel wait for its own workers, which takes milliseconds on a busy machine.
 void BusThread::process(bool octets)
 {
-    if (octets) {
-        layer2_.may_have_lain(unread_ < kStandstill ? std::chrono::nanoseconds{0} : unread_);
-        port_.read(layer2_);
-    }
+    if (octets) port_.read(layer2_);
     processed_at_ = io::monotonic_now();
+    port_.looked(processed_at_);
     layer2_.on_time(processed_at_);
     port_.note_silence(layer2_);
 }

@@ -11,7 +11,6 @@
 #include "dpslave/config/config.hpp"
 #include "dpslave/dp/bus_members.hpp"
 #include "dpslave/fdl/layer2.hpp"
-#include "dpslave/io/clock.hpp"
 #include "dpslave/io/epoll.hpp"
 #include "dpslave/io/event_fd.hpp"
 #include "dpslave/io/ticker.hpp"
@@ -37,8 +36,6 @@ private:
     static constexpr std::chrono::milliseconds kTick{10};
     static constexpr std::chrono::microseconds kSpin = BusSender::kSpin;
     static constexpr std::chrono::microseconds kLastLook{1};
-    /// So long a busy machine may keep the thread from its work. Behind more it does not trust what it reads.
-    static constexpr std::chrono::milliseconds kStandstill{50};
     /// While a driver is to be switched off within this time nothing longer is begun.
     static constexpr std::chrono::microseconds kDriverMargin{200};
     /// How often the view of the whole bus is passed on.
@@ -71,9 +68,7 @@ private:
     Histogram turnaround_us_;
     Histogram turnaround_tbit_;
     std::uint64_t too_late_ = 0;
-    /// When the port was looked at, and layer 2 had the time, last: right before a reply.
-    Instant processed_at_ = io::monotonic_now();
-    std::chrono::nanoseconds unread_{0}; ///< what is there to read came at most so long ago
+    Instant processed_at_{}; ///< when layer 2 had the time last: right before a reply
     Instant next_bus_snapshot_{}, next_members_{};
     bool memory_is_ready_ = false;
     Instant published_until_{}; ///< what was due by then was looked at, one station at a time

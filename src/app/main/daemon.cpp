@@ -162,8 +162,7 @@ ExitStatus run_daemon(const config::Config& config, const std::filesystem::path&
         link.ended.store(true, std::memory_order_release);
     });
 
-    // The bus is served: what takes milliseconds comes now.
-    await_first_round(link);
+    await_first_round(link); // the bus is served: what takes milliseconds comes now
     if (config.realtime.lock_memory) say_warnings(io::lock_memory());
     link.memory_is_ready.store(true, std::memory_order_relaxed);
     runtime.start();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpslave/io/port.hpp"
 
+#include "dpslave/io/clock.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -14,10 +16,12 @@ constexpr unsigned kMostDoublings = 3;
 Result<Port, std::string> Port::open(std::string path, const TtySettings& settings,
                                      std::chrono::nanoseconds first_wait)
 {
+    const Instant before = monotonic_now();
     auto tty = Tty::open(path, settings);
     if (!tty) return Failure{tty.error()};
     Port port{std::move(path), settings, first_wait};
     port.tty_.emplace(*std::move(tty));
+    port.opened_ = before;
     port.next_try_ = kNever;
     return port;
 }
