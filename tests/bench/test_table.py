@@ -54,8 +54,16 @@ class Table(unittest.TestCase):
 
     def test_a_row_that_no_program_measured_is_a_fault(self):
         self.assertEqual(self.status_of({}, left_out=1), 1)
-        self.assertEqual(self.status_of({}, "--names", left_out=1), 0)
+        self.assertEqual(self.status_of({}, "--names", left_out=1), 1)
         self.assertEqual(self.status_of({"metric": "another"}, "--names"), 1)
+
+    def test_only_the_rows_of_another_command_may_be_missing_where_the_names_are_compared(self):
+        rows = [row(name) for name in table.known_rows() if not name[1].endswith("paced line")]
+        file = self.folder / "rows.json"
+        for kept, status in ((rows, 0), (rows[1:], 1)):
+            file.write_text(json.dumps({"rows": kept, "curves": {}}), encoding="utf-8")
+            with mock.patch("sys.argv", ["table.py", str(file), "--names"]), mock.patch("builtins.print"):
+                self.assertEqual(table.main(), status)
 
     def test_curves_of_one_name_are_one_list(self):
         self.assertEqual(table.joined([{"a": [1], "b": {"x": 1}}, {"a": [2]}]), {"a": [1, 2], "b": {"x": 1}})
