@@ -2,36 +2,40 @@
 # Bash completion of dpctl. Names of stations come from the daemon, names of profiles from their folder.
 
 # The options that every command has which asks the daemon.
-_dpctl_common='--json --socket --timeout --help'
+_dpctl_common='--json --field --socket --timeout --help'
 
 _dpctl_options()
 {
     case $1 in
         '') echo "$_dpctl_common --version" ;;
-        doctor) echo "$_dpctl_common --all --probe --yes" ;;
-        status) echo "$_dpctl_common --follow --wait --drive --quiet" ;;
-        io | events) echo "$_dpctl_common --follow" ;;
-        trace) echo "$_dpctl_common --follow --incidents --incident --station --drive --service --bad --stop-on --decode --gsd --profiles --write --linktype" ;;
+        doctor) echo "$_dpctl_common --station --rules --probe --yes" ;;
+        status) echo "$_dpctl_common --station --follow --wait --with-drive --quiet" ;;
+        io | events) echo "$_dpctl_common --station --follow" ;;
+        show | diag) echo "$_dpctl_common --station" ;;
+        trace) echo "$_dpctl_common --follow --read --incidents --incident --station --line --service --bad --stop-on --decode --gsd --profile --profiles --output --linktype" ;;
         'tec set') echo "$_dpctl_common --station --yes" ;;
-        top) echo "$_dpctl_common --every" ;;
-        plot) echo "$_dpctl_common --last --svg --csv --station" ;;
-        read) echo "$_dpctl_common --every --list --station" ;;
-        write) echo "$_dpctl_common --station" ;;
-        metrics) echo "$_dpctl_common --write" ;;
-        reload) echo "$_dpctl_common --dry-run" ;;
-        survey) echo "$_dpctl_common --tags --table --for --passes --resume" ;;
-        tag) echo '--json --all --table --profile --profiles --help' ;;
-        hex) echo '--json --help' ;;
-        decode) echo '--json --as --profile --profiles --help' ;;
-        'gsd check') echo '--strict --station --table --profiles --socket --json --help' ;;
-        'gsd show') echo '--profile --profiles --table --json --help' ;;
-        'gsd make') echo '--profile --profiles --table --mapping --in --out --in-out --list --demand --ident --max-tsdr --description
-                          --model --output --force --json --help' ;;
-        'gsd import') echo '--profile --profiles --table --output --force --json --help' ;;
-        'gsd diff') echo '--profile --profiles --table --json --help' ;;
-        'gsd configure') echo '--page --json --help' ;;
-        'gsd types') echo '--output --brief --force --json --help' ;;
-        gsd) echo '--help' ;;
+        top) echo "$_dpctl_common --station --every" ;;
+        plot) echo "$_dpctl_common --last --output --csv --station" ;;
+        read) echo "$_dpctl_common --every --names --station" ;;
+        write) echo "$_dpctl_common --station --yes" ;;
+        metrics) echo "$_dpctl_common --output" ;;
+        reload) echo "$_dpctl_common --dry-run --careful --yes" ;;
+        survey) echo "$_dpctl_common --station --tags --output --rule --for --passes --resume" ;;
+        tag) echo '--json --field --all --table --profile --profiles --help' ;;
+        identify) echo '--json --field --baud --format --unit --protocol --rule --tags --table --profiles --timeout --direction
+                        --gpio-chip --gpio-line --gpio-active-low --help' ;;
+        hex) echo '--json --field --help' ;;
+        decode) echo '--json --field --as --profile --profiles --help' ;;
+        'gsd check') echo '--strict --profile --modules --tags-at --identifiers --mapping --ident --station --table --profiles --socket --timeout --json --field
+                           --help' ;;
+        'gsd show') echo '--profile --modules --profiles --table --json --field --help' ;;
+        'gsd make') echo '--profile --profiles --table --mapping --in --out --in-out --order --tags --tags-at --identifiers --demand --ident --max-tsdr --description
+                          --model --output --force --json --field --help' ;;
+        'gsd import') echo '--profile --cfg --lossy --station --socket --timeout --profiles --table --output --force --json --field --help' ;;
+        'gsd diff') echo '--profile --profiles --table --json --field --help' ;;
+        'gsd configure') echo '--page --json --field --help' ;;
+        'gsd types') echo '--output --brief --force --json --field --help' ;;
+        gsd) echo '--json --field --help' ;;
         *) echo "$_dpctl_common" ;;
     esac
 }
@@ -58,9 +62,9 @@ _dpctl_tags()
 {
     local i station=()
     for ((i = 1; i < COMP_CWORD; i++)); do
-        [ "${COMP_WORDS[i]}" != --station ] || station=(--station "${COMP_WORDS[i + 1]}")
+        [[ ${COMP_WORDS[i]} != --station && ${COMP_WORDS[i]} != -s ]] || station=(--station "${COMP_WORDS[i + 1]}")
     done
-    _dpctl_names read --list "${station[@]}"
+    _dpctl_names read --names "${station[@]}"
 }
 
 _dpctl_profiles()
@@ -88,20 +92,23 @@ _dpctl()
     local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD - 1]} command='' i word words=''
     COMPREPLY=()
     case $prev in
-        --socket | --table | --mapping | --page | --write | --svg) compopt -o filenames 2>/dev/null
+        --socket | --table | --mapping | --page | --read) compopt -o filenames 2>/dev/null
             mapfile -t COMPREPLY < <(compgen -f -- "$cur"); return ;;
-        --profiles | --output) compopt -o filenames 2>/dev/null
+        --profiles | --output | -o | --gsd) compopt -o filenames 2>/dev/null
             mapfile -t COMPREPLY < <(compgen -f -- "$cur"); return ;;
         --profile) _dpctl_offer "$cur" < <(_dpctl_profiles); return ;;
         --linktype) mapfile -t COMPREPLY < <(compgen -W 'profibus user0' -- "$cur"); return ;;
+        --rule) mapfile -t COMPREPLY < <(compgen -W '590plus ac pno none' -- "$cur"); return ;;
+        --protocol) mapfile -t COMPREPLY < <(compgen -W 'ei-ascii modbus-rtu' -- "$cur"); return ;;
+        --direction) mapfile -t COMPREPLY < <(compgen -W 'none gpio kernel rts' -- "$cur"); return ;;
         --as) mapfile -t COMPREPLY < <(compgen -W 'prm cfg diag' -- "$cur"); return ;;
-        --station) _dpctl_offer "$cur" < <(_dpctl_stations); return ;;
-        --timeout | --wait | --every | --last | --service | --stop-on | --tags | --for | --passes | --in | --out | --in-out | --ident | --max-tsdr | --description | --model) return ;;
+        --station | -s) _dpctl_offer "$cur" < <(_dpctl_stations); return ;;
+        --baud | --format | --unit | --gpio-chip | --gpio-line | --timeout | --field | --wait | --every | --last | --service | --stop-on | --tags | --for | --passes | --in | --out | --in-out | --order | --line | --incident | --ident | --max-tsdr | --description | --model) return ;;
     esac
     for ((i = 1; i < COMP_CWORD; i++)); do
         word=${COMP_WORDS[i]}
         case $word in
-            --socket | --timeout | --wait | --service | --stop-on | --gsd | --profiles | --write | --linktype | --every | --last | --svg | --station | --tags | --table | --for | --passes) i=$((i + 1)) ;;
+            --baud | --format | --unit | --protocol | --direction | --gpio-chip | --gpio-line | --socket | --timeout | --field | --wait | --service | --stop-on | --gsd | --profiles | --profile | --output | -o | --read | --line | --incident | --linktype | --every | --last | --station | -s | --tags | --table | --rule | --for | --passes) i=$((i + 1)) ;;
             -*) ;;
             *)
                 case "$command" in
@@ -116,14 +123,14 @@ _dpctl()
         words=$(_dpctl_options "$command")
     else
         case $command in
-            '') words='status show io diag counters doctor trace bus top events plot metrics read write tec survey log-level reload tune tag hex decode gsd version' ;;
-            read | plot) _dpctl_offer "$cur" < <(_dpctl_tags); return ;;
+            '') words='status show io diag counters doctor trace bus top events plot metrics read write tec survey log-level reload tune tag identify hex decode gsd version' ;;
+            read | write | plot) _dpctl_offer "$cur" < <(_dpctl_tags); return ;;
             log-level) words='debug info' ;;
-            status | show | io | top | events | diag | doctor | survey) _dpctl_offer "$cur" < <(_dpctl_stations); return ;;
+            status | show | io | top | events | diag | doctor | survey | trace) _dpctl_offer "$cur" < <(_dpctl_stations); return ;;
             tec) words='set' ;;
             'tec set') words='TYPE ADDRESS EXT_DIAGNOSTIC INT_DIAG_SELECT RIDE_THROUGH UNUSED_1' ;;
             gsd) words='check show make import diff configure types' ;;
-            tune | 'gsd check' | 'gsd show' | 'gsd import' | 'gsd diff') compopt -o filenames 2>/dev/null
+            tune | identify | 'gsd check' | 'gsd show' | 'gsd import' | 'gsd diff') compopt -o filenames 2>/dev/null
                 mapfile -t COMPREPLY < <(compgen -f -- "$cur"); return ;;
         esac
     fi

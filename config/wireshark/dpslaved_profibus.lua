@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
 -- Wireshark reads PROFIBUS with this: telegrams of layer 2 (FDL), and the services of DP in them. Link type 257
--- (PROFIBUS_DL) in a pcapng file, for which Wireshark 4.0 has no type of its own; and USER0 (147). "dpctl trace --write"
+-- (PROFIBUS_DL) in a pcapng file, for which Wireshark 4.0 has no type of its own; and USER0 (147). "dpctl trace --output"
 -- makes such files. docs/guide/wireshark.md is for its readers. Source of all tables: wire reference 2 to 5
 -- (docs/reference/profibus-dp.md). The names of the services are those of "dpctl trace".
 

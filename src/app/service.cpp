@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpslave/app/service.hpp"
 
+#include "dpslave/input/document.hpp"
 #include "dpslave/io/file.hpp"
-#include "dpslave/toml/document.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -29,9 +29,9 @@ std::filesystem::path folder_of_service(const char* variable)
 
 bool is_unconfigured(const std::filesystem::path& file)
 {
-    toml::Document document{io::read_regular_file, file.string()};
+    input::Document document{io::read_regular_file, file.string()};
     if (!document.readable()) return false;
-    const toml::Table root = document.root();
+    const input::Table root = document.root();
     return !root.has("bus") && !root.has("line") && !root.has("station");
 }
 
@@ -45,38 +45,54 @@ std::filesystem::path state_folder()
     return folder_of_service("STATE_DIRECTORY");
 }
 
-std::optional<std::string> keep(const DriverInUse& driver, const std::filesystem::path& runtime)
+std::vector<DriverInUse> drivers_of(const config::Config& config)
+{
+    std::vector<DriverInUse> drivers{{config.bus.driver_enable, config.bus.port}};
+    for (const config::LineConfig& line : config.lines)
+        if (line.driver_enable.direction != io::Direction::none)
+            drivers.push_back({line.driver_enable, line.port});
+    return drivers;
+}
+
+std::optional<std::string> keep(const std::vector<DriverInUse>& drivers, const std::filesystem::path& runtime)
 {
     if (runtime.empty()) return std::nullopt;
-    const nlohmann::json kept{{"port", driver.port},
-                              {"direction", io::text(driver.settings.direction)},
-                              {"gpio_chip", driver.settings.gpio_chip},
-                              {"gpio_line", driver.settings.gpio_line},
-                              {"gpio_active_low", driver.settings.active_low}};
+    nlohmann::json kept = nlohmann::json::array();
+    for (const DriverInUse& driver : drivers)
+        kept.push_back({{"port", driver.port},
+                        {"direction", io::text(driver.settings.direction)},
+                        {"gpio_chip", driver.settings.gpio_chip},
+                        {"gpio_line", driver.settings.gpio_line},
+                        {"gpio_active_low", driver.settings.active_low}});
     std::ofstream out{runtime / kKept};
     out << kept.dump(2) << '\n' << std::flush;
     if (out) return std::nullopt;
     return (runtime / kKept).string() + " cannot be written (" + std::system_category().message(errno) +
-           "): after a crash the driver enable of the configuration is released, whatever was in use";
+           "): after a crash the driver enables of the configuration are released, whatever was in use";
 }
 
-std::optional<DriverInUse> kept_driver(const std::filesystem::path& runtime)
+std::optional<std::vector<DriverInUse>> kept_drivers(const std::filesystem::path& runtime)
 {
     if (runtime.empty()) return std::nullopt;
     std::ifstream in{runtime / kKept};
-    DriverInUse driver;
+    std::vector<DriverInUse> drivers;
     try {
-        const auto kept = nlohmann::json::parse(in);
-        driver.port = kept.value("port", "");
-        driver.settings.gpio_chip = kept.value("gpio_chip", "");
-        driver.settings.gpio_line = kept.value("gpio_line", 0U);
-        driver.settings.active_low = kept.value("gpio_active_low", false);
-        for (const io::Direction direction : {io::Direction::gpio, io::Direction::kernel, io::Direction::rts})
-            if (kept.value("direction", "") == io::text(direction)) driver.settings.direction = direction;
+        const auto all = nlohmann::json::parse(in);
+        if (!all.is_array()) return std::nullopt; // of an older version
+        for (const auto& kept : all) {
+            DriverInUse& driver = drivers.emplace_back();
+            driver.port = kept.value("port", "");
+            driver.settings.gpio_chip = kept.value("gpio_chip", "");
+            driver.settings.gpio_line = kept.value("gpio_line", 0U);
+            driver.settings.active_low = kept.value("gpio_active_low", false);
+            for (const io::Direction direction :
+                 {io::Direction::gpio, io::Direction::kernel, io::Direction::rts})
+                if (kept.value("direction", "") == io::text(direction)) driver.settings.direction = direction;
+        }
     } catch (const nlohmann::json::exception&) {
         return std::nullopt; // there is none
     }
-    return driver;
+    return drivers;
 }
 
 std::optional<std::string> release(const DriverInUse& driver)

@@ -7,7 +7,7 @@
 namespace dpslave {
 namespace {
 
-// Where the width of the classes changes: from one value to eighths, and from eighths to quarters, of a power
+// The width of the classes changes here: from one value to eighths, and from eighths to quarters, of a power
 // of two.
 constexpr std::uint32_t kEighthsFrom = 16;
 constexpr std::uint32_t kQuartersFrom = 64;

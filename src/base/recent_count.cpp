@@ -11,13 +11,17 @@ void RecentCount::sample(std::uint64_t total, Instant now)
 {
     const auto second = std::chrono::floor<std::chrono::seconds>(now.time_since_epoch()).count();
     const auto passed = std::clamp<std::int64_t>(second - second_, 0, kSpan.count());
-    for (std::int64_t i = 1; i <= passed; ++i) seconds_[static_cast<std::size_t>(second_ + i) % kSeconds] = 0;
-    if (passed == kSpan.count()) seconds_.fill(0);
+    if (passed == kSpan.count())
+        std::fill(seconds_.begin(), seconds_.end(), 0U);
+    else if (!seconds_.empty())
+        for (std::int64_t i = 1; i <= passed; ++i)
+            seconds_[static_cast<std::size_t>(second_ + i) % kSeconds] = 0;
     second_ = std::max(second, second_);
 
     const std::uint64_t grown = total >= total_ ? total - total_ : total;
     total_ = total;
     if (grown == 0) return;
+    if (seconds_.empty()) seconds_.resize(kSeconds); // most counters never grow
     if (in_span() == 0) since_ = now;
     last_ = now;
     std::uint32_t& here = seconds_[static_cast<std::size_t>(second_) % kSeconds];

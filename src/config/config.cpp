@@ -12,9 +12,9 @@
 namespace dpslave::config {
 namespace {
 
-using toml::Document;
-using toml::Faults;
-using toml::Table;
+using input::Document;
+using input::Faults;
+using input::Table;
 
 RealtimeConfig read_realtime(Table table)
 {
@@ -23,6 +23,12 @@ RealtimeConfig read_realtime(Table table)
     if (const auto cpu = table.integer("cpu", -1, 1023)) config.cpu = static_cast<int>(*cpu);
     config.lock_memory = table.boolean("lock_memory").value_or(config.lock_memory);
     return config;
+}
+
+/// The guard has one more than the sender, and both are below the bus thread if there is room.
+int sending_priority(const RealtimeConfig& realtime)
+{
+    return realtime.priority < 2 ? 0 : std::max(1, realtime.priority - 2);
 }
 
 TraceConfig read_trace(Table table)
@@ -92,16 +98,15 @@ bool Shelf::has_room_for(const std::filesystem::path& table)
         size_of_tables_ += size;
     if (size_of_tables_ <= kMaxTablesTogether) return true;
     if (had_room)
-        keep({{table.string(), 0, 0,
-               "with this table the tag tables of the stations have more than 2 MiB together: name one table "
-               "for "
-               "drives of one kind, and leave out unused tags."}});
+        keep(
+            {{table.string(), 0, 0,
+              "with this table the tag tables of the stations have more than 2 MiB together: name one table for drives of one kind, and leave out unused tags."}});
     return false;
 }
 
-void Shelf::keep(const toml::Faults& faults)
+void Shelf::keep(const input::Faults& faults)
 {
-    for (const toml::Fault& fault :
+    for (const input::Fault& fault :
          faults) // two profiles may name one tag table: its faults are reported once
         if (reported_.insert(to_string(fault)).second) faults_.push_back(fault);
 }
@@ -128,7 +133,7 @@ std::optional<gid_t> operator_group_of(const ControlConfig& control)
     return found != nullptr ? std::optional{found->gr_gid} : std::nullopt;
 }
 
-toml::Fault without_operator_group(const Config& config)
+input::Fault without_operator_group(const Config& config)
 {
     return {config.file.string(), config.operator_group_place.line, config.operator_group_place.column,
             "the system has no group \"" + config.control.operator_group +
@@ -150,13 +155,16 @@ Result<Config, Faults> load_config(const std::filesystem::path& file, const std:
     config.control = read_control(root.table("control"));
     config.operator_group_place = root.table("control").place_of("operator_group");
     config.trace = read_trace(root.table("trace"));
-    const std::vector<ReadLine> lines = read_lines(document, config.bus);
+    const std::vector<ReadLine> lines = read_lines(document, config.bus, config.sysfs, config.warnings);
     config.stations = read_stations(document, config.bus, config.sysfs, lines, shelf, config.warnings);
-    for (const ReadLine& read : lines) config.lines.push_back(read.line);
+    for (const ReadLine& read : lines) {
+        config.lines.push_back(read.line);
+        config.lines.back().sending_priority = sending_priority(config.realtime);
+    }
 
     Faults faults = document.faults();
     faults.insert(faults.end(), shelf.faults().begin(), shelf.faults().end());
-    toml::cap(faults);
+    input::cap(faults);
     if (!faults.empty()) return Failure{std::move(faults)};
     return config;
 }

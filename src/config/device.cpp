@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What only some device types have: the TEC OPTION function block, an extended diagnosis, two resolutions, a
-// display of its own.
+// Reads the keys that only some device types have: the TEC OPTION function block, an extended diagnosis, two
+// resolutions, a display of its own.
 #include "parts.hpp"
 
-#include "dpslave/toml/wording.hpp"
+#include "dpslave/input/wording.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,11 +11,11 @@
 namespace dpslave::config {
 namespace {
 
+using input::Document;
+using input::Faults;
+using input::in_quotes;
+using input::Table;
 using profile::DiagForm;
-using toml::Document;
-using toml::Faults;
-using toml::in_quotes;
-using toml::Table;
 
 constexpr std::int64_t kHighestTag = 0xFFFF;
 
@@ -31,8 +31,8 @@ void read_lamp(Table& tec, const char* key, profile::MirroredLamp& lamp)
                             R"(lit while the bit is 0; "272" for any bit of the tag; or "none".)");
 }
 
-/// What a PC tool could set is taken, also what no operator station would: FAULT = PARAMETER shows it
-/// (B-049).
+/// Any value that a PC tool could set is accepted, also one that no operator station would: FAULT = PARAMETER
+/// shows it (B-049).
 void read_setting(Table& tec, std::string_view key, std::int32_t& setting)
 {
     if (const auto value = tec.integer(key, -32768, 65535)) setting = static_cast<std::int32_t>(*value);
@@ -65,16 +65,16 @@ void read_trip(Table& tec, profile::TripSource& trip)
                                    R"(quotes the tag whose low octet is the trip code.)");
 }
 
-/// In the block 0 is "no trip": that a tag is missing must be said elsewhere (X-50).
+/// In the block 0 is "no trip": a missing tag must be reported elsewhere (X-50).
 void warn_of_unknown_trips(const Document& document, const Table& table, const StationConfig& station,
                            Faults& warnings)
 {
     if (station.tec->trip.bit.tag != 0) return;
-    const toml::Place at = table.place();
-    warnings.push_back({document.name(), at.line, at.column,
-                        "trips of station " + in_quotes(station.name) +
-                            " are not known: its diagnosis says \"no trip\" whatever the drive does; set "
-                            "trip_tag in [station.tec] to the tag of the trip code, or to a bit."});
+    const input::Place at = table.place();
+    warnings.push_back(
+        {document.name(), at.line, at.column,
+         "trips of station " + in_quotes(station.name) +
+             " are not known: its diagnosis says \"no trip\" whatever the drive does; set trip_tag in [station.tec] to the tag of the trip code, or to a bit."});
 }
 
 void read_tec(Document& document, Table& table, StationConfig& station, Faults& warnings)
@@ -103,12 +103,11 @@ void read_tec(Document& document, Table& table, StationConfig& station, Faults& 
     read_lamp(tec, "health", config.health);
     read_lamp(tec, "run", config.run);
     if (config.start.ride_through != 0) {
-        const toml::Place at = tec.place_of("ride_through");
+        const input::Place at = tec.place_of("ride_through");
         warnings.push_back(
             {document.name(), at.line, at.column,
              "'ride_through' is " + std::to_string(config.start.ride_through) +
-                 ": setting it to anything other than 0 could compromise safety, because the outputs then "
-                 "keep their values after the connection to the master is lost."});
+                 ": setting it to anything other than 0 could compromise safety, because the outputs then keep their values after the connection to the master is lost."});
     }
     if (!station.profile || !station.profile->has_tec) return;
     if (const OptionFault fault = tec::fault(config.start, {}); fault != OptionFault::none)
@@ -138,8 +137,7 @@ void read_diagnosis(Table& table, StationConfig& station)
             table.refuse("diagnosis",
                          device + (form == DiagForm::none
                                        ? " has no extended diagnosis: remove [station.diagnosis]."
-                                       : " reports its trip, no status word: remove "
-                                         "[station.diagnosis]."));
+                                       : " reports its trip, no status word: remove [station.diagnosis]."));
         return;
     }
     Table diagnosis = table.table("diagnosis");
@@ -162,12 +160,12 @@ void set_decimals(drive::Tag& tag, std::uint8_t decimals)
     if (tag.max) tag.max = rescaled(*tag.max, tag.decimals, decimals, false);
     tag.decimals = decimals;
     tag.decimals_known = true;
+    tag.in_counts = false;
 }
 
 /// Integer resolution: a scaled value is read from the IEEE area, where it has its full value, and rounded.
 /// Whole numbers and times (INT) are whole in the normal area already, and are no singles in the IEEE area:
-/// they stay. That area has two registers a tag from 8000h on; what lies above tag 16383 is not in it and
-/// stays too.
+/// they stay. That area has two registers a tag from 8000h on; tags above 16383 are not in it and stay too.
 void make_integer(drive::Tag& tag)
 {
     constexpr std::uint16_t ieee_area = 0x8000;
@@ -175,6 +173,19 @@ void make_integer(drive::Tag& tag)
     if (number >= ieee_area / 2 && number < ieee_area) return;
     set_decimals(tag, 0);
     if (number < ieee_area) tag.modbus_register = static_cast<std::uint16_t>(ieee_area + 2 * number);
+}
+
+/// With integer resolution the display decimals do not matter: the IEEE area has full values whatever they
+/// say.
+void add_scale_registers(StationConfig& station, std::optional<std::int64_t> display_decimals)
+{
+    const profile::Profile& profile = *station.profile;
+    if (station.integer_resolution) return;
+    if (profile.resolution_tag != 0) station.scale_registers.push_back({.tag = profile.resolution_tag});
+    if (profile.display_decimals_tag != 0 && display_decimals)
+        station.scale_registers.push_back({.tag = profile.display_decimals_tag,
+                                           .expected = static_cast<std::uint16_t>(*display_decimals),
+                                           .only_display = true});
 }
 
 void read_resolution(Table& table, StationConfig& station)
@@ -191,18 +202,23 @@ void read_resolution(Table& table, StationConfig& station)
     const auto& rows = station.tags->all();
     const bool has_display =
         std::any_of(rows.begin(), rows.end(), [](const drive::Tag& tag) { return tag.follows_display; });
+    if (station.profile) add_scale_registers(station, decimals);
     if (table.has("display_decimals") && !has_display)
         table.refuse("display_decimals", "no tag of " + station.tag_file +
                                              " has decimals \"display\": remove 'display_decimals'.");
-    if (!station.integer_resolution && !decimals) return;
+    const bool scales = station.profile && station.profile->selectable_resolution;
+    if (!station.integer_resolution && !decimals && !scales) return;
 
     std::vector<drive::Tag> tags = rows;
+    if (scales) drive::mark_counts(tags);
     for (drive::Tag& tag : tags) {
         if (!tag.is_real) continue;
         if (station.integer_resolution)
             make_integer(tag);
-        else if (tag.follows_display)
+        else if (tag.follows_display && decimals)
             set_decimals(tag, static_cast<std::uint8_t>(*decimals));
+        else if (tag.follows_display)
+            tag.in_counts = scales; // nothing says how many decimals the display has
     }
     station.tags = std::make_shared<const drive::TagTable>(std::move(tags));
 }

@@ -7,8 +7,8 @@
 namespace dpslave::config {
 namespace {
 
-using toml::Document;
-using toml::Table;
+using input::Document;
+using input::Table;
 
 constexpr std::ptrdiff_t kMostLines = 126; ///< one for each station at most
 
@@ -16,8 +16,7 @@ constexpr std::ptrdiff_t kMostLines = 126; ///< one for each station at most
 void read_baud(Table& bus, BusConfig& config)
 {
     const std::string remedy =
-        "write \"auto\", or a rate in bit/s without quotes: 9600, 19200, 45450, 93750, "
-        "187500, 500000 or 1500000.";
+        "write \"auto\", or a rate in bit/s without quotes: 9600, 19200, 45450, 93750, 187500, 500000 or 1500000.";
     if (bus.is_text("baud")) {
         const auto text = bus.text("baud");
         if (text && *text != "auto") bus.refuse("baud", "'baud' \"" + *text + "\" is not a rate: " + remedy);
@@ -29,79 +28,30 @@ void read_baud(Table& bus, BusConfig& config)
 }
 
 /// Keys that are about answers: here they have no effect.
-void warn_of_answers(Document& document, const Table& bus, toml::Faults& warnings)
+void warn_of_answers(Document& document, const Table& bus, input::Faults& warnings)
 {
     for (const std::string_view key : {"max_tsdr", "echo"}) {
         if (!bus.has(key)) continue;
-        const toml::Place at = bus.place_of(key);
+        const input::Place at = bus.place_of(key);
         warnings.push_back({document.name(), at.line, at.column,
                             "'" + std::string{key} +
-                                "' means nothing with listen = true, because nothing is "
-                                "sent: remove it."});
+                                "' means nothing with listen = true, because nothing is sent: remove it."});
     }
 }
 
-/// A key that only another direction uses: here it has no effect.
-void warn_unused(Document& document, const Table& bus, std::string_view key, std::string_view direction,
-                 toml::Faults& warnings)
-{
-    if (!bus.has(key)) return;
-    const toml::Place at = bus.place_of(key);
-    warnings.push_back({document.name(), at.line, at.column,
-                        "'" + std::string{key} + "' means nothing with direction = \"" +
-                            std::string{direction} +
-                            "\": remove it, or choose the direction that it belongs to."});
-}
-
-void read_transceiver(Document& document, Table& bus, BusConfig& config, toml::Faults& warnings)
+/// A bus that is only listened to names the driver enable if there is one to be kept inactive.
+void read_transceiver(Document& document, Table& bus, BusConfig& config, input::Faults& warnings)
 {
     using io::Direction;
-    io::DriverEnableSettings& driver = config.driver_enable;
-    const auto direction = bus.choice<Direction>("direction", {{"gpio", Direction::gpio},
-                                                               {"kernel", Direction::kernel},
-                                                               {"rts", Direction::rts},
-                                                               {"none", Direction::none}});
-    driver.direction = direction.value_or(Direction::gpio);
-    // Who only listens names the driver enable if there is one to be kept inactive.
     const bool names_gpio = bus.has("gpio_chip") || bus.has("gpio_line");
-    const bool is_given = bus.has("direction");
-    if (!is_given && config.listen && !names_gpio) driver.direction = Direction::none;
-    const bool by_gpio = is_given ? direction == Direction::gpio // not of a direction that is wrong
-                                  : driver.direction == Direction::gpio;
-    if (by_gpio) {
-        constexpr const char* kHow = ", as `gpioinfo` shows it for the pin that enables the transceiver; or "
-                                     "direction = \"none\" for a transceiver that switches by itself";
-        bus.require("gpio_chip", std::string{R"(gpio_chip = "/dev/gpiochip0")"} + kHow);
-        bus.require("gpio_line", std::string{"gpio_line = 17"} + kHow);
-    }
-    driver.gpio_chip = bus.text("gpio_chip").value_or("");
-    driver.gpio_line = static_cast<unsigned>(bus.integer("gpio_line", 0, 65535).value_or(0));
-    driver.active_low = bus.boolean("gpio_active_low").value_or(false);
-    if (direction && !by_gpio) {
-        warn_unused(document, bus, "gpio_chip", text(*direction), warnings);
-        warn_unused(document, bus, "gpio_line", text(*direction), warnings);
-        if (*direction == Direction::none)
-            warn_unused(document, bus, "gpio_active_low", text(*direction), warnings);
-        driver.gpio_chip.clear();
-        driver.gpio_line = 0;
-    }
-
-    using fdl::EchoMode;
+    const Direction otherwise = config.listen && !names_gpio ? Direction::none : Direction::gpio;
+    config.driver_enable = read_driver_enable(document, bus, otherwise, warnings);
     config.echo =
         bus.choice<EchoMode>("echo",
                              {{"off", EchoMode::off}, {"on", EchoMode::on}, {"auto", EchoMode::automatic}})
             .value_or(EchoMode::off);
-    driver.receive_own = direction == Direction::kernel && config.echo == EchoMode::on;
-}
-
-std::optional<LineFormat> format_of(std::string_view text)
-{
-    if (text.size() != 3) return std::nullopt;
-    const bool legal = (text[0] == '7' || text[0] == '8') &&
-                       (text[1] == 'N' || text[1] == 'E' || text[1] == 'O') &&
-                       (text[2] == '1' || text[2] == '2');
-    if (!legal) return std::nullopt;
-    return LineFormat{text[0] - '0', text[1], text[2] - '0'};
+    config.driver_enable.receive_own =
+        config.driver_enable.direction == Direction::kernel && config.echo == EchoMode::on;
 }
 
 void read_protocol(Table& table, LineConfig& line)
@@ -119,15 +69,16 @@ void read_format(Table& table, LineConfig& line)
 {
     const auto text = table.text("format");
     if (!text) return;
-    const auto format = format_of(*text);
+    const auto format = drive::format_of(*text);
     if (!format)
-        table.refuse("format", "format \"" + *text +
-                                   "\": write data bits 7 or 8, parity N, E or O, stop bits 1 or 2, "
-                                   "as in \"7E1\".");
+        table.refuse("format",
+                     "format \"" + *text +
+                         "\": write data bits 7 or 8, parity N, E or O, stop bits 1 or 2, as in \"7E1\".");
     else if (line.protocol == kModbusRtu && format->data_bits != 8)
-        table.refuse("format", "format \"" + *text +
-                                   "\": Modbus RTU has 8 data bits; write \"8N1\", \"8E1\" or \"8O1\", as "
-                                   "the instrument is set.");
+        table.refuse(
+            "format",
+            "format \"" + *text +
+                "\": Modbus RTU has 8 data bits; write \"8N1\", \"8E1\" or \"8O1\", as the instrument is set.");
     else
         line.format = *format;
 }
@@ -138,13 +89,25 @@ void read_settle(Table& table, LineConfig& line)
     if (!settle) return;
     line.settle = std::chrono::milliseconds{*settle};
     if (line.settle != std::chrono::milliseconds{0} && line.settle < line.timeout)
-        table.refuse("settle_ms",
-                     "'settle_ms' is shorter than timeout_ms (" + std::to_string(line.timeout.count()) +
-                         "): an answer may come later than that. Write at least as much, or 0 for "
-                         "ten time-outs.");
+        table.refuse(
+            "settle_ms",
+            "'settle_ms' is shorter than timeout_ms (" + std::to_string(line.timeout.count()) +
+                "): an answer may come later than that. Write at least as much, or 0 for ten timeouts.");
 }
 
-ReadLine read_line(Table& table)
+/// The transceiver switches by itself unless the file says otherwise.
+void read_transceiver(Document& document, Table& table, LineConfig& line, input::Faults& warnings)
+{
+    line.driver_enable = read_driver_enable(document, table, io::Direction::none, warnings);
+    line.echo = table
+                    .choice<EchoMode>(
+                        "echo", {{"off", EchoMode::off}, {"on", EchoMode::on}, {"auto", EchoMode::automatic}})
+                    .value_or(EchoMode::off);
+    line.driver_enable.receive_own =
+        line.driver_enable.direction == io::Direction::kernel && line.echo == EchoMode::on;
+}
+
+ReadLine read_line(Document& document, Table& table, input::Faults& warnings)
 {
     ReadLine read;
     LineConfig& line = read.line;
@@ -161,17 +124,19 @@ ReadLine read_line(Table& table)
         line.timeout = std::chrono::milliseconds{*timeout};
     if (const auto retries = table.integer("retries", 0, 10)) line.retries = static_cast<int>(*retries);
     read_settle(table, line);
-    using drive::EchoMode;
-    line.echo = table
-                    .choice<EchoMode>(
-                        "echo", {{"off", EchoMode::off}, {"on", EchoMode::on}, {"auto", EchoMode::automatic}})
-                    .value_or(EchoMode::off);
+    using drive::WireTime;
+    line.wire_time =
+        table
+            .choice<WireTime>("wire_time",
+                              {{"auto", WireTime::automatic}, {"yes", WireTime::yes}, {"no", WireTime::no}})
+            .value_or(WireTime::automatic);
+    read_transceiver(document, table, line, warnings);
     return read;
 }
 
 } // namespace
 
-BusConfig read_bus(Document& document, toml::Faults& warnings)
+BusConfig read_bus(Document& document, input::Faults& warnings)
 {
     BusConfig config;
     Table root = document.root();
@@ -186,20 +151,20 @@ BusConfig read_bus(Document& document, toml::Faults& warnings)
     read_transceiver(document, bus, config, warnings);
     if (const auto tbit = bus.integer("max_tsdr", 0, 65535)) {
         config.max_tsdr = static_cast<std::uint32_t>(*tbit);
-        const toml::Place at = bus.place_of("max_tsdr");
+        const input::Place at = bus.place_of("max_tsdr");
         if (config.max_tsdr > 0 && config.max_tsdr < 11)
-            bus.refuse("max_tsdr",
-                       "'max_tsdr' is below 11 bit times, before which no station may answer: set 0 for the "
-                       "profile's value, or 11 and more.");
+            bus.refuse(
+                "max_tsdr",
+                "'max_tsdr' is below 11 bit times, before which no station may answer: set 0 for the profile's value, or 11 and more.");
         if (config.max_tsdr > 1000 && !config.listen)
-            warnings.push_back({document.name(), at.line, at.column,
-                                "'max_tsdr' is above 1000 bit times: many masters do not wait that long; "
-                                "check that the master's GSD states the same."});
+            warnings.push_back(
+                {document.name(), at.line, at.column,
+                 "'max_tsdr' is above 1000 bit times: many masters do not wait that long; check that the master's GSD states the same."});
     }
     if (config.listen) {
         warn_of_answers(document, bus, warnings);
         config.max_tsdr = 0;
-        config.echo = fdl::EchoMode::off;
+        config.echo = EchoMode::off;
         config.driver_enable.receive_own = false;
     }
     return config;
@@ -209,19 +174,40 @@ void refuse_beside_listen(Document& document, const std::vector<Table>& tables, 
 {
     if (tables.empty()) return;
     const unsigned line = document.root().table("bus").place_of("listen").line;
-    document.fault(tables.front().place(),
-                   "[[" + std::string{what} + "]] cannot stand beside listen = true on line " +
-                       std::to_string(line) +
-                       ": who only listens has no station and no drive line. Remove each [[line]] and "
-                       "[[station]], or remove 'listen'.");
+    document.fault(
+        tables.front().place(),
+        "[[" + std::string{what} + "]] is not allowed with listen = true on line " + std::to_string(line) +
+            ": who only listens has no station and no drive line. Remove each [[line]] and [[station]], or remove 'listen'.");
 }
 
-std::vector<ReadLine> read_lines(Document& document, const BusConfig& bus)
+/// The GPIO lines that switch transceivers, that of the bus first. `sysfs`: where it lies.
+class TransceiverLines {
+public:
+    explicit TransceiverLines(const std::filesystem::path& sysfs) : sysfs_(sysfs) {}
+    void check(Table& table, const io::DriverEnableSettings& driver)
+    {
+        if (driver.direction != io::Direction::gpio || driver.gpio_chip.empty() || !table.has("gpio_line"))
+            return;
+        lines_.check(table, "gpio_line", gpio_target(driver, sysfs_),
+                     "line " + std::to_string(driver.gpio_line) + " of GPIO chip \"" + driver.gpio_chip + '"',
+                     "it switches another transceiver; give each transceiver a GPIO line of its own");
+    }
+
+private:
+    const std::filesystem::path& sysfs_;
+    Unlike lines_;
+};
+
+std::vector<ReadLine> read_lines(Document& document, const BusConfig& bus, const std::filesystem::path& sysfs,
+                                 input::Faults& warnings)
 {
     std::vector<ReadLine> lines;
     Unlike names;
     Unlike ports;
+    TransceiverLines transceivers{sysfs};
     Table root = document.root();
+    Table bus_table = root.table("bus");
+    transceivers.check(bus_table, bus.driver_enable);
     std::vector<Table> tables = root.tables("line");
     if (bus.listen) refuse_beside_listen(document, tables, "line");
     if (std::ssize(tables) > kMostLines) {
@@ -230,7 +216,7 @@ std::vector<ReadLine> read_lines(Document& document, const BusConfig& bus)
         tables.erase(tables.begin() + kMostLines, tables.end());
     }
     for (Table& table : tables) {
-        ReadLine read = read_line(table);
+        ReadLine read = read_line(document, table, warnings);
         if (!read.line.name.empty())
             names.check(table, "name", read.line.name, "line name \"" + read.line.name + '"',
                         "give each line a name of its own");
@@ -241,10 +227,11 @@ std::vector<ReadLine> read_lines(Document& document, const BusConfig& bus)
                                          std::to_string(bus.port_line) +
                                          ": a drive line needs a tty of its own.");
             else
-                ports.check(table, "port", port, "port \"" + read.line.port + '"',
-                            "give each line a tty of its own; several drives on one tty are several stations "
-                            "with one line");
+                ports.check(
+                    table, "port", port, "port \"" + read.line.port + '"',
+                    "give each line a tty of its own; several drives on one tty are several stations with one line");
         }
+        transceivers.check(table, read.line.driver_enable);
         lines.push_back(std::move(read));
     }
     return lines;

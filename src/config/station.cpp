@@ -3,41 +3,21 @@
 #include "parts.hpp"
 
 #include "dpslave/base/printable.hpp"
+#include "dpslave/input/wording.hpp"
 #include "dpslave/io/led_sink.hpp"
-#include "dpslave/toml/wording.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 namespace dpslave::config {
 namespace {
 
+using input::Document;
+using input::in_quotes;
+using input::Place;
+using input::Table;
 using profile::Profile;
-using toml::Document;
-using toml::in_quotes;
-using toml::Place;
-using toml::Table;
 
 constexpr std::ptrdiff_t kMostStations = 126; ///< addresses of a bus, 0 to 125
-
-/// EI-ASCII: one hexadecimal digit for the group, one for the unit.
-std::optional<drive::UnitAddress> ei_unit(std::string_view text)
-{
-    std::uint8_t both = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), both, 16);
-    if (text.size() != 2 || error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return drive::UnitAddress{static_cast<std::uint8_t>(both >> 4), static_cast<std::uint8_t>(both & 15)};
-}
-
-/// Modbus: a slave address in decimal.
-std::optional<drive::UnitAddress> modbus_unit(std::string_view text)
-{
-    std::uint8_t address = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), address);
-    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    if (address < 1 || address > 247) return std::nullopt;
-    return drive::UnitAddress{.group = 0, .unit = address};
-}
 
 /// A number as it is written in a file: "12", "0x1F", "-5", "1.5".
 bool is_number(std::string_view name)
@@ -58,7 +38,7 @@ bool is_letter(std::uint32_t code)
            (!is_sign && (within(0xC0, 0x1FFF) || within(0x2C00, 0x2DFF) || within(0x3005, 0xD7FF)));
 }
 
-/// What stands on a command line as it is, and never looks like an option.
+/// Returns whether the name can be typed on a command line as it is, and never looks like an option.
 bool is_station_name(std::string_view name)
 {
     constexpr std::size_t longest = 32;
@@ -78,7 +58,7 @@ bool is_station_name(std::string_view name)
 class StationReader {
 public:
     StationReader(Document& document, const BusConfig& bus, const std::filesystem::path& sysfs,
-                  const std::vector<ReadLine>& lines, Shelf& shelf, toml::Faults& warnings)
+                  const std::vector<ReadLine>& lines, Shelf& shelf, input::Faults& warnings)
         : document_(document), bus_(bus), sysfs_(sysfs), lines_(lines), shelf_(shelf), warnings_(warnings)
     {}
 
@@ -92,9 +72,10 @@ public:
                          "station name " + in_quotes(station.name) +
                              " is a number, which dpctl would take for an address: begin it with a letter.");
         else if (!is_station_name(station.name))
-            table.refuse("name", "station name " + in_quotes(station.name) +
-                                     " cannot be used on a command line: use letters, digits, '_', '-' and "
-                                     "'.', 32 at most, and do not begin with '-'.");
+            table.refuse(
+                "name",
+                "station name " + in_quotes(station.name) +
+                    " cannot be used on a command line: use letters, digits, '_', '-' and '.', 32 at most, and do not begin with '-'.");
         if (!station.name.empty())
             names_.check(table, "name", station.name, "station name " + in_quotes(station.name),
                          "give each station a name of its own");
@@ -102,7 +83,8 @@ public:
         read_address(table, station);
         read_drive(table, station);
         read_behaviour(table, station);
-        read_personality(table, station);
+        const bool is_ei_ascii = line_known_ && lines_[station.line].line.protocol == kEiAscii;
+        read_personality(document_, table, bus_, is_ei_ascii, station, warnings_);
         const std::string_view protocol =
             line_known_ ? lines_[station.line].line.protocol : std::string_view{};
         read_tag_keys(document_, table, station, shelf_, protocol);
@@ -129,7 +111,7 @@ private:
         if (names.empty())
             what += "the folder holds no profile at all; name the right one with --profiles.";
         else
-            what += "write " + toml::listed(names) + ".";
+            what += "write " + input::listed(names) + ".";
         table.refuse("profile", std::move(what));
     }
 
@@ -153,8 +135,10 @@ private:
                                         in_quotes(station.profile->name) + ": choose one from " + range +
                                         ".");
         else if (*value <= 2)
-            warn(table.place_of("address"), text + ": masters and engineering tools usually have 0 to 2; "
-                                                   "check that no other device on the bus has it.");
+            warn(
+                table.place_of("address"),
+                text +
+                    ": masters and engineering tools usually have 0 to 2; check that no other device on the bus has it.");
         addresses_.check(table, "address", std::to_string(*value), text,
                          "give each station of the bus an address of its own");
     }
@@ -171,15 +155,15 @@ private:
         station.unit_text = *unit;
         if (!line_known_ || lines_[station.line].line.protocol.empty()) return; // said there already
         const bool modbus = lines_[station.line].line.protocol == kModbusRtu;
-        const auto parsed = modbus ? modbus_unit(*unit) : ei_unit(*unit);
+        const auto parsed =
+            drive::unit_of(modbus ? drive::LineProtocol::modbus_rtu : drive::LineProtocol::ei_ascii, *unit);
         if (!parsed) {
-            table.refuse("unit",
-                         "unit " + in_quotes(*unit) +
-                             (modbus ? ": write the Modbus address of the instrument, \"1\" to \"247\". The "
-                                       "instrument itself also takes 248 to 254, which Modbus reserves: "
-                                       "give it a lower one."
-                                     : ": write two hexadecimal digits, the group and the unit id of the "
-                                       "drive, as in \"00\"."));
+            table.refuse(
+                "unit",
+                "unit " + in_quotes(*unit) +
+                    (modbus
+                         ? ": write the Modbus address of the instrument, \"1\" to \"247\". The instrument itself also takes 248 to 254, which Modbus reserves: give it a lower one."
+                         : ": write two hexadecimal digits, the group and the unit id of the drive, as in \"00\"."));
             return;
         }
         station.unit = *parsed;
@@ -215,7 +199,7 @@ private:
         if (!line_known_) {
             table.refuse("line", "there is no line " + in_quotes(name) + ": " +
                                      (names.empty() ? "add a [[line]] with this name."
-                                                    : "write " + toml::listed(names) +
+                                                    : "write " + input::listed(names) +
                                                           ", or add a [[line]] with this name."));
             return;
         }
@@ -226,13 +210,21 @@ private:
         if (std::find(legal.begin(), legal.end(), protocol) == legal.end())
             table.refuse("line", "line " + in_quotes(name) + " speaks " + protocol +
                                      ", but a device of profile " + in_quotes(station.profile->name) +
-                                     " is reached by " + toml::listed(legal) + ": choose another line.");
+                                     " is reached by " + input::listed(legal) + ": choose another line.");
     }
 
     void read_behaviour(Table& table, StationConfig& station)
     {
         if (const auto seconds = table.real("output_refresh_s", 0, 86'400))
             station.output_refresh =
+                std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>{*seconds});
+        using drive::WhenLost;
+        if (const auto when = table.choice<WhenLost>(
+                "when_drive_lost",
+                {{"silent", WhenLost::silent}, {"diagnosis", WhenLost::diagnosis}, {"hold", WhenLost::hold}}))
+            station.loss.when = *when;
+        if (const auto seconds = table.real("drive_lost_after_s", 0.5, 600))
+            station.loss.after =
                 std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>{*seconds});
         enum class Loss : std::uint8_t { zero, hold };
         const auto loss = table.choice<Loss>("output_loss", {{"zero", Loss::zero}, {"hold", Loss::hold}});
@@ -241,68 +233,11 @@ private:
             table.refuse(
                 "output_loss",
                 "a device of profile " + in_quotes(station.profile->name) +
-                    " has a TEC OPTION function block, whose RIDE THROUGH alone decides what happens to "
-                    "the outputs: remove 'output_loss' and set ride_through in [station.tec].");
+                    " has a TEC OPTION function block, whose RIDE THROUGH alone decides what happens to the outputs: remove 'output_loss' and set ride_through in [station.tec].");
         else if (loss == Loss::zero)
             station.zero_after = std::chrono::nanoseconds{0};
         else if (loss == Loss::hold)
             station.zero_after.reset();
-    }
-
-    /// The profile's, with what this station and this bus say otherwise.
-    void read_personality(Table& table, StationConfig& station)
-    {
-        const auto ident = table.integer("ident", 1, 0xFFFF);
-        Table demand = table.table("demand");
-        const auto error_base = demand.integer("error_base", 0, 1);
-        using Reply = dp::ExtendedReply;
-        const auto extended =
-            demand.choice<Reply>("extended_reply", {{"table", Reply::table}, {"example", Reply::example}});
-        if (!station.profile) return;
-
-        dp::Personality personality = station.profile->personality;
-        if (!ident && !table.has("ident") && !station.profile->ident)
-            document_.fault(table.place(),
-                            "'ident' is missing in [[station]]: profile " + in_quotes(station.profile->name) +
-                                " has none, because no source states it; add ident = 0x.... with the number "
-                                "of the key Ident_Number in the GSD of the plant's PLC project.");
-        if (ident) personality.ident = static_cast<std::uint16_t>(*ident);
-        if (error_base && personality.demand == dp::DemandForm::none)
-            demand.refuse("error_base", "profile " + in_quotes(station.profile->name) +
-                                            " has no Demand Data: remove 'error_base'.");
-        if (error_base) personality.demand_error_base = static_cast<std::uint16_t>(*error_base);
-        if (demand.has("extended_reply") && personality.demand != dp::DemandForm::extended)
-            demand.refuse("extended_reply", "profile " + in_quotes(station.profile->name) +
-                                                " has no extended commands of Demand Data: remove "
-                                                "'extended_reply'.");
-        if (extended) personality.extended_reply = *extended;
-
-        if (bus_.baud && personality.max_tsdr[index_of(*bus_.baud)].count == 0)
-            table.refuse("profile", "profile " + in_quotes(station.profile->name) +
-                                        " does not support the rate of the bus, " +
-                                        std::to_string(static_cast<std::uint32_t>(*bus_.baud)) +
-                                        " bit/s: its [max_tsdr] does not list it.");
-        if (bus_.max_tsdr > 0) set_max_tsdr(personality, table);
-        personality.tries_outputs = line_known_ && lines_[station.line].line.protocol == kEiAscii;
-        station.personality = std::make_shared<const dp::Personality>(std::move(personality));
-    }
-
-    /// One for all rates; less than the GSD says is legal, and a warning.
-    void set_max_tsdr(dp::Personality& personality, const Table& table)
-    {
-        bool warned = false;
-        for (const Baud baud : kBauds) {
-            Tbit& each = personality.max_tsdr[index_of(baud)];
-            if (each.count == 0) continue;
-            const bool is_used = !bus_.baud || *bus_.baud == baud;
-            if (is_used && bus_.max_tsdr < each.count && !std::exchange(warned, true))
-                warn(table.place(), "'max_tsdr' in [bus] is below the " + std::to_string(each.count) +
-                                        " bit times of this station's profile at " +
-                                        std::to_string(static_cast<std::uint32_t>(baud)) +
-                                        " bit/s: answers that the master would still accept are suppressed. "
-                                        "Name the rate of the bus, or a max_tsdr that suits all rates.");
-            each = Tbit{bus_.max_tsdr};
-        }
     }
 
     void read_leds(Table& table, StationConfig& station)
@@ -328,13 +263,18 @@ private:
             return false;
         };
         if (const auto trouble = io::judge_led_sink(sink)) return refuse(*trouble + ".");
-        const io::DriverEnableSettings& driver = bus_.driver_enable;
-        const std::string drivers_line = "line:" + driver.gpio_chip + ':' + std::to_string(driver.gpio_line);
-        const bool is_drivers =
-            driver.direction == io::Direction::gpio &&
-            io::led_sink_target(sink, sysfs_) == io::led_sink_target(drivers_line, sysfs_);
-        return !is_drivers || refuse("this line switches the transceiver (gpio_line in [bus]): a lamp needs "
-                                     "a line of its own.");
+        const auto is_drivers = [&](const io::DriverEnableSettings& driver) {
+            return driver.direction == io::Direction::gpio &&
+                   io::led_sink_target(sink, sysfs_) == gpio_target(driver, sysfs_);
+        };
+        const std::string remedy = "): a lamp needs a line of its own.";
+        if (is_drivers(bus_.driver_enable))
+            return refuse("this line switches the transceiver (gpio_line in [bus]" + remedy);
+        for (const auto& [line, name_at] : lines_)
+            if (is_drivers(line.driver_enable))
+                return refuse("this line switches the transceiver of line " + in_quotes(line.name) +
+                              " (gpio_line in [[line]]" + remedy);
+        return true;
     }
 
     void warn(Place at, std::string what)
@@ -347,7 +287,7 @@ private:
     const std::filesystem::path& sysfs_;
     const std::vector<ReadLine>& lines_;
     Shelf& shelf_;
-    toml::Faults& warnings_;
+    input::Faults& warnings_;
     Unlike names_, addresses_, drives_, sinks_;
     bool line_known_ = false; ///< of the station being read
 };
@@ -357,7 +297,7 @@ private:
 std::vector<StationConfig> read_stations(Document& document, const BusConfig& bus,
                                          const std::filesystem::path& sysfs,
                                          const std::vector<ReadLine>& lines, Shelf& shelf,
-                                         toml::Faults& warnings)
+                                         input::Faults& warnings)
 {
     std::vector<StationConfig> stations;
     StationReader reader{document, bus, sysfs, lines, shelf, warnings};
@@ -367,16 +307,14 @@ std::vector<StationConfig> read_stations(Document& document, const BusConfig& bu
     if (std::ssize(tables) > kMostStations) {
         document.fault(
             tables[static_cast<std::size_t>(kMostStations)].place(),
-            "there are more stations than addresses on a bus (0 to 125): remove those that are too "
-            "many.");
+            "there are more stations than addresses on a bus (0 to 125): remove those that are too many.");
         tables.erase(tables.begin() + kMostStations, tables.end());
     }
     for (Table& table : tables) stations.push_back(reader.read(table));
     if (stations.empty() && !bus.listen)
         document.fault(
             {},
-            "there is no station: add a [[line]] with the drive's serial port and a [[station]] with name, "
-            "address, profile, line and unit. To only listen on the bus: write listen = true under [bus].");
+            "there is no station: add a [[line]] with the drive's serial port and a [[station]] with name, address, profile, line and unit. To only listen on the bus: write listen = true under [bus].");
     return stations;
 }
 

@@ -3,7 +3,7 @@
 // confirmed.
 #include "parts.hpp"
 
-#include "dpslave/toml/wording.hpp"
+#include "dpslave/input/wording.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -13,10 +13,10 @@
 namespace dpslave::config {
 namespace {
 
-using toml::Document;
-using toml::Faults;
-using toml::in_quotes;
-using toml::Table;
+using input::Document;
+using input::Faults;
+using input::in_quotes;
+using input::Table;
 
 /// "tag 5", "tags 5, 6 and 12 more".
 std::string listed_tags(const std::vector<std::uint16_t>& tags)
@@ -46,10 +46,10 @@ std::vector<std::uint16_t> tags_where(const drive::TagTable& table, bool (*is_so
     return found;
 }
 
-/// Of a table as a whole: two stations may name the same one, and it is said once.
+/// Warns of a complete table: two stations may name the same one, and the warning is given once.
 void warn_of_table(const StationConfig& station, const std::string& what, Faults& warnings)
 {
-    const bool is_said = std::any_of(warnings.begin(), warnings.end(), [&](const toml::Fault& known) {
+    const bool is_said = std::any_of(warnings.begin(), warnings.end(), [&](const input::Fault& known) {
         return known.file == station.tag_file && known.what == what;
     });
     if (!is_said) warnings.push_back({station.tag_file, 0, 0, what});
@@ -68,6 +68,25 @@ void warn_of_tags_without_mnemonic(const StationConfig& station, Faults& warning
             ": they read as invalid tag; fill in column mnemonic, or set mnemonic_rule in profile " +
             in_quotes(station.profile->name) + ".",
         warnings);
+}
+
+/// No source says that the device follows the rule of its profile, and the table needs the rule (X-52).
+void warn_of_assumed_rule(Document& document, const Table& table, const StationConfig& station,
+                          Faults& warnings)
+{
+    const profile::Profile& profile = *station.profile;
+    const auto& rows = station.tags->all();
+    const bool needs_rule = rows.empty() || std::any_of(rows.begin(), rows.end(), [](const drive::Tag& tag) {
+                                return tag.type != drive::TagType::string && tag.mnemonic.empty();
+                            });
+    if (!profile.mnemonics_assumed || !needs_rule) return;
+    const input::Place at = table.place();
+    warnings.push_back(
+        {document.name(), at.line, at.column,
+         "the mnemonic rule of profile " + in_quotes(profile.name) + " is assumed" +
+             (profile.mnemonic_source.empty() ? std::string{} : " (" + profile.mnemonic_source + ")") +
+             ": if the drive of station " + in_quotes(station.name) +
+             " follows another rule, it denies its tags and data exchange does not start."});
 }
 
 /// A mnemonic of the table that the rule gives to another tag of it: one parameter under two scales.
@@ -92,11 +111,11 @@ void warn_of_unknown_scales(const StationConfig& station, Faults& warnings)
 {
     const auto bare = tags_where(*station.tags, [](const drive::Tag& tag) { return !tag.decimals_known; });
     if (!bare.empty())
-        warn_of_table(station,
-                      listed_tags(bare) + (bare.size() == 1 ? " is a number" : " are numbers") +
-                          " without decimals: over EI-ASCII the scale is not known, and data exchange does "
-                          "not start while a master chooses such a tag; fill in column decimals.",
-                      warnings);
+        warn_of_table(
+            station,
+            listed_tags(bare) + (bare.size() == 1 ? " is a number" : " are numbers") +
+                " without decimals: over EI-ASCII the scale is not known, and data exchange does not start while a master chooses such a tag; fill in column decimals.",
+            warnings);
 }
 
 /// Rows that a survey wrote.
@@ -117,18 +136,37 @@ void warn_of_no_table(Document& document, const Table& table, const StationConfi
 {
     const std::string without =
         "station " + in_quotes(station.name) + " has no tag table (" + station.tag_file + " has no rows): ";
-    const toml::Place at = table.place();
+    const input::Place at = table.place();
     std::string what =
         without + "its tags go to and from the instrument as they are, 16 bits without a name.";
     if (is_text && station.unlisted_decimals)
         what = without + "every number of its drive is taken with " +
                std::to_string(*station.unlisted_decimals) + " decimals, as 'unlisted_decimals' says.";
     else if (is_text)
-        what = without +
-               "the scale of its drive's numbers is not known, and data exchange does not start while a "
-               "master chooses a tag that answers with one; name a table with 'tags', or set "
-               "'unlisted_decimals'.";
+        what =
+            without +
+            "the scale of its drive's numbers is not known, and data exchange does not start while a master chooses a tag that answers with one; name a table with 'tags', or set 'unlisted_decimals'.";
     warnings.push_back({document.name(), at.line, at.column, what});
+}
+
+} // namespace
+
+namespace {
+
+/// A technology box says so itself, with DATA EX ERROR and its access error, and exchanges data all the same.
+void read_denied_tags(Table& table, StationConfig& station)
+{
+    using drive::DeniedHold;
+    const auto said = table.choice<DeniedHold>(
+        "denied_tags", {{"refuse", DeniedHold::where_one}, {"zero", DeniedHold::where_all}});
+    const bool is_box = station.profile && station.profile->has_tec;
+    if (is_box && said == DeniedHold::where_one)
+        table.refuse(
+            "denied_tags",
+            "a technology box (profile " + in_quotes(station.profile->name) +
+                ") exchanges data also with a tag that its drive denies: write \"zero\", or remove 'denied_tags'.");
+    if (station.profile) station.denied_holds = station.profile->denied_holds;
+    if (said && !is_box) station.denied_holds = *said;
 }
 
 } // namespace
@@ -149,11 +187,13 @@ void read_tag_keys(Document& document, Table& table, StationConfig& station, She
         station.unlisted_decimals = static_cast<std::uint8_t>(*decimals);
     station.unscaled_holds =
         table.choice<bool>("unscaled_tags", {{"refuse", true}, {"zero", false}}).value_or(true);
+    read_denied_tags(table, station);
     for (const char* const key : {"unlisted_decimals", "unscaled_tags"})
         if (protocol == kModbusRtu && table.has(key))
-            table.refuse(key, "'" + std::string{key} +
-                                  "' has a meaning only on an EI-ASCII line, where numbers travel as text: "
-                                  "remove it.");
+            table.refuse(
+                key,
+                "'" + std::string{key} +
+                    "' has a meaning only on an EI-ASCII line, where numbers travel as text: remove it.");
 }
 
 void read_write_limits(Table& table, StationConfig& station)
@@ -166,10 +206,10 @@ void read_write_limits(Table& table, StationConfig& station)
         const auto tag = tag_number(key);
         const drive::Tag* const row = tag ? station.tags->find(*tag) : nullptr;
         if (row == nullptr || !row->confirmed || !row->decimals_known) {
-            limits.refuse(key, "tag " + in_quotes(key) +
-                                   " has no limits that can be checked: " + station.tag_file +
-                                   " has no confirmed row with its type and decimals. Complete the row, or "
-                                   "remove the limits.");
+            limits.refuse(
+                key,
+                "tag " + in_quotes(key) + " has no limits that can be checked: " + station.tag_file +
+                    " has no confirmed row with its type and decimals. Complete the row, or remove the limits.");
             continue;
         }
         const auto range =
@@ -177,10 +217,11 @@ void read_write_limits(Table& table, StationConfig& station)
         if (range)
             station.write_limits[*tag] = *range;
         else
-            limits.refuse(key, "the limits of tag " + key +
-                                   " are wrong: write the smallest and the largest value as the drive "
-                                   "displays them, within the limits of " +
-                                   station.tag_file + R"(, as in )" + key + R"( = ["0.0", "50.0"].)");
+            limits.refuse(
+                key,
+                "the limits of tag " + key +
+                    " are wrong: write the smallest and the largest value as the drive displays them, within the limits of " +
+                    station.tag_file + R"(, as in )" + key + R"( = ["0.0", "50.0"].)");
     }
 }
 
@@ -192,6 +233,7 @@ void judge_tags(Document& document, Table& table, const StationConfig& station, 
     if (station.tags->all().empty()) warn_of_no_table(document, table, station, is_text, warnings);
     warn_of_unconfirmed_rows(station, is_text, warnings);
     if (!is_text) return;
+    warn_of_assumed_rule(document, table, station, warnings);
     warn_of_tags_without_mnemonic(station, warnings);
     warn_of_unknown_scales(station, warnings);
     refuse_shared_mnemonics(document, table, station);

@@ -12,9 +12,12 @@
 namespace dpslave::configurator {
 namespace {
 
-Outcome wrong(std::string sentence)
+/// `field`: the key of the mapping that is wrong; empty: another thing is.
+Outcome wrong(std::string sentence, const std::string& field = {})
 {
-    return {.exit = kUsage, .refusals = {std::move(sentence)}};
+    Outcome outcome{.exit = kUsage, .refusals = {std::move(sentence)}};
+    if (!field.empty()) outcome.facts = text_of({{"field", field}});
+    return outcome;
 }
 
 constexpr std::size_t kMostBase64 = (kMostOctets + 2) / 3 * 4;
@@ -22,7 +25,7 @@ constexpr std::string_view kOwnTable = "own table/"; ///< the folder of the tabl
 
 class Request {
 public:
-    Request(const Json& request, const toml::TextSource& source)
+    Request(const Json& request, const input::TextSource& source)
         : request_(request),
           source_(source),
           with_table_([this](const std::string& name) -> Result<std::string, Unreadable> {
@@ -83,7 +86,7 @@ private:
         return found != request_.end() && found->is_boolean() && found->get<bool>();
     }
 
-    /// Of `index.txt`, those in `folder` with `extension`, without both.
+    /// Returns the names from `index.txt` that are in `folder` and have `extension`, without both.
     std::vector<std::string> names_in(std::string_view folder, std::string_view extension) const
     {
         std::vector<std::string> names;
@@ -130,11 +133,11 @@ private:
     Outcome make_file()
     {
         const auto wanted = read_mapping(request_);
-        if (!wanted) return wrong(wanted.error());
+        if (!wanted) return wrong(wanted.error().sentence, wanted.error().key);
         return make(files(), *wanted, table(), text("name"));
     }
 
-    /// As make_file(); that there would be no file is no failure.
+    /// Does the same as make_file(); but it is no failure if there would be no file.
     Outcome preview()
     {
         Outcome outcome = make_file();
@@ -151,7 +154,11 @@ private:
     Outcome import_of_file()
     {
         const auto file = octets("file");
-        return file ? import_file(files(), *file, text("profile"), table()) : no_file("file");
+        const auto cfg = profile::read_hex_octets(text("cfg")).value_or(std::vector<std::uint8_t>{});
+        return file ? import_file(
+                          files(), *file,
+                          {.profile = text("profile"), .table = table(), .cfg = cfg, .lossy = flag("lossy")})
+                    : no_file("file");
     }
 
     Outcome diff_files()
@@ -165,7 +172,7 @@ private:
     Outcome write_mapping()
     {
         const auto mapping = read_mapping(request_);
-        if (!mapping) return wrong(mapping.error());
+        if (!mapping) return wrong(mapping.error().sentence, mapping.error().key);
         profile::Mapping whole = *mapping;
         if (!table().empty()) whole.table = profile::OwnTable{table_name(), text("table")};
         Outcome outcome;
@@ -227,18 +234,26 @@ private:
     Outcome check_file()
     {
         const auto file = octets("file");
-        return file ? check(*file, text("name"), flag("strict")) : no_file("file");
+        if (!file) return no_file("file");
+        CheckOptions how{.strict = flag("strict"), .profile = text("profile"), .table = table()};
+        if (request_.contains("mapping")) { // the station that it is for has its keys
+            const auto mapping = read_mapping(request_);
+            if (!mapping) return wrong(mapping.error().sentence, mapping.error().key);
+            how.profile = mapping->profile;
+            how.keys = mapping->selection.keys();
+        }
+        return check(files(), *file, text("name"), how);
     }
 
-    static void refuse(Outcome& outcome, const toml::Faults& faults)
+    static void refuse(Outcome& outcome, const input::Faults& faults)
     {
         outcome.exit = kNo;
-        for (const toml::Fault& fault : faults) outcome.messages.push_back(to_string(fault));
+        for (const input::Fault& fault : faults) outcome.messages.push_back(to_string(fault));
     }
 
     const Json& request_;
-    const toml::TextSource& source_;
-    const toml::TextSource with_table_;
+    const input::TextSource& source_;
+    const input::TextSource with_table_;
 };
 
 } // namespace
@@ -254,7 +269,7 @@ std::string reply_of(const Outcome& outcome)
     return text_of(reply);
 }
 
-std::string call(std::string_view request, const toml::TextSource& source)
+std::string call(std::string_view request, const input::TextSource& source)
 {
     const Json read = Json::parse(request, nullptr, false);
     return reply_of(read.is_object() ? Request{read, source}.answer()

@@ -2,6 +2,7 @@
 #include "device.hpp"
 
 #include "facts.hpp"
+#include "plant_keys.hpp"
 
 #include <algorithm>
 
@@ -20,7 +21,7 @@ std::optional<profile::Profile> load(const Files& files, const std::string& name
     auto profile = profile::load_profile(files.source, files.profiles, name);
     if (profile) return *std::move(profile);
     outcome.exit = kNo;
-    for (const toml::Fault& fault : profile.error()) outcome.messages.push_back(to_string(fault));
+    for (const input::Fault& fault : profile.error()) outcome.messages.push_back(to_string(fault));
     if (!files.names.empty() &&
         std::find(files.names.begin(), files.names.end(), name) == files.names.end()) {
         std::string there;
@@ -30,11 +31,11 @@ std::optional<profile::Profile> load(const Files& files, const std::string& name
     return std::nullopt;
 }
 
-std::optional<drive::TagTable> taken(Result<drive::TagTable, toml::Faults> tags, Outcome& outcome)
+std::optional<drive::TagTable> taken(Result<drive::TagTable, input::Faults> tags, Outcome& outcome)
 {
     if (tags) return *std::move(tags);
     outcome.exit = kNo;
-    for (const toml::Fault& fault : tags.error()) outcome.refusals.push_back(to_string(fault));
+    for (const input::Fault& fault : tags.error()) outcome.refusals.push_back(to_string(fault));
     return std::nullopt;
 }
 
@@ -63,11 +64,14 @@ std::optional<profile::Profile> load(const Files& files, const profile::Mapping&
 }
 
 gsd::MapHints hints_of(const Files& files, const std::string& profile, const std::string& table,
-                       Outcome& outcome)
+                       const gsd::Document& document, Outcome& outcome)
 {
     if (!profile.empty()) {
         const auto device = load(files, profile, table, outcome);
-        return device ? hints_of(*device) : gsd::MapHints{};
+        if (!device) return {};
+        gsd::MapHints hints = hints_of(*device);
+        if (const auto at = plant_keys(*device, document).keys.tags_at) hints.tags_at = at;
+        return hints;
     }
     gsd::MapHints hints;
     if (table.empty()) return hints;

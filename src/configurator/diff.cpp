@@ -26,15 +26,23 @@ Outcome diff(const Files& files, std::string_view left, std::string_view right, 
 {
     Outcome outcome;
     const gsd::Document of_left = gsd::parse(left), of_right = gsd::parse(right);
-    if (!of_left.has_section) outcome.refusals.emplace_back("the first file is no GSD file.");
-    if (!of_right.has_section) outcome.refusals.emplace_back("the second file is no GSD file.");
+    if (!of_left.has_section) outcome.refusals.push_back("the first file: " + not_read(of_left));
+    if (!of_right.has_section) outcome.refusals.push_back("the second file: " + not_read(of_right));
     outcome.exit = outcome.refusals.empty() ? kFine : kNo;
     if (outcome.exit != kFine) return outcome;
-    const gsd::MapHints hints = hints_of(files, profile, table, outcome);
+    say_unread(of_left, "the first file: ", outcome);
+    say_unread(of_right, "the second file: ", outcome);
+    gsd::MapHints left_hints = hints_of(files, profile, table, of_left, outcome),
+                  right_hints = hints_of(files, profile, table, of_right, outcome);
     if (outcome.exit != kFine) return outcome;
+    for (gsd::MapHints* hints : {&left_hints, &right_hints}) {
+        add_names(*hints, left);
+        add_names(*hints, right);
+    }
 
     std::vector<Difference> all = differences(of_left, of_right);
-    for (Difference& one : map_differences(gsd::io_map(of_left, hints), gsd::io_map(of_right, hints)))
+    for (Difference& one :
+         map_differences(gsd::io_map(of_left, left_hints), gsd::io_map(of_right, right_hints)))
         all.push_back(std::move(one));
     Json meaning = Json::array(), text = Json::array();
     for (const Difference& one : all) {

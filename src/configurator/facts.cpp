@@ -8,10 +8,10 @@
 namespace dpslave::configurator {
 namespace {
 
-Json list_of(const std::vector<profile::Parameter>& parameters)
+Json list_of(const std::vector<profile::GsdParameter>& parameters)
 {
     Json list = Json::array();
-    for (const profile::Parameter& parameter : parameters) list.push_back(to_string(parameter));
+    for (const profile::GsdParameter& parameter : parameters) list.push_back(to_string(parameter));
     return list;
 }
 
@@ -51,6 +51,12 @@ std::string text_of(const Json& value)
     return value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+std::string not_read(const gsd::Document& document)
+{
+    const gsd::Remark& why = document.not_read;
+    return why.line == 0 ? why.what : "line " + std::to_string(why.line) + ": " + why.what;
+}
+
 Json findings_of(const gsd::Findings& findings)
 {
     Json all = Json::array();
@@ -70,6 +76,20 @@ void add_mapping(Json& facts, const profile::Mapping& mapping)
     if (selection.max_tsdr) all["max_tsdr"] = *selection.max_tsdr;
     if (selection.description) all["description"] = *selection.description;
     if (selection.model) all["model"] = *selection.model;
+    if (selection.tags) all["tags"] = *selection.tags;
+    if (selection.tags_at) all["tags_at"] = *selection.tags_at;
+    for (const dp::Identifier& one : selection.identifiers)
+        all["identifiers"].push_back(profile::to_string(one));
+    for (const profile::PlantModule& module : selection.modules)
+        all["modules"].push_back({{"name", module.name},
+                                  {"identifiers", profile::hex_octets(module.identifiers)},
+                                  {"preset", module.preset}});
+    const profile::PlantLengths& lengths = selection.lengths;
+    for (const auto& [key, length] :
+         {std::pair{"user_prm_data_len", lengths.user_prm_data}, std::pair{"max_module", lengths.max_module},
+          std::pair{"max_input_len", lengths.max_input}, std::pair{"max_output_len", lengths.max_output},
+          std::pair{"max_data_len", lengths.max_data}})
+        if (length) all[key] = *length;
     facts["mapping"] = all;
     if (!mapping.table) return;
     facts["table"] = mapping.table->text;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dpslave/base/bytes.hpp"
+#include "dpslave/configurator/configurator.hpp"
 #include "dpslave/gsd/check.hpp"
 #include "dpslave/gsd/io_map.hpp"
 #include "dpslave/profile/gsd_device.hpp"
@@ -16,6 +17,7 @@
 namespace dpslave::configurator {
 
 using Json = nlohmann::ordered_json;
+struct Outcome;
 
 constexpr std::size_t kMostOctets = std::size_t{1024} * 1024; ///< of a file, as dpctl reads at most
 
@@ -28,19 +30,31 @@ std::string line_of(std::string_view path, const gsd::Finding& finding);
 std::string summary(const gsd::Findings& findings);
 
 bool any_error(const gsd::Findings& findings);
+/// Returns what is remarkable about the form of a file. `path` as in check().
+gsd::Findings form_of(const gsd::Document& document, std::string_view path, bool strict);
+/// Their lines and their summary; kNo where one is an error.
+void add_findings(Outcome& outcome, std::string_view path, const gsd::Findings& findings);
+/// Returns nullopt if no modules are given, or if a name is wrong; `why` then says which.
+std::optional<std::vector<const gsd::Module*>>
+modules_asked(const gsd::Document& document, const std::vector<std::string>& names, std::string& why);
 
 Json findings_of(const gsd::Findings& findings);
+/// Adds the sentences of the check on the lines of an opened file that are not understood: what follows goes
+/// on without them. `whose`: "the first file: ", or empty.
+void say_unread(const gsd::Document& document, std::string_view whose, Outcome& outcome);
+/// Why nothing was read of a file, with the line.
+std::string not_read(const gsd::Document& document);
 /// `mapping`, and `table` with `table_name` where it has one.
 void add_mapping(Json& facts, const profile::Mapping& mapping);
 Json profile_of(const profile::Profile& profile);
 
 Json tag_of(const profile::Profile& profile, const drive::Tag& tag);
 Json facts_of(const gsd::IoMap& map);
-/// What the page shows of a selection while it is being made.
-Json preview_of(const profile::Profile& profile, const profile::Draft& draft, bool demand);
+/// Returns what the page shows of a selection while it is being made. `name`: of the file, without folders;
+/// empty: not judged.
+Json preview_of(const profile::Profile& profile, const profile::Draft& draft, bool demand,
+                std::string_view name);
 
-/// Chk_Cfg: the identifiers of the plugged modules.
-std::vector<std::uint8_t> identifiers_of(const gsd::Document& document);
 gsd::MapHints hints_of(const profile::Profile& profile);
 
 std::string hex_of(std::uint32_t word); ///< "0x0533"

@@ -1,100 +1,58 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a GSD file to the mapping that makes it: what the profile says is not repeated, what it cannot say is
-// named.
+// Makes from a GSD file the mapping that makes it: what the profile says is not repeated, what it cannot say
+// is named.
 #include "import.hpp"
 
 #include "device.hpp"
 #include "facts.hpp"
 #include "mapping.hpp"
 #include "meaning.hpp"
+#include "plant_keys.hpp"
+#include "recognise.hpp"
+#include "verdict.hpp"
 
+#include "dpslave/base/letters.hpp"
 #include "dpslave/base/printable.hpp"
+#include "dpslave/gsd/sent.hpp"
 
 #include <algorithm>
 
 namespace dpslave::configurator {
 namespace {
 
-std::string joined(const std::vector<std::string>& names)
+/// Returns the profile that the file is for; if it is empty, `outcome` says why that is not known.
+std::string find_profile(const Files& files, std::string_view file, const gsd::Document& document,
+                         Outcome& outcome)
 {
-    std::string all;
-    for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
-    return all;
-}
-
-/// Its words in capital letters.
-std::vector<std::string> words_of(const std::string& text)
-{
-    std::vector<std::string> words(1);
-    for (const char c : text)
-        if (c == ' ')
-            words.emplace_back();
-        else
-            words.back() += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-    std::erase(words, "");
-    return words;
-}
-
-/// "EUROTHERM" and "EUROTHERM CONTROLS" may be one vendor: they share a word.
-bool may_be_same_vendor(const std::string& a, const std::string& b)
-{
-    const std::vector<std::string> ours = words_of(b), theirs = words_of(a);
-    return std::find_first_of(theirs.begin(), theirs.end(), ours.begin(), ours.end()) != theirs.end();
-}
-
-/// Which profiles a file may be of. 0x0533 is three profiles and several have no ident (C-033), so one is
-/// found only where ident and model fit together. A profile without ident takes no file of another vendor.
-struct Candidates {
-    std::vector<std::string> both, ident, model, open;
-
-    void add(const profile::Profile& profile, const gsd::Document& document)
-    {
-        const bool same_ident = profile.ident && document.number("Ident_Number") == *profile.ident;
-        const bool same_model = document.text("Model_Name") == gsd::latin1(profile.gsd.model);
-        if (same_ident && same_model) both.push_back(profile.name);
-        if (same_ident) ident.push_back(profile.name);
-        if (!profile.ident && same_model) model.push_back(profile.name);
-        if (!profile.ident &&
-            may_be_same_vendor(document.text("Vendor_Name"), gsd::latin1(profile.gsd.vendor)))
-            open.push_back(profile.name);
-    }
-
-    const std::vector<std::string>& narrowest() const
-    {
-        for (const auto* names : {&both, &ident, &model})
-            if (!names->empty()) return *names;
-        return open;
-    }
-};
-
-std::string find_profile(const Files& files, const gsd::Document& document, Outcome& outcome)
-{
-    Candidates candidates;
-    for (const std::string& name : files.names)
-        if (const auto profile = profile::load_profile(files.source, files.profiles, name))
-            candidates.add(*profile, document);
-    if (candidates.both.size() == 1) return candidates.both.front();
-    const std::vector<std::string>& names = candidates.narrowest();
+    const Recognised found = recognise(files, file, document);
+    if (found.profiles.size() == 1 && !found.is_guess) return found.profiles.front().name;
     outcome.exit = kNo;
     const std::string ident = "Ident_Number " + hex_of(document.number("Ident_Number").value_or(0));
     const std::string model = "Model_Name \"" + printable(document.text("Model_Name")) + '"';
-    if (names.empty()) {
+    if (found.profiles.empty()) {
         outcome.refusals.push_back("the file is for another device: no profile has " + ident + ", " + model +
                                    " or Vendor_Name \"" + printable(document.text("Vendor_Name")) +
                                    "\". Choose the GSD file of a device that has a profile.");
         return {};
     }
-    outcome.facts = text_of({{"candidates", names}});
+    Json candidates = Json::array();
+    std::string names;
+    for (const profile::Profile& profile : found.profiles) {
+        candidates.push_back(profile.name);
+        names += (names.empty() ? "" : ", ") + profile.name;
+    }
+    outcome.facts = text_of({{"candidates", candidates}});
     outcome.refusals.push_back("the file does not say which device it is for: " + ident + " and " + model +
-                               " do not belong to one profile alone. Name the profile, one of " +
-                               joined(names) + '.');
+                               " do not belong to one profile alone. Name the profile, one of " + names +
+                               '.');
     return {};
 }
 
 class Importer {
 public:
-    Importer(const gsd::Document& document, const profile::Profile& profile)
-        : document_(document), profile_(profile)
+    /// `cfg`: the master's last Chk_Cfg; empty = not known.
+    Importer(const gsd::Document& document, const profile::Profile& profile, std::vector<std::uint8_t> cfg)
+        : document_(document), profile_(profile), cfg_(std::move(cfg))
     {
         mapping_.profile = profile.name;
     }
@@ -103,10 +61,16 @@ public:
     {
         identity();
         parameters();
-        max_tsdr();
+        if (refused_.empty()) {
+            max_tsdr();
+            own_modules();
+            own_lengths();
+        }
         if (!refused_.empty()) return Failure{std::move(refused_)};
         return std::move(mapping_);
     }
+    /// Returns what a person has to know of it.
+    const std::vector<std::string>& remarks() const { return remarks_; }
 
 private:
     std::optional<std::string> text(std::string_view keyword) const
@@ -137,56 +101,123 @@ private:
             selection.description = text("Info_Text");
     }
 
+    bool is_fixed() const { return gsd::plugging_of(document_) == gsd::Plugging::fixed; }
+
+    /// Sets the parameters as the station accepts them, with the keys that it needs for this file.
     void parameters()
     {
-        const dp::Personality& personality = profile_.personality;
-        const std::vector<std::uint8_t> identifiers = identifiers_of(document_);
-        const std::vector<std::uint8_t> prm = document_.user_prm_data();
-        std::size_t at = personality.prm.tags_at;
-        if (!identifiers.empty()) mapping_.selection.list.emplace(); // else the master's tool chooses
-        for (std::size_t i = 0; i < identifiers.size(); ++i) {
-            if (i == 0 && personality.demand_identifier != 0 &&
-                identifiers[0] == personality.demand_identifier) {
-                mapping_.selection.demand = true;
-                continue;
-            }
-            const auto direction = direction_of(identifiers[i]);
-            if (!direction) {
-                refused_.push_back("identifier " + std::to_string(i + 1) + " of the modules, " +
-                                   hex_of(identifiers[i]).replace(2, 2, "") + ", is none of the profile " +
-                                   profile_.name + ": is the file for another device?");
-                return;
-            }
-            const std::uint16_t tag = at + 2 <= prm.size() ? be16(prm, at) : std::uint16_t{0};
-            if (tag == 0) {
-                refused_.push_back(
-                    "parameter " + std::to_string(mapping_.selection.list->size() + 1) +
-                    " has no tag in User_Prm_Data: the file leaves it to the master's tool, or it "
-                    "is for another device than the profile " +
-                    profile_.name + '.');
-                return;
-            }
-            mapping_.selection.list->push_back({*direction, tag});
-            at += 2;
+        modules_can_be_read();
+        const bool asks = !cfg_.empty() && !is_fixed();
+        if (asks) known_ = gsd::modules_in(document_, cfg_);
+        const auto& modules = known_;
+        if (asks && !modules)
+            refused_.push_back("the Chk_Cfg " + profile::hex_octets(cfg_) +
+                               " is not made of the modules of the file.");
+        if (!refused_.empty()) return;
+        const PlantKeys found = plant_keys(profile_, document_, modules);
+        const profile::FileVerdict& verdict = found.verdict;
+        if (verdict.refused)
+            refuse(found);
+        else if (found.is_ambiguous)
+            refused_.emplace_back(
+                "the file does not say where in User_Prm_Data its tags begin: several places would do. Ask who made the file, and write a mapping with tags_at.");
+        else if (!is_fixed() && !modules && verdict.other_lists && gsd::any_own_parameters(document_))
+            refused_.emplace_back(
+                "the modules of the file bring parameters of their own: what is sent depends on the modules of the master's project. Give the Chk_Cfg that the master sends.");
+        if (!refused_.empty()) return;
+        profile::Selection& selection = mapping_.selection;
+        selection.tags_at = found.keys.tags_at;
+        selection.identifiers = found.keys.identifiers;
+        if (const std::string names = names_of(found.keys); !names.empty())
+            remarks_.push_back("the station takes this file only with " + names +
+                               " of the mapping: write into its [[station]] what is there.");
+        if (verdict.tags_are_open) return; // the master's project has them
+        const bool is_known = is_fixed() || modules || !verdict.other_lists;
+        selection.demand = is_known && verdict.taken.demand;
+        std::vector<profile::GsdParameter> words = profile::parameters_of(verdict.taken);
+        if (is_known) {
+            selection.list = std::move(words);
+        } else if (!words.empty()) {
+            selection.tags.emplace();
+            for (const profile::GsdParameter& word : words) selection.tags->push_back(word.tag);
+            remarks_.emplace_back(
+                "the directions of the tags are in the master's project: its modules say them.");
         }
     }
 
-    std::optional<profile::Direction> direction_of(std::uint8_t octet) const
+    /// One that cannot be read is never left out.
+    void modules_can_be_read()
     {
-        for (const dp::Identifier& each : profile_.personality.identifiers)
-            if (each.octet == octet)
-                return each.reads && each.writes ? profile::Direction::in_out
-                       : each.reads              ? profile::Direction::in
-                                                 : profile::Direction::out;
-        return std::nullopt;
+        for (const gsd::Module& module : document_.modules)
+            if (module.identifiers.empty())
+                refused_.push_back("line " + std::to_string(module.line) +
+                                   ": the identifiers of the module \"" + utf8_of_latin1(module.name) +
+                                   "\" cannot be read: correct the line, or remove the module.");
+    }
+
+    void refuse(const PlantKeys& found)
+    {
+        const profile::Refused& why = *found.verdict.refused;
+        std::string words = why.line > 0 ? "line " + std::to_string(why.line) + ": " : "";
+        words += sentence(why) + ' ';
+        if (!found.verdict.limit.empty()) words += found.verdict.limit + ' ';
+        for (const std::string& one : found.no_identifiers)
+            words += "An identifier of its modules, " + one + ' ';
+        refused_.push_back(words + "The file is for another device than the profile " + profile_.name +
+                           ", or it is faulty.");
+    }
+
+    /// The modules of the file, where the profile would make others.
+    void own_modules()
+    {
+        const gsd::Document made = again();
+        const auto same = [](const gsd::Module& a, const gsd::Module& b) {
+            return a.name == b.name && a.identifiers == b.identifiers;
+        };
+        const bool is_same = std::equal(document_.modules.begin(), document_.modules.end(),
+                                        made.modules.begin(), made.modules.end(), same) &&
+                             gsd::plugging_of(document_) == gsd::plugging_of(made);
+        if (is_same) return;
+        std::vector<const gsd::Module*> own;
+        if (is_fixed())
+            own = gsd::plugged_modules(document_);
+        else
+            for (const gsd::Module& module : document_.modules) own.push_back(&module);
+        for (const gsd::Module* module : own)
+            mapping_.selection.modules.push_back(
+                {printable(utf8_of_latin1(module->name)), module->identifiers, is_fixed()});
+    }
+
+    void own_lengths()
+    {
+        profile::PlantLengths& lengths = mapping_.selection.lengths;
+        const gsd::Document made = again();
+        const auto own = [&](std::string_view keyword, std::uint32_t most) -> std::optional<std::uint32_t> {
+            const auto theirs = document_.number(keyword);
+            if (!theirs || *theirs > most || made.number(keyword) == theirs) return std::nullopt;
+            return theirs;
+        };
+        const std::size_t theirs =
+            gsd::sent_by_master(document_, known_ ? *known_ : gsd::plugged_modules(document_))
+                .user.octets.size();
+        if (theirs != gsd::sent_by_master(made, gsd::plugged_modules(made)).user.octets.size())
+            lengths.user_prm_data = static_cast<std::uint32_t>(theirs);
+        lengths.max_module = own("Max_Module", 0xFF);
+        lengths.max_input = own("Max_Input_Len", 0xFF);
+        lengths.max_output = own("Max_Output_Len", 0xFF);
+        lengths.max_data = own("Max_Data_Len", 0xFFFF);
+    }
+
+    /// The file that the mapping makes.
+    gsd::Document again() const
+    {
+        return gsd::parse(gsd::write(profile::draft_of(profile_, mapping_.selection).device));
     }
 
     /// The machine's own MaxTsdr: what the file has where it has more than the profile.
     void max_tsdr()
     {
-        profile::Selection plain = mapping_.selection;
-        plain.max_tsdr.reset();
-        const gsd::Document made = gsd::parse(gsd::write(profile::draft_of(profile_, plain).device));
+        const gsd::Document made = again();
         for (const gsd::Entry& entry : made.keywords) {
             if (!entry.keyword.starts_with("MaxTsdr_")) continue;
             const auto ours = made.number(entry.keyword), theirs = document_.number(entry.keyword);
@@ -197,11 +228,13 @@ private:
 
     const gsd::Document& document_;
     const profile::Profile& profile_;
+    const std::vector<std::uint8_t> cfg_;
     profile::Mapping mapping_;
-    std::vector<std::string> refused_;
+    std::vector<std::string> refused_, remarks_;
+    std::optional<std::vector<const gsd::Module*>> known_; ///< of a choice: those of the master's Chk_Cfg
 };
 
-/// What the mapping does not make again.
+/// Collects what the mapping does not make again.
 class Lost {
 public:
     explicit Lost(Outcome& outcome) : outcome_(outcome) {}
@@ -219,6 +252,7 @@ public:
             else
                 sentence += what + " = " + printable(*one.left) + " becomes " + printable(*one.right) + '.';
             outcome_.messages.push_back("warning: " + sentence);
+            if (matters(one)) what_matters.push_back(what);
             facts.push_back({{"line", one.line},
                              {"keyword", what},
                              {"left", one.left ? Json(printable(*one.left)) : Json()},
@@ -228,25 +262,56 @@ public:
     }
 
     Json facts = Json::array();
+    std::vector<std::string> what_matters; ///< a master would send or wait for something else
 
 private:
+    /// Returns whether a master takes this from the file for its telegrams and its times. A keyword that is
+    /// missing is 0 where it is a yes or no, and not said where it is a length.
+    static bool matters(const Difference& one)
+    {
+        const std::string what = to_lower(one.what);
+        const auto is_one_of = [&](std::initializer_list<std::string_view> names) {
+            return std::find(names.begin(), names.end(), what) != names.end();
+        };
+        const bool is_flag = what.ends_with("_supp") || is_one_of({"fail_safe", "fail_safe_required",
+                                                                   "dpv1_slave", "c1_read_write_required"});
+        if (is_flag && !is_one_of({"auto_baud_supp", "fms_supp", "set_slave_add_supp", "f_device_supp"}))
+            return one.left.value_or("0") != one.right.value_or("0");
+        const bool is_sent = what == "set_prm" || what == "chk_cfg" || what == "ident_number" ||
+                             what.starts_with("module ") || what.starts_with("parameters of module ") ||
+                             what == "fixpresetmodules";
+        const bool is_limit = what.starts_with("maxtsdr_") || what == "min_slave_intervall" ||
+                              (what.starts_with("max_") && (what.ends_with("_len") || what == "max_module"));
+        return is_sent || (is_limit && one.left && one.right);
+    }
+
     Outcome& outcome_;
 };
 
-Json lost_of(Outcome& outcome, std::string_view file, const profile::Draft& draft)
+/// Refused unless that is wanted: `lossy`.
+Json lost_of(Outcome& outcome, std::string_view file, const gsd::Document& document,
+             const profile::Draft& draft, const ImportOptions& options)
 {
     const std::string made = gsd::write(draft.device);
     Lost lost{outcome};
-    lost.add(differences(gsd::parse(file), gsd::parse(made)), "a mapping cannot hold it.");
+    lost.add(differences(document, gsd::parse(made), options.cfg), "a mapping cannot hold it.");
     lost.add(name_differences(file, made), "the tag table has no name for it. Take the table that has it.");
+    std::string matters;
+    for (const std::string& what : lost.what_matters) matters += (matters.empty() ? "" : ", ") + what;
+    if (!matters.empty() && !options.lossy) {
+        outcome.exit = kNo;
+        outcome.refusals.push_back(
+            "a master would send or wait for something else with the file that this mapping makes: " +
+            matters + ". Keep the plant's own file, or import it with losses.");
+    }
     return lost.facts;
 }
 
-/// Nothing: no table was given. One that cannot be read was refused before.
+/// Returns nullopt if no table was given; one that cannot be read was refused before.
 std::optional<profile::OwnTable> table_of(const Files& files, const std::string& table)
 {
     if (table.empty()) return std::nullopt;
-    const auto text = toml::read_text(files.source, table);
+    const auto text = input::read_text(files.source, table);
     if (!text) return std::nullopt;
     return profile::OwnTable{table.substr(table.rfind('/') + 1), utf8(*text)};
 }
@@ -261,39 +326,44 @@ Outcome refused(std::string sentence)
 Result<profile::Mapping, std::vector<std::string>> mapping_of_file(const gsd::Document& document,
                                                                    const profile::Profile& profile)
 {
-    return Importer{document, profile}.read();
+    return Importer{document, profile, {}}.read();
 }
 
-Outcome import_file(const Files& files, std::string_view file, const std::string& profile,
-                    const std::string& table)
+Outcome import_file(const Files& files, std::string_view file, const ImportOptions& options)
 {
     const gsd::Document document = gsd::parse(file);
-    if (!document.has_section) return refused("this is no GSD file: it has no line #Profibus_DP.");
+    if (!document.has_section) return refused(not_read(document));
+    if (document.number("Station_Type") == 1U)
+        return refused("the file is that of a master (Station_Type = 1): choose the file of the slave.");
     if (document.text("Model_Name").find("T630") != std::string::npos)
         return refused("the file is for a T630, which this project does not replace.");
     Outcome outcome;
-    const std::string name = profile.empty() ? find_profile(files, document, outcome) : profile;
+    say_unread(document, "", outcome);
+    const std::string name =
+        options.profile.empty() ? find_profile(files, file, document, outcome) : options.profile;
     if (outcome.exit != kFine) return outcome;
-    const auto device = load(files, name, table, outcome);
+    const auto device = load(files, name, options.table, outcome);
     if (!device) return outcome;
-    const auto read = mapping_of_file(document, *device);
+    Importer importer{document, *device, options.cfg};
+    const auto read = importer.read();
     if (!read) {
         outcome.exit = kNo;
-        outcome.refusals = read.error();
+        for (const std::string& sentence : read.error()) outcome.refusals.push_back(printable(sentence));
         return outcome;
     }
     profile::Mapping mapping = *read;
-    mapping.table = table_of(files, table);
+    mapping.table = table_of(files, options.table);
     const profile::Draft draft = profile::draft_of(*device, mapping.selection);
     Json facts;
     add_mapping(facts, mapping);
+    for (const std::string& remark : importer.remarks()) outcome.messages.push_back("note: " + remark);
     for (const profile::Note& note : draft.notes)
         if (note.refuses)
             outcome.refusals.push_back(printable(note.text));
         else
             outcome.messages.push_back("warning: " + printable(note.text));
     if (!outcome.refusals.empty()) outcome.exit = kNo; // the mapping is there all the same, to be corrected
-    facts["lost"] = lost_of(outcome, file, draft);
+    facts["lost"] = lost_of(outcome, file, document, draft, options);
     put_mapping_file(outcome, mapping, device->tags);
     outcome.facts = text_of(facts);
     return outcome;

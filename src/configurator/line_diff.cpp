@@ -51,7 +51,7 @@ private:
         lines_.push_back({static_cast<unsigned>(left), static_cast<unsigned>(right), text});
     }
 
-    /// From i_ and j_ to both ends: the longest common sequence, filled in from behind.
+    /// Finds from i_ and j_ to both ends the longest common sequence, filled in from the end.
     void middle(std::size_t left_end, std::size_t right_end)
     {
         const std::size_t rows = left_end - i_, columns = right_end - j_;
@@ -82,7 +82,7 @@ private:
     }
 
     Texts left_, right_;
-    std::size_t i_ = 0, j_ = 0; ///< lines that are taken
+    std::size_t i_ = 0, j_ = 0; ///< lines that are consumed
     std::vector<Line> lines_;
 };
 

@@ -11,8 +11,13 @@
 
 namespace dpslave::configurator {
 
-/// The key `mapping` of a request. The failure is a sentence.
-Result<profile::Mapping, std::string> read_mapping(const Json& request);
+struct WrongKey {
+    std::string key; ///< of the mapping; empty: there is no mapping
+    std::string sentence;
+};
+
+/// The key `mapping` of a request.
+Result<profile::Mapping, WrongKey> read_mapping(const Json& request);
 
 /// Puts the mapping into `outcome` as a TOML file that load_mapping() reads, or says why there is none. Each
 /// parameter has the name of its tag beside it.

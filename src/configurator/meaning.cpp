@@ -5,6 +5,7 @@
 
 #include "dpslave/base/letters.hpp"
 #include "dpslave/base/printable.hpp"
+#include "dpslave/gsd/sent.hpp"
 
 #include <algorithm>
 #include <array>
@@ -60,18 +61,25 @@ struct Said {
 
 class Sayings {
 public:
-    explicit Sayings(const gsd::Document& document)
+    Sayings(const gsd::Document& document, const std::vector<std::uint8_t>& cfg)
     {
         for (const gsd::Entry& entry : document.keywords)
             if (!is_of_set_prm(entry.keyword)) add(name_of(entry), entry.value, entry.line);
         for (const gsd::Block& block : document.blocks)
             if (block.kind != "Module") add_block(block);
-        const bool choice = document.plugged().empty();
-        for (const gsd::Module& module : document.modules)
-            if (choice) add("Module \"" + module.name + '"', octets(module.identifiers), module.line);
-        add("Set_Prm", octets(document.user_prm_data()), line_of(document, "User_Prm_Data"));
-        add("Chk_Cfg", octets(identifiers_of(document)),
-            document.modules.empty() ? 0 : document.modules.front().line);
+        const bool choice = gsd::plugging_of(document) == gsd::Plugging::choice;
+        const auto used = choice && !cfg.empty() ? gsd::modules_in(document, cfg) : std::nullopt;
+        const gsd::Sent sent = gsd::sent_by_master(document, used ? *used : gsd::plugged_modules(document));
+        for (const gsd::Module& module : document.modules) {
+            const std::string name = "module \"" + module.name + '"';
+            if (choice) add('M' + name.substr(1), octets(module.identifiers), module.line);
+            if (const auto own = gsd::own_parameters(document, module); choice && !own.empty())
+                add("parameters of " + name, octets(own), module.line);
+        }
+        for (const gsd::Block& block : document.blocks)
+            if (block.kind == "Module") add_rest_of_module(block, choice);
+        add("Set_Prm", octets(sent.user.octets), line_of(document, "User_Prm_Data"));
+        add("Chk_Cfg", octets(sent.cfg.octets), document.modules.empty() ? 0 : document.modules.front().line);
     }
 
     const std::vector<Said>& all() const { return all_; }
@@ -110,6 +118,18 @@ private:
     {
         const gsd::Entry* entry = document.find(keyword);
         return entry == nullptr ? 0 : entry->line;
+    }
+
+    /// Adds the keywords that are in no telegram, or only if an engineer changes it.
+    void add_rest_of_module(const gsd::Block& module, bool is_choice)
+    {
+        for (const gsd::Entry& entry : module.body) {
+            const std::string keyword = to_lower(entry.keyword);
+            if ((keyword == "preset" && !is_choice) || keyword == "ext_module_prm_data_len" ||
+                keyword == "ext_user_prm_data_const" || keyword.empty())
+                continue;
+            add(name_of(entry) + " of module " + module.head, entry.value, entry.line);
+        }
     }
 
     void add_block(const gsd::Block& block)
@@ -169,7 +189,7 @@ struct Name {
     std::string name; ///< UTF-8
 };
 
-/// "; 3 out tag 6 Ramp rate": the tag and its name. Nothing: the line is no such comment.
+/// Reads "; 3 out tag 6 Ramp rate": the tag and its name; returns nullopt if the line is no such comment.
 std::optional<std::pair<std::uint32_t, std::string>> name_in(std::string_view line)
 {
     constexpr std::string_view kTag = " tag ";
@@ -186,7 +206,7 @@ std::optional<std::pair<std::uint32_t, std::string>> name_in(std::string_view li
     return std::pair{number, utf8_of_latin1({name + 1, static_cast<std::size_t>(end - name) - 1})};
 }
 
-/// By tag.
+/// Returns the names by tag.
 std::map<std::uint32_t, Name> names_in(std::string_view file)
 {
     std::map<std::uint32_t, Name> names;
@@ -201,9 +221,10 @@ std::map<std::uint32_t, Name> names_in(std::string_view file)
 
 } // namespace
 
-std::vector<Difference> differences(const gsd::Document& left, const gsd::Document& right)
+std::vector<Difference> differences(const gsd::Document& left, const gsd::Document& right,
+                                    const std::vector<std::uint8_t>& cfg)
 {
-    const Sayings of_left{left}, of_right{right};
+    const Sayings of_left{left, cfg}, of_right{right, cfg};
     std::vector<Difference> all;
     for (const Said& said : of_left.all()) {
         const Said* other = of_right.find(said.what);
@@ -229,6 +250,12 @@ std::vector<Difference> name_differences(std::string_view left, std::string_view
                        here.line});
     }
     return all;
+}
+
+void add_names(gsd::MapHints& hints, std::string_view file)
+{
+    for (const auto& [tag, name] : names_in(file))
+        if (tag <= 0xFFFF) hints.names.emplace(static_cast<std::uint16_t>(tag), name.name);
 }
 
 std::vector<Difference> map_differences(const gsd::IoMap& left, const gsd::IoMap& right)

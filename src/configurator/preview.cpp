@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The octets of a selection, and which of them belong to which parameter.
-#include "facts.hpp"
+#include "coded_finding.hpp"
 
 #include "dpslave/base/printable.hpp"
+#include "dpslave/gsd/sent.hpp"
 
 namespace dpslave::configurator {
 namespace {
@@ -27,18 +28,19 @@ Json values_of(const std::vector<gsd::IoValue>& values)
 /// The parameters with their places, in the order of the telegrams.
 class Places {
 public:
-    Places(const profile::Profile& profile, bool demand)
-        : profile_(profile), before_(demand ? 1 : 0), in_(demand ? dp::kDemandOctets : 0), out_(in_)
+    Places(const profile::Profile& profile, const profile::Draft& draft, bool demand)
+        : profile_(profile), draft_(draft), in_(demand ? dp::kDemandOctets : 0), out_(in_)
     {}
 
-    Json of(const profile::Parameter& parameter)
+    Json of(const profile::GsdParameter& parameter)
     {
         const drive::Tag* tag = profile_.tags.find(parameter.tag);
+        const auto& cfg = draft_.cfg_places;
         Json all{{"tag", parameter.tag},
                  {"name", tag != nullptr ? Json(tag->name) : Json()},
                  {"direction", text(parameter.direction)},
-                 {"set_prm", place(profile_.personality.prm.tags_at + 2 * count_, 2)},
-                 {"chk_cfg", place(before_ + count_, 1)},
+                 {"set_prm", place(draft_.tags_at + 2 * count_, 2)},
+                 {"chk_cfg", count_ < cfg.size() ? place(cfg[count_].first, cfg[count_].second) : Json()},
                  {"in", parameter.direction == profile::Direction::out ? Json() : next(in_)},
                  {"out", parameter.direction == profile::Direction::in ? Json() : next(out_)}};
         ++count_;
@@ -55,21 +57,10 @@ private:
     }
 
     const profile::Profile& profile_;
-    std::size_t before_, in_, out_;
+    const profile::Draft& draft_;
+    std::size_t in_, out_;
     std::size_t count_ = 0;
 };
-
-Json finding_of(const profile::Note& note, const std::vector<profile::Parameter>& parameters)
-{
-    Json finding{{"code", note.code},
-                 {"severity", note.refuses ? "error" : "warning"},
-                 {"text", printable(note.text)}};
-    if (note.at) {
-        finding["at"] = *note.at;
-        finding["tag"] = parameters[*note.at].tag;
-    }
-    return finding;
-}
 
 } // namespace
 
@@ -82,14 +73,6 @@ Json facts_of(const gsd::IoMap& map)
             {"outputs", values_of(map.outputs)}};
 }
 
-std::vector<std::uint8_t> identifiers_of(const gsd::Document& document)
-{
-    std::vector<std::uint8_t> octets;
-    for (const gsd::Module* module : document.plugged())
-        octets.insert(octets.end(), module->identifiers.begin(), module->identifiers.end());
-    return octets;
-}
-
 gsd::MapHints hints_of(const profile::Profile& profile)
 {
     gsd::MapHints hints;
@@ -100,35 +83,43 @@ gsd::MapHints hints_of(const profile::Profile& profile)
     return hints;
 }
 
-Json preview_of(const profile::Profile& profile, const profile::Draft& draft, bool demand)
+Json preview_of(const profile::Profile& profile, const profile::Draft& draft, bool demand,
+                std::string_view name)
 {
     const dp::Personality& personality = profile.personality;
-    Places places{profile, demand};
-    Json parameters = Json::array(), findings = Json::array();
-    for (const profile::Parameter& parameter : draft.parameters) parameters.push_back(places.of(parameter));
-    for (const profile::Note& note : draft.notes) findings.push_back(finding_of(note, draft.parameters));
+    Places places{profile, draft, demand};
+    Json parameters = Json::array();
+    for (const profile::GsdParameter& parameter : draft.parameters)
+        parameters.push_back(places.of(parameter));
     Json all;
-    if (!draft.device.modules.empty()) { // else the selection fits into no telegram
+    std::optional<gsd::Document> document; // nullopt: the selection fits into no telegram
+    if (!draft.device.modules.empty()) {
         const std::string file = gsd::write(draft.device);
-        const gsd::Document document = gsd::parse(file);
-        const gsd::IoMap map = gsd::io_map(document, hints_of(profile));
+        document = gsd::parse(file);
+        gsd::MapHints hints = hints_of(profile);
+        hints.tags_at = draft.tags_at;
+        const gsd::Sent sent = gsd::sent_by_master(*document, gsd::plugged_modules(*document));
         all = {{"text", utf8_of_latin1(file)},
-               {"set_prm", document.user_prm_data()},
-               {"chk_cfg", identifiers_of(document)},
-               {"map", facts_of(map)}};
-        for (const gsd::Advice& advice : map.advice)
-            findings.push_back({{"code", advice.code}, {"severity", "warning"}, {"text", advice.text}});
+               {"set_prm", sent.user.octets},
+               {"chk_cfg", sent.cfg.octets},
+               {"map", facts_of(gsd::io_map(*document, hints))}};
     }
     all["parameters"] = parameters;
     all["demand"] = demand ? Json({{"chk_cfg", place(0, 1)},
                                    {"in", place(0, dp::kDemandOctets)},
                                    {"out", place(0, dp::kDemandOctets)}})
                            : Json();
+    Json rates = Json::array();
+    for (const Baud baud : kBauds)
+        if (const Tbit bits = draft.device.max_tsdr[index_of(baud)]; bits.count > 0)
+            rates.push_back({{"baud", static_cast<std::uint32_t>(baud)}, {"bits", bits.count}});
+    all["max_tsdr"] = rates;
     all["used"] = {{"parameters", draft.parameters.size()},
                    {"max_parameters", personality.max_parameters},
                    {"words", places.words()},
                    {"max_words", personality.max_words > 0 ? Json(personality.max_words) : Json()}};
-    all["findings"] = findings;
+    all["findings"] =
+        facts_of(coded_findings(draft, document ? &*document : nullptr, gsd::Reading::tolerant, name));
     return all;
 }
 

@@ -51,7 +51,7 @@ public:
     Framer in{kMaxCall};
     bool holds_calls = false; ///< there may be a whole call in `in`
     Waits waits = Waits::nothing;
-    std::uint64_t number = 0;       ///< the token or stream that the caller waits for
+    std::uint64_t call = 0;         ///< the number of the call that the caller waits for
     std::uint64_t used = 0;         ///< the server's count of uses at the last call or reply
     std::uint32_t known_events = 0; ///< as given to epoll last
 

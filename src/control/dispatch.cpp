@@ -30,7 +30,7 @@ std::string full_name(const Call& call)
 
 } // namespace
 
-void Server::Impl::dispatch(Connection& connection, Call& call)
+void ServerImpl::dispatch(Connection& connection, Call& call)
 {
     ++counters.calls;
     Reply reply;
@@ -44,7 +44,7 @@ void Server::Impl::dispatch(Connection& connection, Call& call)
     deliver(connection, call, reply);
 }
 
-Reply Server::Impl::answer(const Connection& connection, Call& call)
+Reply ServerImpl::answer(const Connection& connection, Call& call)
 {
     if (call.upgrade) return service_error("MethodNotImplemented", "method", full_name(call));
     const bool service = call.interface == kServiceInterface;
@@ -54,19 +54,18 @@ Reply Server::Impl::answer(const Connection& connection, Call& call)
     const Interface& interface = service ? service_interface : own_interface;
     const auto method = interface.methods.find(call.method);
     if (method == interface.methods.end()) return service_error("MethodNotFound", "method", full_name(call));
-    if (const auto entry =
-            std::find_if(kMethods.begin(), kMethods.end(),
-                         [&](const MethodEntry& m) { return !service && m.name == call.method; });
-        entry != kMethods.end() && entry->right == Right::operate && !connection.operates) {
+    const Method* const own = service ? nullptr : &methods.find(call.method)->second;
+    if (own != nullptr && own->right != Right::look && !connection.operates) {
         ++counters.not_permitted;
         return Error{"NotPermitted", Json::object({{"group", settings.operator_group_name}})};
     }
+    if (own != nullptr && own->right == Right::write && settings.read_only) return Error{"ReadOnly"};
     if (auto wrong = mismatch(interface, method->second.in, call.parameters))
         return service_error("InvalidParameter", "parameter", std::move(*wrong));
-    return service ? answer_service(call) : answer_own(connection, call);
+    return own == nullptr ? answer_service(call) : answer_own(connection, *own, call);
 }
 
-Reply Server::Impl::answer_service(const Call& call) const
+Reply ServerImpl::answer_service(const Call& call) const
 {
     if (call.method == "GetInfo")
         return Done{Json::object({{"vendor", "dpslaved"},
@@ -80,41 +79,37 @@ Reply Server::Impl::answer_service(const Call& call) const
     return service_error("InterfaceNotFound", "interface", wanted);
 }
 
-Reply Server::Impl::answer_own(const Connection& connection, Call& call)
+Reply ServerImpl::answer_own(const Connection& connection, const Method& method, Call& call)
 {
     remove_nulls(call.parameters);
     Caller caller = connection.caller;
     caller.more = call.more;
     caller.operates = connection.operates;
-    return handlers.find(call.method)->second(call.parameters, caller);
+    caller.reply_to = ReplyTo{weak_from_this(), ++last_call};
+    return method.answer(call.parameters, caller);
 }
 
-void Server::Impl::deliver(Connection& connection, const Call& call, const Reply& reply)
+void ServerImpl::deliver(Connection& connection, const Call& call, const Reply& reply)
 {
     if (std::holds_alternative<Error>(reply)) ++counters.errors;
     if (call.oneway) return; // a later reply has no receiver
-    if (const auto* later = std::get_if<Later>(&reply)) {
-        if (!laters.emplace(later->token, &connection).second) return send_final(connection, Error{"Busy"});
-        connection.waits = Connection::Waits::later;
-        connection.number = later->token;
-        return;
-    }
+    if (const auto* done = std::get_if<Done>(&reply)) return send_final(connection, *done);
+    if (const auto* error = std::get_if<Error>(&reply)) return send_final(connection, *error);
     const auto* stream = std::get_if<Stream>(&reply);
-    if (stream == nullptr) return send_final(connection, reply);
-    if (!call.more) return send_final(connection, Done{stream->first});
-    if (!streams.emplace(stream->stream, &connection).second) return send_final(connection, Error{"Busy"});
-    connection.waits = Connection::Waits::stream;
-    connection.number = stream->stream;
-    send(connection, encode_reply({stream->first}, true));
+    if (stream != nullptr && !call.more) return send_final(connection, Done{stream->first});
+    connection.waits = stream != nullptr ? Connection::Waits::stream : Connection::Waits::later;
+    connection.call = last_call;
+    waiting.emplace(last_call, &connection);
+    if (stream != nullptr) send(connection, encode_reply({stream->first}, true));
 }
 
-void Server::Impl::send_final(Connection& connection, const Reply& reply)
+void ServerImpl::send_final(Connection& connection, const LastReply& reply)
 {
     if (const auto* done = std::get_if<Done>(&reply)) send(connection, encode_reply(*done));
     if (const auto* error = std::get_if<Error>(&reply)) send(connection, encode_error(*error));
 }
 
-void Server::Impl::send(Connection& connection, const std::string& message)
+void ServerImpl::send(Connection& connection, const std::string& message)
 {
     if (message.size() > kMaxReply + 1) { // no client takes it
         ++counters.handler_failures;
@@ -128,7 +123,7 @@ void Server::Impl::send(Connection& connection, const std::string& message)
 }
 
 /// Bounds what waits for all callers together: the connection for which most waits is ended.
-void Server::Impl::bound_unsent()
+void ServerImpl::bound_unsent()
 {
     for (;;) {
         std::size_t all = 0;

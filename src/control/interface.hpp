@@ -5,7 +5,6 @@
 
 #include "dpslave/control/protocol.hpp"
 
-#include <array>
 #include <map>
 #include <memory>
 #include <optional>
@@ -15,46 +14,6 @@
 
 namespace dpslave::control {
 
-/// Which callers may call a method.
-enum class Right : std::uint8_t {
-    look,    ///< every caller
-    operate, ///< root and the operator group
-};
-
-/// The methods of org.dpslaved.Control, and the two tables of rights in one.
-struct MethodEntry {
-    std::string_view name;
-    Right right;
-};
-inline constexpr std::array kMethods = std::to_array<MethodEntry>({
-    {"GetVersion", Right::look},
-    {"GetStatus", Right::look},
-    {"ListStations", Right::look},
-    {"GetInfo", Right::look},
-    {"GetIo", Right::look},
-    {"GetDiagnosis", Right::look},
-    {"GetCounters", Right::look},
-    {"GetBus", Right::look},
-    {"GetLeds", Right::look},
-    {"GetTec", Right::look},
-    {"Watch", Right::look},
-    {"GetEvents", Right::look},
-    {"FindTags", Right::look},
-    {"ReadTag", Right::look},
-    {"GetSurveyScope", Right::look},
-    {"Survey", Right::operate},
-    {"WriteTag", Right::operate},
-    {"ProbeDrive", Right::operate},
-    {"SetTec", Right::operate},
-    {"SetLogLevel", Right::operate},
-    {"Reload", Right::operate},
-    {"Trace", Right::operate},
-    {"ListIncidents", Right::operate},
-    {"GetIncident", Right::operate},
-    {"GetSamples", Right::look},
-});
-
-inline constexpr std::string_view kInterface = "org.dpslaved.Control";
 inline constexpr std::string_view kServiceInterface = "org.varlink.service";
 
 /// org.dpslaved.Control.varlink and the standard's org.varlink.service, as texts.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpslave/control/protocol.hpp"
 
-#include "interface.hpp"
-
 namespace dpslave::control {
 namespace {
 

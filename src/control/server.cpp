@@ -31,7 +31,7 @@ std::string words_of(const Caller& caller)
     return fmt::format("uid {}, pid {}", caller.uid, caller.pid);
 }
 
-bool Server::Impl::listen()
+bool ServerImpl::listen()
 {
     epoll_event event{};
     event.events = EPOLLIN;
@@ -39,14 +39,14 @@ bool Server::Impl::listen()
     return epoll && ::epoll_ctl(epoll.get(), EPOLL_CTL_ADD, listener.fd(), &event) == 0;
 }
 
-void Server::Impl::accept_callers()
+void ServerImpl::accept_callers()
 {
     for (int n = 0; n < kAcceptedAtOnce; ++n)
         if (!accept_one()) return;
 }
 
 /// False: no connection waits, or none can be accepted.
-bool Server::Impl::accept_one()
+bool ServerImpl::accept_one()
 {
     io::Fd fd{::accept4(listener.fd(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC)};
     if (fd) {
@@ -63,7 +63,7 @@ bool Server::Impl::accept_one()
     return false;
 }
 
-void Server::Impl::take_in(io::Fd fd)
+void ServerImpl::take_in(io::Fd fd)
 {
     Caller caller = settings.identify ? settings.identify(fd.get()) : peer_of(fd.get());
     const bool operates = may_operate(caller, settings.operator_group);
@@ -83,7 +83,7 @@ void Server::Impl::take_in(io::Fd fd)
 
 /// A place for a new connection. A user with a full share loses an idle connection; when all places are
 /// taken, the user with the most loses one. False: there is none.
-bool Server::Impl::make_room(const Connection& added)
+bool ServerImpl::make_room(const Connection& added)
 {
     const uid_t uid = added.caller.uid;
     const bool is_root = uid == 0;
@@ -95,7 +95,7 @@ bool Server::Impl::make_room(const Connection& added)
     return other && (is_root || held_by(*other) > held + 1) && end_idle_of(*other);
 }
 
-std::size_t Server::Impl::held_by(uid_t uid) const
+std::size_t ServerImpl::held_by(uid_t uid) const
 {
     return static_cast<std::size_t>(
         std::count_if(connections.begin(), connections.end(),
@@ -103,7 +103,7 @@ std::size_t Server::Impl::held_by(uid_t uid) const
 }
 
 /// The user with the most connections, root and, unless `with_operators`, the operators apart.
-std::optional<uid_t> Server::Impl::fullest(bool with_operators) const
+std::optional<uid_t> ServerImpl::fullest(bool with_operators) const
 {
     std::map<uid_t, std::size_t> places;
     for (const auto& [id, one] : connections)
@@ -115,7 +115,7 @@ std::optional<uid_t> Server::Impl::fullest(bool with_operators) const
 
 /// Ends the connection of `uid` that has been idle for longest, with Busy for its reason. False: each of them
 /// waits for an answer of this server.
-bool Server::Impl::end_idle_of(uid_t uid)
+bool ServerImpl::end_idle_of(uid_t uid)
 {
     Connection* longest = nullptr;
     for (const auto& [id, one] : connections) {
@@ -131,7 +131,7 @@ bool Server::Impl::end_idle_of(uid_t uid)
 }
 
 /// One turn: sends what waits, then takes and answers one call.
-void Server::Impl::serve(Connection& connection, std::uint32_t events)
+void ServerImpl::serve(Connection& connection, std::uint32_t events)
 {
     const bool gone =
         (events & (EPOLLHUP | EPOLLERR)) != 0; // both directions: our replies are not read any more
@@ -158,11 +158,10 @@ void Server::Impl::serve(Connection& connection, std::uint32_t events)
     dispatch(connection, *call);
 }
 
-void Server::Impl::settle(Connection& connection)
+void ServerImpl::settle(Connection& connection)
 {
     if (connection.dead()) {
-        if (connection.waits == Connection::Waits::later) laters.erase(connection.number);
-        if (connection.waits == Connection::Waits::stream) streams.erase(connection.number);
+        if (connection.waits != Connection::Waits::nothing) waiting.erase(connection.call);
         connections.erase(connection.id); // closes the descriptor, which takes it out of the epoll
         return;
     }
@@ -174,26 +173,32 @@ void Server::Impl::settle(Connection& connection)
     ::epoll_ctl(epoll.get(), EPOLL_CTL_MOD, connection.fd(), &event);
 }
 
-Result<Server, std::string> Server::open(ServerSettings settings, Handlers handlers)
+Connection* ServerImpl::find(std::uint64_t call) const
+{
+    const auto found = waiting.find(call);
+    return found == waiting.end() ? nullptr : found->second;
+}
+
+Result<Server, std::string> Server::open(ServerSettings settings, Methods methods)
 {
     auto own = parse_interface(interface_text());
     if (!own) return Failure{fmt::format("{}: {}", kInterface, own.error())};
     auto service = parse_interface(service_interface_text());
     if (!service) return Failure{fmt::format("{}: {}", kServiceInterface, service.error())};
-    for (const MethodEntry& method : kMethods)
-        if (handlers.find(method.name) == handlers.end())
-            return Failure{fmt::format("the method {} has no handler", method.name)};
-    if (handlers.size() != kMethods.size()) return Failure{std::string{"a handler has no method"}};
+    for (const auto& [name, type] : own->methods)
+        if (methods.find(name) == methods.end())
+            return Failure{fmt::format("the method {} has no handler", name)};
+    if (methods.size() != own->methods.size()) return Failure{std::string{"a handler has no method"}};
 
     auto listener = ListeningSocket::open(settings.socket);
     if (!listener) return Failure{listener.error()};
-    auto impl = std::make_unique<Impl>(std::move(settings), std::move(handlers), *std::move(listener),
-                                       *std::move(own), *std::move(service));
+    auto impl = std::make_shared<ServerImpl>(std::move(settings), std::move(methods), *std::move(listener),
+                                             *std::move(own), *std::move(service));
     if (!impl->listen()) return Failure{fmt::format("control socket: {}", error_text(errno))};
     return Server{std::move(impl)};
 }
 
-Server::Server(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Server::Server(std::shared_ptr<ServerImpl> impl) : impl_(std::move(impl)) {}
 Server::Server(Server&&) noexcept = default;
 Server& Server::operator=(Server&&) noexcept = default;
 Server::~Server() = default;
@@ -219,48 +224,42 @@ void Server::on_ready()
     }
 }
 
-bool Server::complete(std::uint64_t token, const Reply& reply)
+bool ReplyTo::is_open() const
 {
-    const auto found = impl_->laters.find(token);
-    const bool final = std::holds_alternative<Done>(reply) || std::holds_alternative<Error>(reply);
-    if (found == impl_->laters.end() || !final) return false;
-    Connection& connection = *found->second;
-    impl_->laters.erase(found);
-    connection.waits = Connection::Waits::nothing;
-    impl_->send_final(connection, reply);
-    const bool taken = !connection.dead();
-    impl_->settle(connection);
-    return taken;
+    const auto server = server_.lock();
+    return server && server->find(number_) != nullptr;
 }
 
-bool Server::push(std::uint64_t stream, const Json& parameters)
+bool ReplyTo::send(const Json& parameters) const
 {
-    const auto found = impl_->streams.find(stream);
-    if (found == impl_->streams.end()) return false;
-    Connection& connection = *found->second;
-    impl_->send(connection, encode_reply({parameters}, true));
-    const bool taken = !connection.dead();
-    if (taken && connection.all_sent()) connection.used = ++impl_->uses;
-    impl_->settle(connection);
-    return taken;
+    const auto server = server_.lock();
+    Connection* const connection = server ? server->find(number_) : nullptr;
+    if (connection == nullptr || connection->waits != Connection::Waits::stream) return false;
+    server->send(*connection, encode_reply({parameters}, true));
+    const bool is_taken = !connection->dead();
+    if (is_taken && connection->all_sent()) connection->used = ++server->uses;
+    server->settle(*connection);
+    return is_taken;
 }
 
-std::size_t Server::unsent(std::uint64_t stream) const
+bool ReplyTo::end(const LastReply& reply) const
 {
-    const auto found = impl_->streams.find(stream);
-    return found == impl_->streams.end() ? 0 : found->second->unsent();
+    const auto server = server_.lock();
+    Connection* const connection = server ? server->find(number_) : nullptr;
+    if (connection == nullptr) return false;
+    server->waiting.erase(number_);
+    connection->waits = Connection::Waits::nothing;
+    server->send_final(*connection, reply);
+    const bool is_taken = !connection->dead();
+    server->settle(*connection);
+    return is_taken;
 }
 
-bool Server::end_stream(std::uint64_t stream, const Error& why)
+std::size_t ReplyTo::unsent() const
 {
-    const auto found = impl_->streams.find(stream);
-    if (found == impl_->streams.end()) return false;
-    Connection& connection = *found->second;
-    impl_->streams.erase(found);
-    connection.waits = Connection::Waits::nothing;
-    impl_->send_final(connection, why);
-    impl_->settle(connection);
-    return true;
+    const auto server = server_.lock();
+    const Connection* const connection = server ? server->find(number_) : nullptr;
+    return connection == nullptr ? 0 : connection->unsent();
 }
 
 void Server::set_operators(std::optional<gid_t> group, std::string name)
@@ -269,11 +268,9 @@ void Server::set_operators(std::optional<gid_t> group, std::string name)
     impl_->settings.operator_group_name = std::move(name);
 }
 
-std::vector<std::uint64_t> Server::streams() const
+void Server::set_read_only(bool read_only)
 {
-    std::vector<std::uint64_t> numbers;
-    for (const auto& [number, connection] : impl_->streams) numbers.push_back(number);
-    return numbers;
+    impl_->settings.read_only = read_only;
 }
 
 std::size_t Server::clients() const noexcept

@@ -14,7 +14,7 @@ using fdl::Function;
 using fdl::Telegram;
 using std::chrono::nanoseconds;
 
-/// How many octets the telegram has on the wire (wire reference 2.1).
+/// Returns how many octets the telegram has on the wire (wire reference 2.1).
 std::size_t octets_of(const Telegram& telegram)
 {
     switch (telegram.delimiter) {

@@ -41,7 +41,8 @@ std::optional<std::uint16_t> demand_code(AccessError error) noexcept
         case AccessError::not_kept: // taken: what the drive makes of it is its own business
         case AccessError::no_answer:
         case AccessError::deferred:
-        case AccessError::not_understood: break;
+        case AccessError::not_understood:
+        case AccessError::not_known: break;
         case AccessError::invalid_tag:
         case AccessError::unsupported_type:
         case AccessError::no_scale: // the manuals know no better one
@@ -50,6 +51,7 @@ std::optional<std::uint16_t> demand_code(AccessError error) noexcept
         case AccessError::not_stopped:
         case AccessError::not_config_mode: return kReadOnly;
         case AccessError::out_of_range:
+        case AccessError::does_not_fit:
         case AccessError::value_not_encoded: return kOutOfRange;
     }
     return std::nullopt;
@@ -64,9 +66,9 @@ void DemandData::begin(Generation generation)
 
 void DemandData::end()
 {
-    // A write that is still here was ordered by a master that is gone: it is not made behind the safe state
-    // of the outputs. A cancel that is still here is dropped with it and given anew, under the generation
-    // that it ends.
+    // A write that is still here was ordered by a master that is gone: it is not made after the safe state of
+    // the outputs. A cancel that is still here is dropped with it and given anew, under the generation that
+    // it ends.
     const bool unfetched = !orders_.empty();
     orders_.clear();
     if (unfetched || standing_.kind != DemandOrder::Kind::cancel) give(DemandOrder::Kind::cancel);
@@ -77,7 +79,7 @@ DemandData::Wanted DemandData::wanted_by(const DemandRegisters& registers) const
 {
     Wanted wanted;
     wanted.command = static_cast<std::uint8_t>(registers[0] >> 12);
-    if (wanted.command == kNoCommand) return wanted; // whatever stands in the tag field
+    if (wanted.command == kNoCommand) return wanted; // the tag field does not matter
     wanted.tag_field = registers[0] & kTagField;
     if (personality_->demand == DemandForm::extended && is_extended(wanted.command))
         wanted.extended_tag = registers[1];

@@ -3,12 +3,18 @@
 
 #include "dpslave/dp/snapshot.hpp"
 
+#include <utility>
+
 namespace dpslave::dp {
 namespace {
 
-/// Every input was tried at the latest after this time; then the master need not wait any longer. A drive
-/// that is not there must not keep the slave out of the exchange (wire reference 6.4, C2).
+/// A drive that has not answered at all within this time must not keep the slave out of the exchange (wire
+/// reference 6.4, C2).
 constexpr std::chrono::seconds kReadyAfter{1};
+
+/// Outputs that the master sent while Stat_Diag held the start are written at its end, if the last
+/// Data_Exchange is not older than this [DEC].
+constexpr std::chrono::nanoseconds kWaitingOutputs = std::chrono::seconds{2} + std::chrono::nanoseconds{1};
 
 void append_registers(ByteBuffer<244>& into, const DemandRegisters& registers)
 {
@@ -25,12 +31,12 @@ void ProcessData::begin(const Configuration& configuration, Instant at)
     outputs_changed_ = true;
     if (config_.demand) demand_.begin(generations_);
     if (config_.reads || (personality_.tries_outputs && config_.layout.count > 0)) {
-        stat_diag_ = true;
-        ready_by_ = at + kReadyAfter;
+        stat_diag_ = starts_ = true;
+        ready_by_ = personality_.waits_for_drive ? kNever : at + kReadyAfter;
     }
 }
 
-/// By the order, which no later start-up can overwrite, and by an image without a layout.
+/// The end is told by the order, which no later start-up can overwrite, and by an image without a layout.
 void ProcessData::end()
 {
     ++ended_;
@@ -43,14 +49,15 @@ void ProcessData::end()
     config_ = {};
     received_ = active_ = frozen_ = {};
     inputs_ = {};
-    has_outputs_ = may_write_ = sync_ = freeze_ = clear_ = false;
-    end_stat_diag();
+    has_outputs_ = may_write_ = in_force_ = sync_ = freeze_ = clear_ = false;
+    set_stat_diag(false);
     outputs_changed_ = true;
 }
 
-void ProcessData::receive(Bytes data)
+void ProcessData::receive(Bytes data, Instant when)
 {
     ++exchanges_;
+    outputs_old_at_ = when + kWaitingOutputs;
     std::size_t at = 0;
     const auto next = [&] {
         at += 2;
@@ -64,9 +71,10 @@ void ProcessData::receive(Bytes data)
     if (!sync_) activate_received();
 }
 
-void ProcessData::receive_nothing()
+void ProcessData::receive_nothing(Instant at)
 {
     ++exchanges_;
+    outputs_old_at_ = at + kWaitingOutputs;
     clear_outputs();
 }
 
@@ -87,16 +95,18 @@ void ProcessData::activate_received()
         outputs_changed_ = true;
     }
     active_.demand = received_.demand;
-    if (config_.demand && !finds_scales()) demand_.request(active_.demand);
-    if (has_outputs_) allow_writing();
+    in_force_ = in_force_ || has_outputs_;
+    allow_writing();
 }
 
-/// From the first outputs of the master that are in force: under Sync those of a Data_Exchange are not. But a
-/// master that exchanges although Stat_Diag holds it off writes nothing to a drive whose scales are not known
-/// yet.
+/// Writing is allowed from the first outputs of the master that are in force: under Sync those of a
+/// Data_Exchange are not. But a master that exchanges although Stat_Diag holds it off writes nothing to a
+/// drive of which it is not known yet that it has the tags, and their scales.
 void ProcessData::allow_writing()
 {
-    if (finds_scales()) return;
+    if (may_be_held()) return;
+    if (config_.demand) demand_.request(active_.demand);
+    if (!in_force_) return;
     outputs_changed_ = outputs_changed_ || !may_write_;
     may_write_ = true;
 }
@@ -142,24 +152,32 @@ void ProcessData::append_outputs(ByteBuffer<244>& reply) const
         if (config_.layout.parameters[i].writes) reply.push16(active_.words[i]);
 }
 
-void ProcessData::end_stat_diag()
+bool ProcessData::set_stat_diag(bool on)
 {
-    stat_diag_ = false;
+    stat_diag_ = on;
+    if (on) return std::exchange(freeze_, false);
+    starts_ = false;
     ready_by_ = kNever;
+    if (std::exchange(outputs_old_at_, kNever) != kNever && in_force_) allow_writing();
+    return false;
 }
 
 bool ProcessData::give_up_waiting()
 {
     ready_by_ = kNever;
-    return !holds();
+    return hold() == StartHold::none && !drive_answers_;
 }
 
-bool ProcessData::set_inputs(const InputImage& inputs)
+ProcessData::Readiness ProcessData::set_inputs(const InputImage& inputs)
 {
-    if (inputs.generation == 0 || inputs.generation != config_.layout.generation) return false;
+    drive_answers_ = inputs.drive_answers;
+    if (inputs.generation == 0 || inputs.generation != config_.layout.generation) return Readiness::as_before;
     inputs_ = inputs;
-    const bool time_is_over = ready_by_ == kNever;
-    return stat_diag_ && !holds() && (inputs.every_input_tried || time_is_over);
+    if (inputs.drive_gone) return stat_diag_ ? Readiness::as_before : Readiness::drive_gone;
+    const bool waits_no_more = ready_by_ == kNever && !inputs.drive_answers && !personality_.waits_for_drive;
+    const bool is_ready =
+        stat_diag_ && hold() == StartHold::none && (inputs.every_input_tried || waits_no_more);
+    return is_ready ? Readiness::ready : Readiness::as_before;
 }
 
 std::optional<OutputImage> ProcessData::take_outputs()
@@ -175,7 +193,7 @@ void ProcessData::fill(Snapshot& seen) const
     seen.freeze = freeze_;
     seen.clear = clear_;
     seen.stat_diag = stat_diag_;
-    seen.holds = holds();
+    seen.hold = hold();
     seen.layout = config_.layout;
     seen.demand_data = config_.demand;
     seen.may_write = may_write_;

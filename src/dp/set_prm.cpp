@@ -17,11 +17,11 @@ constexpr std::uint8_t kWdOn = 0x08;
 // Octet 8, DPV1_Status_1.
 constexpr std::uint8_t kFailSafe = 0x40;
 constexpr std::uint8_t kWdBase1ms = 0x04;
-// What a device without DP-V1 cannot do: DPV1_Enable, Fail_Safe, Publisher_Enable and the reserved bits. The
+// A device without DP-V1 cannot do these: DPV1_Enable, Fail_Safe, Publisher_Enable and the reserved bits. The
 // two lowest bits concern the ASIC's start and stop bit check; they are no business of ours and do no harm.
 constexpr std::uint8_t kDpv1Only = 0xF8;
 
-/// Nothing: it may be taken.
+/// nullopt means that there is no objection.
 using Objection = std::optional<Failure<RefusalDetail>>;
 
 Objection check_length(const PrmLayout& prm, std::size_t length)
@@ -46,7 +46,7 @@ Objection check_dpv1_status(const Personality& personality, Bytes user)
     return std::nullopt;
 }
 
-Objection read_tags(const PrmLayout& prm, Bytes user, Parameters& taken)
+Objection read_tags(const PrmLayout& prm, Bytes user, SetPrm& taken)
 {
     if (prm.list == TagList::none) return std::nullopt;
     std::size_t zero_at = 0; // octet of Set_Prm; 0 = no zero yet
@@ -89,13 +89,13 @@ std::chrono::milliseconds watchdog_of(Bytes telegram, bool dpv1_status)
     return std::chrono::milliseconds{fine_base ? 1 : 10} * (telegram[1] * telegram[2]);
 }
 
-Result<Parameters, RefusalDetail> check_set_prm(const Personality& personality, Bytes telegram)
+Result<SetPrm, RefusalDetail> check_set_prm(const Personality& personality, Bytes telegram)
 {
     const std::uint8_t status = telegram[0];
     const std::uint16_t ident = be16(telegram, 4);
     if (ident != personality.ident) return refuse(Refusal::prm_ident, 5, personality.ident, ident);
 
-    Parameters taken;
+    SetPrm taken;
     taken.sync_requested = (status & kSyncReq) != 0;
     taken.freeze_requested = (status & kFreezeReq) != 0;
     unsigned possible = 0xFF;

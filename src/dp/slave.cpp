@@ -12,7 +12,7 @@
 
 namespace dpslave::dp {
 
-// What crosses between threads.
+// These types cross between threads.
 static_assert(std::is_trivially_copyable_v<Snapshot> && std::is_trivially_copyable_v<Event>);
 
 Slave::Slave(const Personality& personality, std::uint8_t address)
@@ -97,7 +97,7 @@ Judgement Slave::judge_data(const fdl::Indication& request) const
     return {request.data.empty() && personality_.fail_safe ? Trigger::data_empty : Trigger::data_length};
 }
 
-/// In the order of wire reference 4.4.
+/// The checks are made in the order of wire reference 4.4.
 Judgement Slave::judge_set_prm(const fdl::Indication& request)
 {
     ++counters_.set_prm;
@@ -145,7 +145,11 @@ Judgement Slave::judge_control(const fdl::Indication& request) const
 
 void Slave::set_inputs(const InputImage& inputs)
 {
-    if (data_.set_inputs(inputs)) machine_.apply(Trigger::inputs_ready);
+    switch (data_.set_inputs(inputs)) {
+        case ProcessData::Readiness::as_before: return;
+        case ProcessData::Readiness::ready: machine_.apply(Trigger::inputs_ready); return;
+        case ProcessData::Readiness::drive_gone: machine_.apply(Trigger::drive_gone); return;
+    }
 }
 
 Snapshot Slave::snapshot() const

@@ -10,7 +10,7 @@
 
 namespace dpslave::dp {
 
-StateMachine::StateMachine(const Personality& personality, ProcessData& data, EventLog& log)
+StateMachine::StateMachine(const Personality& personality, ProcessData& data, PendingEvents& log)
     : personality_(personality), data_(data), log_(log), ext_diag_(personality)
 {}
 
@@ -63,11 +63,11 @@ void StateMachine::carry_out(Effect effect, const Judgement& judged, const fdl::
         }
         case Effect::start_exchange: start_exchange(judged, request); return;
         case Effect::exchange:
-            data_.receive(request.data);
+            data_.receive(request.data, request.at);
             data_.append_inputs(reply);
             return;
         case Effect::exchange_nothing:
-            data_.receive_nothing();
+            data_.receive_nothing(request.at);
             data_.append_inputs(reply);
             return;
         case Effect::read_inputs: data_.append_inputs(reply); return;
@@ -75,7 +75,11 @@ void StateMachine::carry_out(Effect effect, const Judgement& judged, const fdl::
         case Effect::control: control(request.data); return;
         case Effect::set_diag_pending: diag_pending_ = true; return;
         case Effect::end_stat_diag:
-            data_.end_stat_diag();
+            data_.set_stat_diag(false);
+            diag_pending_ = true;
+            return;
+        case Effect::begin_stat_diag:
+            if (data_.set_stat_diag(true)) log_.add(event(Event::Kind::unfreeze));
             diag_pending_ = true;
             return;
     }
@@ -117,8 +121,8 @@ void StateMachine::enter(State to, LeaveReason reason, std::uint8_t owner_before
     log_.add(entered);
 }
 
-/// As after a reset. What others have given (extended diagnosis) and what counts for ever (generations,
-/// counters, orders not fetched yet) stays.
+/// The slave is as after a reset. But values that others have given (extended diagnosis) or that count for
+/// ever (generations, counters, orders not fetched yet) stay.
 void StateMachine::power_on()
 {
     min_tsdr_ = kSmallestMinTsdr;
@@ -136,7 +140,7 @@ void StateMachine::read_diagnosis(std::uint8_t sa, fdl::ReplyData& reply)
 
 void StateMachine::take_parameters(const Judgement& judged, const fdl::Indication& request)
 {
-    const auto* offered = std::get_if<Parameters>(&judged.brings);
+    const auto* offered = std::get_if<SetPrm>(&judged.brings);
     if (offered == nullptr) return; // the trigger always comes with them
     parameters_ = *offered;
     master_ = request.sa;
@@ -194,6 +198,7 @@ void StateMachine::on_time(Instant at)
         ++expirations_;
         apply(Trigger::watchdog_expired, at);
     }
+    if (at >= data_.outputs_old_at()) data_.forget_waiting_outputs();
     if (at >= data_.ready_by() && data_.give_up_waiting()) apply(Trigger::inputs_ready, at);
 }
 
@@ -204,7 +209,7 @@ void StateMachine::retrigger(std::uint8_t sa, Instant at)
 
 Instant StateMachine::next_deadline() const
 {
-    return std::min(watchdog_.deadline(), data_.ready_by());
+    return std::min({watchdog_.deadline(), data_.ready_by(), data_.outputs_old_at()});
 }
 
 bool StateMachine::set_ext_diag(Bytes blocks, bool fault)

@@ -51,10 +51,11 @@ enum class Trigger : std::uint8_t {
     watchdog_expired,
     diagnosis_changed,
     inputs_ready, ///< every input was tried once, or the time for it is over
+    drive_gone,   ///< while inputs are exchanged (X-51, diagnosis)
     count,
 };
 
-/// What goes back.
+/// The kind of reply that is sent.
 enum class Reply : std::uint8_t {
     none,
     sc,
@@ -80,6 +81,7 @@ enum class Effect : std::uint8_t {
     control,          ///< Clear, Sync, Freeze
     set_diag_pending, ///< Diag_Pending := 1
     end_stat_diag,    ///< Stat_Diag := 0, Diag_Pending := 1
+    begin_stat_diag,  ///< Stat_Diag := 1, Diag_Pending := 1; a frozen image is released
 };
 
 /// The bit of Slave_Diag that a refused telegram sets; the refusal is kept and logged.
@@ -116,7 +118,7 @@ struct Row {
     Fault fault;
     LeaveReason leave; ///< none: L is not carried out
     Effect effect;
-    std::optional<State> to; ///< nothing: the state stays
+    std::optional<State> to; ///< nullopt: the state stays
 };
 
 inline constexpr State kPon = State::power_on;
@@ -184,6 +186,8 @@ inline constexpr auto kTable = [] {
     {"-",    kWprm,           diagnosis_changed,                  Reply::none,     F::none,          L::none,            E::none,               kSame}, // there is no owner
     {"A2",   kDxch,           inputs_ready,                       Reply::none,     F::none,          L::none,            E::end_stat_diag,      kSame},
     {"-",    S{kWprm, kWcfg}, inputs_ready,                       Reply::none,     F::none,          L::none,            E::none,               kSame},
+    {"A4",   kDxch,           drive_gone,                         Reply::none,     F::none,          L::none,            E::begin_stat_diag,    kSame},
+    {"-",    S{kWprm, kWcfg}, drive_gone,                         Reply::none,     F::none,          L::none,            E::none,               kSame},
     {"M2",   kAny3,           other_sap,                          Reply::rs,       F::none,          L::none,            E::none,               kSame},
     });
 }();

@@ -56,7 +56,7 @@ std::string_view text(Refusal why) noexcept
         case Refusal::prm_length: return "User_Prm_Data has a wrong length";
         case Refusal::prm_dpv1: return "DPV1_Status asks for functions that the device does not have";
         case Refusal::prm_tag_too_large: return "a tag in User_Prm_Data is too large";
-        case Refusal::prm_zero_tag: return "a zero stands between the tags in User_Prm_Data";
+        case Refusal::prm_zero_tag: return "a zero replaces a tag in User_Prm_Data";
         case Refusal::cfg_empty: return "Cfg_Data is empty";
         case Refusal::cfg_too_long: return "Cfg_Data has too many identifiers";
         case Refusal::cfg_identifier: return "an identifier is not legal here";

@@ -59,8 +59,9 @@ std::size_t width_of_terminal()
 int main(int argc, char** argv)
 {
     const bool tty = ::isatty(STDOUT_FILENO) == 1;
+    const bool can_ask = ::isatty(STDIN_FILENO) == 1 && (tty || ::isatty(STDERR_FILENO) == 1);
     dpslave::dpctl::Terminal terminal{
-        std::cout,           std::cerr,           tty,      tty && takes_colours(),
-        width_of_terminal(), tty && has_cursor(), is_utf8()};
-    return dpslave::dpctl::run(std::vector<std::string>(argv + 1, argv + argc), terminal);
+        std::cout,           std::cerr,           tty,       tty && takes_colours(),
+        width_of_terminal(), tty && has_cursor(), is_utf8(), can_ask ? &std::cin : nullptr};
+    return dpslave::dpctl::run({argv + 1, argv + argc}, terminal);
 }

@@ -4,24 +4,27 @@
 #include "dpslave/app/daemon.hpp"
 #include "dpslave/app/service.hpp"
 #include "dpslave/app/version.hpp"
+#include "dpslave/arguments/command_line.hpp"
+#include "dpslave/arguments/options.hpp"
 #include "dpslave/config/config.hpp"
 
 #include <CLI/CLI.hpp>
 #include <spdlog/spdlog.h>
 
 #include <cstdio>
+#include <iostream>
 #include <string>
 
 namespace {
 
 using dpslave::app::ExitStatus;
 
-constexpr const char* kFooter = R"(Exit status:
-  0  ended by SIGTERM or SIGINT; with --check: the configuration is good; with --is-configured: there is
-     something to start; always with --release
-  1  the configuration was refused: one line per fault on standard error; with --is-configured: it is still empty
-  2  wrong usage
-  3  a device or the control socket could not be opened)";
+constexpr const char* kFooter =
+    "Exit status:\n"
+    "  0  ended by SIGTERM or SIGINT; with --check: the configuration is good; with --is-configured: there is something to start; always with --release\n"
+    "  1  the configuration was refused: one line per fault on standard error; with --is-configured: it is still empty\n"
+    "  2  wrong usage\n"
+    "  3  a device or the control socket could not be opened";
 
 int status(ExitStatus status)
 {
@@ -34,25 +37,25 @@ int say_whether_configured(const std::string& file)
     if (!dpslave::app::is_unconfigured(file)) return 0;
     dpslave::set_up_log();
     spdlog::warn(
-        "{} configures neither bus nor line nor station, so there is nothing to start: delete the # before "
-        "[bus], [[line]] and [[station]], set the keys below them, and start the service again",
+        "{} configures neither bus nor line nor station, so there is nothing to start: delete the # before [bus], [[line]] and [[station]], set the keys below them, and start the service again",
         file);
     return 1;
 }
 
 /// What the daemon that has ended had in use, else what is configured. Whatever is wrong, the last step of a
 /// service is no failure: the start reports a faulty configuration.
-int release_driver(const std::string& file, const std::string& profiles)
+int release_drivers(const std::string& file, const std::string& profiles)
 {
     namespace app = dpslave::app;
     dpslave::set_up_log();
-    auto driver = app::kept_driver(app::runtime_folder());
-    if (!driver) {
+    auto drivers = app::kept_drivers(app::runtime_folder());
+    if (!drivers) {
         const auto config = dpslave::config::load_config(file, profiles);
         if (!config) return 0;
-        driver = app::DriverInUse{config->bus.driver_enable, config->bus.port};
+        drivers = app::drivers_of(*config);
     }
-    if (const auto trouble = app::release(*driver)) spdlog::warn("not released: {}", *trouble);
+    for (const app::DriverInUse& driver : *drivers)
+        if (const auto trouble = app::release(driver)) spdlog::warn("not released: {}", *trouble);
     return 0;
 }
 
@@ -67,32 +70,30 @@ int main(int argc, char** argv)
     bool check = false;
     bool is_configured = false;
     bool release = false;
-    app.add_option("--config", file, "Configuration file")->capture_default_str();
-    app.add_option("--profiles", profiles, "Folder of the device profiles")->capture_default_str();
+    dpslave::arguments::add_text(app, "--config", file, "FILE", "Configuration file");
+    dpslave::arguments::add_text(app, "--profiles", profiles, "DIR", "Folder of the device profiles");
     app.add_flag("--check", check, "Only check the configuration");
     app.add_flag("--is-configured", is_configured,
                  "Only show by the exit status whether a bus, a line or a station is configured")
         ->excludes("--check");
     app.add_flag("--release", release,
-                 "Only switch the driver of the RS-485 transceiver off, after the daemon has ended")
+                 "Only switch the drivers of the RS-485 transceivers off, after the daemon has ended")
         ->excludes("--check", "--is-configured");
-    app.set_version_flag("--version", std::string("dpslaved ") + dpslave::app::kVersion);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : status(ExitStatus::usage);
-    }
+    if (const auto ended =
+            dpslave::arguments::read_command_line(app, std::string{"dpslaved "} + dpslave::app::kVersion,
+                                                  {argv + 1, argv + argc}, std::cout, std::cerr))
+        return *ended;
 
     if (is_configured) return say_whether_configured(file);
-    if (release) return release_driver(file, profiles);
+    if (release) return release_drivers(file, profiles);
     const auto config = dpslave::config::load_config(file, profiles);
     if (!config) {
-        for (const dpslave::toml::Fault& fault : config.error())
+        for (const dpslave::input::Fault& fault : config.error())
             std::fprintf(stderr, "%s\n", to_string(fault).c_str());
         return status(ExitStatus::configuration_refused);
     }
     if (check) {
-        for (const dpslave::toml::Fault& warning : config->warnings)
+        for (const dpslave::input::Fault& warning : config->warnings)
             std::fprintf(stderr, "%s (warning)\n", to_string(warning).c_str());
         if (!dpslave::config::operator_group_of(config->control))
             std::fprintf(stderr, "%s (warning)\n", to_string(without_operator_group(*config)).c_str());

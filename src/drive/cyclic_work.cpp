@@ -18,8 +18,8 @@ void CyclicWork::reset(ParameterSet parameters, bool drive_is_lost)
     reads_.reset(parameters_);
     outputs_.reset(parameters_);
     if (drive_is_lost) drive_lost();
-    reads_not_understood_.reset();
-    outputs_not_understood_.reset();
+    retry_reads_.reset();
+    retry_outputs_.reset();
     in_round_ = false;
     round_began_.reset();
 }
@@ -30,7 +30,7 @@ void CyclicWork::exchange(ParameterSet parameters, std::chrono::nanoseconds refr
     reads_.exchange(parameters);
     outputs_.exchange(parameters, refresh);
     parameters_ = std::move(parameters); // the records stay where they are
-    if (drive_is_lost) parameters_.readings_lost();
+    if (drive_is_lost) parameters_.readings_lost(loss_is_a_result_);
 }
 
 std::optional<Transaction> CyclicWork::next(Instant now)
@@ -88,7 +88,7 @@ bool CyclicWork::done_read(const Outcome& outcome, Tries tries, bool compares, I
         if (tries.is_last) reads_.skip(job_.block); // lost on it: after the return another one goes first
         return false;
     }
-    if (reads_not_understood_.is_repeated(outcome.error, tries.retries)) {
+    if (retry_reads_.is_repeated(outcome.error, tries.retries)) {
         reads_.hold(job_.block, outcome.error);
         return false;
     }
@@ -116,7 +116,7 @@ void CyclicWork::compare(const Outcome& outcome)
 void CyclicWork::done_write(AccessError error, Tries tries, Instant now)
 {
     if (error == AccessError::no_answer) return outputs_.not_answered(tries.is_last);
-    if (!outputs_.writes_block() && outputs_not_understood_.is_repeated(error, tries.retries))
+    if (!outputs_.writes_block() && retry_outputs_.is_repeated(error, tries.retries))
         return outputs_.hold(error);
     outputs_.done(error, now);
 }
@@ -140,7 +140,7 @@ void CyclicWork::contradict(const Tag* row, std::string_view answer)
 void CyclicWork::drive_lost()
 {
     in_round_ = false;
-    parameters_.readings_lost();
+    parameters_.readings_lost(loss_is_a_result_);
     parameters_.writings_lost();
 }
 

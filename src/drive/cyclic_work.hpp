@@ -17,9 +17,9 @@ class CyclicWork {
 public:
     CyclicWork(ParameterSet parameters, BlockRule rule, OutputPlan::Rule outputs);
 
-    /// Another layout. What becomes of a transaction for the one before is dropped.
+    /// Sets another layout; the result of a transaction of the former one is dropped.
     void reset(ParameterSet parameters, bool drive_is_lost);
-    /// The same layout with other rows. Those of before are still there.
+    /// Exchanges the rows of the same layout. The former ones still exist.
     void exchange(ParameterSet parameters, std::chrono::nanoseconds refresh, bool drive_is_lost);
 
     OutputPlan& outputs() { return outputs_; }
@@ -28,11 +28,11 @@ public:
     /// The compared outputs are read from now on, or no more.
     void compare(bool outputs) { reads_.compare(outputs); }
 
-    /// Outputs before inputs. As an output is written once a round at most, one that changes all the time
-    /// takes no more than its own share of the cycle. Nothing: the round is over.
+    /// Outputs before inputs. An output is written once a round at most, so one that changes all the time
+    /// takes no more than its own share of the cycle. nullopt means that the round is over.
     std::optional<Transaction> next(Instant now);
     std::optional<Transaction> next_read(Instant now);
-    /// How long the round before took; nothing where nothing was read for the master.
+    /// Returns how long the round before took; nullopt if nothing was read for the master.
     std::optional<std::chrono::nanoseconds> begin_round(Instant now);
     Instant next_due() const { return std::min(outputs_.next_due(), reads_.next_due()); }
 
@@ -40,8 +40,8 @@ public:
         int retries = 0;
         bool is_last = false; ///< without an answer the drive is lost
     };
-    /// What became of the transaction given last. `compares`: a read shows what became of the outputs. True:
-    /// a value or a state of an input changed.
+    /// Takes the result of the transaction given last. `compares`: reads show whether the outputs were
+    /// accepted. Returns true if a value or a state of an input changed.
     bool done(const Transaction& transaction, const Outcome& outcome, Tries tries, bool compares,
               Instant now);
     /// The transaction given last was not asked, or its answer is not proven: once more in a later round.
@@ -50,11 +50,14 @@ public:
     void contradict(const Tag* row, std::string_view answer);
     void hold_reads() { reads_.hold_all(); } ///< the drive has not answered, whatever it was asked
     void drive_lost();
+    /// Sets whether each input counts as tried when the drive is lost; else it is to be read after its
+    /// return.
+    void loss_is_a_result(bool is_result) { loss_is_a_result_ = is_result; }
     void drive_returned(Instant now);
     void port_changed(); ///< it may be another drive
 
 private:
-    /// What the transaction under way is for.
+    /// The purpose of the transaction under way.
     struct Job {
         std::uint32_t layout = 0; ///< serial_ when it was given
         ReadPlan::Block block{};
@@ -67,11 +70,12 @@ private:
     void compare(const Outcome& outcome);
 
     std::uint32_t serial_ = 0; ///< counts layouts
+    bool loss_is_a_result_ = true;
     ParameterSet parameters_;
     ReadPlan reads_;
     OutputPlan outputs_;
-    NotUnderstood reads_not_understood_;
-    NotUnderstood outputs_not_understood_;
+    RetryAfterGarble retry_reads_;
+    RetryAfterGarble retry_outputs_;
     Job job_;
     bool in_round_ = false; ///< something was read for the master since the round began
     std::optional<Instant> round_began_;

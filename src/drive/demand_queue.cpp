@@ -19,7 +19,7 @@ void DemandQueue::set(const DemandOrder& order, const Tag* row, AccessError verd
 {
     if (!entries_.empty() && entries_.back().order.kind == DemandOrder::Kind::read) entries_.pop_back();
     standing_.reset();
-    answers_.clear(); // of orders that no longer stand
+    answers_.clear(); // of orders that are no longer in force
     if (order.kind == DemandOrder::Kind::cancel) return;
     standing_ = order.number;
     if (verdict != AccessError::none) {
@@ -67,16 +67,16 @@ void DemandQueue::done(std::uint32_t number, const Transaction& transaction, con
         finish(*proof, entry.order.value);
     } else {
         entry.stage = Stage::ordered;
-        if (++entry.attempts > retries) finish(AccessError::not_kept, entry.order.value);
+        if (entry.row->once || ++entry.attempts > retries) finish(AccessError::not_kept, entry.order.value);
     }
 }
 
-/// Of the first order.
+/// Finishes the first order.
 void DemandQueue::finish(AccessError error, std::uint16_t value)
 {
     Entry& entry = entries_.front();
-    // What comes late for an order that no longer stands is dropped: behind the answer to the one
-    // that stands it would take its place.
+    // The result of an order that is no longer in force is dropped: else it would replace the answer
+    // to the present order.
     const bool has_value = error == AccessError::none || error == AccessError::not_kept;
     if (stands(entry)) answer({entry.order.number, error, has_value ? value : std::uint16_t{0}});
     if (entry.order.kind == DemandOrder::Kind::write)

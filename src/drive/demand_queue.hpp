@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The orders of Demand Data for one drive. A read stands until the next order and is repeated; a write is
-/// done once, also when the next order came before its turn - unless the drive is lost by then.
+/// The orders of Demand Data for one drive. A read stays in force until the next order and is repeated; a
+/// write is done once, also when the next order came before its turn - unless the drive is lost by then.
 #pragma once
 
 #include "transactions.hpp"
@@ -30,7 +30,7 @@ public:
         }
     };
 
-    /// The order that stands now; `verdict` other than none answers it without the drive.
+    /// The order in force now; `verdict` other than none answers it without the drive.
     void set(const DemandOrder& order, const Tag* row, AccessError verdict);
     /// The row of each order is now the one that `row_of` makes of it.
     template <class RowOf>
@@ -41,19 +41,21 @@ public:
     /// The layouts up to this one have ended, and their orders with them.
     void end(Generation generation);
 
-    /// What to do next: a new order, else the standing read.
+    /// Returns what to do next: a new order, else the standing read.
     const Entry* front() const { return entries_.empty() ? nullptr : &entries_.front(); }
-    /// What became of the transaction for the order `number`, of which nothing follows if it is gone. Without
-    /// an answer the order waits on. What the drive did not understand waits on as long as it stands; else
-    /// `retries` times, for others wait behind it. `proven_by_reading`: an acknowledged write is read back;
-    /// where another word is there it is written again, `retries` times. Then the answer is not_kept.
+    /// Takes the result of the transaction for the order `number`; nothing happens if that order is gone. If
+    /// the drive does not answer, the order keeps waiting. If the drive did not understand, a standing order
+    /// keeps waiting; any other is repeated `retries` times, because others wait for it. `proven_by_reading`:
+    /// an acknowledged write is read back; if the drive holds another word it is written again, `retries`
+    /// times, unless its row says `once`. Then the
+    /// answer is not_kept.
     void done(std::uint32_t number, const Transaction& transaction, const Outcome& outcome,
               bool proven_by_reading, int retries);
-    /// The drive is lost: what no longer stands is not to be done when it returns, maybe minutes later.
+    /// The drive is lost: orders no longer in force are not carried out when it returns, maybe minutes later.
     void drop_superseded();
-    /// Writes that were dropped though their layout stands.
+    /// Writes that were dropped though their layout is in force.
     std::uint64_t dropped() const { return dropped_; }
-    /// Answers to the order that stands, and to no other.
+    /// Answers to the order in force, and to no other.
     std::optional<DemandAnswer> take_answer();
 
 private:

@@ -30,11 +30,14 @@ void OperateQueue::done(const Transaction& transaction, const Outcome& outcome, 
         return;
     }
     OperateAnswer answer{entry.order.number, outcome.error, word_of(transaction, outcome)};
+    const AccessError silence = entry.silence();
     if (entry.acknowledged) {
         const auto proof = proof_of(entry.order.word, outcome);
         entry.acknowledged = false;
-        if (!proof && ++entry.attempts <= retries) return; // it does not hold it: written again
+        const bool is_again = !proof && !entry.row->once && ++entry.attempts <= retries;
+        if (is_again) return; // it does not hold it: written again
         answer = {entry.order.number, proof.value_or(AccessError::not_kept), entry.order.word};
+        if (proof == AccessError::no_answer) answer.error = silence;
     }
     answers_.push_back(answer);
     entries_.pop_front();
@@ -42,7 +45,7 @@ void OperateQueue::done(const Transaction& transaction, const Outcome& outcome, 
 
 void OperateQueue::drive_lost()
 {
-    for (const Entry& entry : entries_) answers_.push_back({entry.order.number, AccessError::no_answer, 0});
+    for (const Entry& entry : entries_) answers_.push_back({entry.order.number, entry.silence(), 0});
     entries_.clear();
 }
 

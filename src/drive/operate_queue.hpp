@@ -17,9 +17,14 @@ public:
         int attempts = 0;
         bool acknowledged = false; ///< a write that the drive has answered: now it is read back
         bool writes_next() const { return order.is_write && !acknowledged; }
+        /// The end without an answer: of a write that was made and counts nobody is to think that it was not.
+        AccessError silence() const
+        {
+            return acknowledged && row->once ? AccessError::not_known : AccessError::no_answer;
+        }
     };
 
-    /// `verdict` other than none answers it without the drive. False: too many wait.
+    /// `verdict` other than none answers it without the drive. Returns false if too many wait.
     bool add(const OperateOrder& order, const Tag* row, AccessError verdict);
     /// The row of each order is now the one that `row_of` makes of it.
     template <class RowOf>
@@ -29,8 +34,9 @@ public:
     }
 
     const Entry* front() const { return entries_.empty() ? nullptr : &entries_.front(); }
-    /// What became of the transaction for the first order. Silence and what was not understood are repeated
-    /// `retries` times; so is a write that is proven by reading and not held.
+    /// Takes the result of the transaction for the first order. It is repeated `retries` times after silence
+    /// or if the drive did not understand; so is a write that is proven by reading and not held, unless its
+    /// row says `once`.
     void done(const Transaction& transaction, const Outcome& outcome, bool proven_by_reading, int retries);
     void drive_lost(); ///< each is answered
     std::optional<OperateAnswer> take_answer();

@@ -22,8 +22,11 @@ void OutputPlan::reset(ParameterSet& parameters)
 void OutputPlan::use(ParameterSet& parameters)
 {
     turns_.clear();
-    for (DriveParameter& one : parameters.all())
-        if (one.writing.is_output) turns_.push_back({.parameter = &one, .repeated = {}});
+    for (DriveParameter& one : parameters.all()) {
+        if (!one.writing.is_output) continue;
+        turns_.push_back({.parameter = &one, .repeated = {}});
+        sent_once_.show(*one.row, one.writing);
+    }
     std::sort(turns_.begin(), turns_.end(),
               [](const Turn& a, const Turn& b) { return a.writing().parameter < b.writing().parameter; });
     by_tag_.clear();
@@ -42,6 +45,12 @@ void OutputPlan::exchange(ParameterSet& parameters, std::chrono::nanoseconds ref
     use(parameters);
     for (std::size_t i = 0; i < turns_.size(); ++i) { // the layout is the same, so are the places
         DriveParameter* const parameter = turns_[i].parameter;
+        const Writing& was = before[i].writing();
+        const bool is_proven = was.knowledge == Knowledge::acknowledged || was.knowledge == Knowledge::held;
+        if (!parameter->row->once)
+            sent_once_.forget(*parameter->row);
+        else if (!before[i].parameter->row->once && is_proven)
+            sent_once_.note(*parameter->row, was.known, was.error, was.answered_at);
         if (!is_written_alike(*before[i].parameter, *parameter)) continue;
         turns_[i] = before[i];
         turns_[i].parameter = parameter;
@@ -58,20 +67,24 @@ void OutputPlan::set(std::span<const std::uint16_t> words, bool may_write)
     }
 }
 
-/// A changed word is due at once, kAtOnce. What is dropped is tried rarely; a word that it did not understand
-/// is tried as rarely, unless its refresh comes first.
+/// A changed word is due at once, kAtOnce. A word that is dropped is tried rarely; a word that the drive did
+/// not understand is tried as rarely, unless its refresh comes first.
 Instant OutputPlan::due_at(const Turn& turn) const
 {
     const Writing& writing = turn.writing();
-    if (!writing.asked) return kNever;
+    const Tag& row = *turn.parameter->row;
+    if (!writing.asked || sent_once_.was(row, writing.wanted)) return kNever;
     if (writing.is_dropped()) return turn.attempted_at + kInvalidRetry;
+    if (row.once) // refused before it was sent
+        return turn.repeated == writing.wanted ? turn.attempted_at + kInvalidRetry : kAtOnce;
     if (!writing.is_settled()) return kAtOnce;
     if (rule_.compare) return repeat_at(turn);
     const bool not_understood = writing.error == AccessError::not_understood;
     return turn.attempted_at + (not_understood ? std::min(rule_.refresh, kInvalidRetry) : rule_.refresh);
 }
 
-/// Of a compared output whose word was answered. Never while the drive holds it.
+/// Returns when a compared output whose word was answered is written again. It is never repeated while the
+/// drive holds it.
 Instant OutputPlan::repeat_at(const Turn& turn) const
 {
     const Writing& writing = turn.writing();
@@ -85,7 +98,8 @@ Instant OutputPlan::repeat_at(const Turn& turn) const
 bool OutputPlan::joins(const Turn& turn, Instant now) const
 {
     const Writing& writing = turn.writing();
-    return writing.readable && !turn.alone && !turn.waits && !turn.parameter->row->modbus_register &&
+    const Tag& row = *turn.parameter->row;
+    return writing.readable && !row.once && !turn.alone && !turn.waits && !row.modbus_register &&
            !writing.is_dropped() && turn.round != round_ && due_at(turn) <= now;
 }
 
@@ -185,7 +199,7 @@ void OutputPlan::block_failed()
     for (const std::size_t index : batch_) turns_[index].alone = true;
 }
 
-/// Of outputs that are compared one at most is asked for each tag.
+/// If outputs are compared, at most one is asked for each tag.
 OutputPlan::Turn* OutputPlan::find_asked(const Tag* row)
 {
     const auto at = std::find_if(turns_.begin(), turns_.end(), [row](const Turn& turn) {
@@ -237,17 +251,19 @@ void OutputPlan::port_changed()
         if (!turn.writing().asked) continue;
         turn = {.parameter = turn.parameter, .round = round_, .repeated = {}};
         turn.writing().port_changed();
+        sent_once_.show(*turn.parameter->row, turn.writing());
     }
     batch_.clear();
     failed_blocks_ = 0;
 }
 
-/// What is known about blocks stays: the drive may have been lost on one.
+/// The knowledge about blocks stays: the drive may have been lost on one.
 void OutputPlan::drive_returned()
 {
     for (Turn& turn : turns_) {
         if (!turn.writing().asked) continue;
         turn.writing().drive_returned();
+        sent_once_.show(*turn.parameter->row, turn.writing());
         turn.repeats = 0;
         turn.repeated.reset();
         turn.round = turn.waits ? round_ + 1 : round_;

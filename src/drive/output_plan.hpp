@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Which output of the present layout of one drive is written next. A changed word is written at once, each
-/// output at most once a round. A standing word is written again after the refresh interval; or, where
-/// outputs are compared, only when a read shows another word in the drive: its memory bears a limited number
-/// of writes.
+/// Decides which output of the present layout of one drive is written next. A changed word is written at
+/// once, each output at most once a round. A standing word is written again after the refresh interval; or,
+/// where outputs are compared, only when a read shows another word in the drive: its memory bears a limited
+/// number of writes. A word whose row says `once` goes out once for each change.
 #pragma once
 
 #include "read_plan.hpp"
+#include "sent_once.hpp"
 
 #include <array>
 #include <chrono>
@@ -26,7 +27,8 @@ inline constexpr std::chrono::nanoseconds kSettling = std::chrono::milliseconds{
 inline constexpr std::chrono::nanoseconds kFirstRepeat = std::chrono::seconds{1};
 inline constexpr std::chrono::nanoseconds kRepeatNotKept = std::chrono::minutes{1};
 
-/// So many blocks in a row that were refused or not answered, and this drive gets single writes only.
+/// After this number of blocks in a row that were refused or not answered, this drive gets single writes
+/// only.
 inline constexpr int kMaxFailedBlocks = 3;
 
 class OutputPlan {
@@ -37,7 +39,7 @@ public:
         std::uint16_t max_written = 1; ///< adjoining tags in one transaction; only where outputs are compared
     };
 
-    /// What is written next; valid until the next start().
+    /// The next write; valid until the next start().
     struct Write {
         const Tag* row = nullptr; ///< of the first word
         std::span<const std::uint16_t> words;
@@ -45,13 +47,14 @@ public:
 
     explicit OutputPlan(Rule rule) : rule_(rule) {}
 
-    /// The outputs of `parameters`, which outlives this plan of them. Nothing is written before set().
+    /// Sets the outputs of `parameters`, which outlives this plan of them. Nothing is written before set().
     void reset(ParameterSet& parameters);
     void set(std::span<const std::uint16_t> words, bool may_write);
-    /// The same layout with other rows. Those of before are still there.
+    /// Exchanges the rows of the same layout. The former ones still exist.
     void exchange(ParameterSet& parameters, std::chrono::nanoseconds refresh);
     void leave_port() { leaves_port_ = true; } ///< nothing is written until port_changed()
-    /// It may be another drive: every word is written. Before begin_round().
+    /// The port was opened again and may lead to another drive: every word is written. Call it before
+    /// begin_round().
     void port_changed();
     bool leaves_port() const { return leaves_port_; }
     void stop() { stopped_ = true; } ///< the layout has ended: nothing of it is written any more
@@ -68,8 +71,8 @@ public:
     /// Changed ones first, then those to refresh or to repeat, each with its neighbours that are due as well.
     std::optional<Write> start(Instant now);
     Instant next_due() const; ///< rounds left out of account
-    /// What became of the write started last; not for no_answer. A block that was refused says nothing about
-    /// its words: they are written one by one.
+    /// Takes the result of the write started last; not for no_answer. A block that was refused says nothing
+    /// about its words: they are written one by one.
     void done(AccessError error, Instant now);
     void not_answered(bool drive_lost);
     void defer(); ///< not asked or not proven: once more in the next round
@@ -82,6 +85,9 @@ public:
     /// The drive does not give its word: nothing can be compared.
     void unreadable(const Tag* row);
     void refuse(const Tag* row, AccessError error); ///< it is not written any more
+
+    SentOnce& sent_once() { return sent_once_; }
+    const SentOnce& sent_once() const { return sent_once_; }
 
     void drive_returned(); ///< before begin_round()
 
@@ -106,6 +112,7 @@ private:
     void block_failed();
 
     Rule rule_;
+    SentOnce sent_once_;
     std::vector<Turn> turns_;         ///< in the order of the layout
     std::vector<std::size_t> by_tag_; ///< those that are asked, ascending by tag
     std::vector<std::size_t> batch_;  ///< turns of the write started last, in the order of their tags

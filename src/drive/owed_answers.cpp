@@ -6,7 +6,8 @@
 namespace dpslave::drive {
 namespace {
 
-/// Frames since the last question that are compared: a line that babbles on is not remembered for ever.
+/// Frames since the last question that are compared: a line that never stops sending is not remembered for
+/// ever.
 constexpr std::size_t kMostHeard = 16;
 
 } // namespace
@@ -47,8 +48,9 @@ bool OwedAnswers::may_ask(const Question& question, Instant now) const
     });
 }
 
-void OwedAnswers::asked(const Question& question, Instant at)
+void OwedAnswers::asked(const Question& question, Instant at, Instant answers_from)
 {
+    answers_from_ = answers_from;
     for (Debt& debt : owed_)
         if (debt.question.drive == question.drive && fits(debt, question.written)) debt.before_write = true;
     owed_.push_back({question, at, false});
@@ -83,8 +85,21 @@ void OwedAnswers::note_late(const Debt& debt, Instant at)
     ++counts.late_in_a_row;
 }
 
+/// A sign of life of the drive that owes it. If several drives owe this form, any of them may have sent it.
+void OwedAnswers::note_valid(Form form, Instant at)
+{
+    const Debt* only = nullptr;
+    for (const Debt& debt : owed_) {
+        if (!fits(debt, form)) continue;
+        if (only != nullptr && only->question.drive != debt.question.drive) return;
+        only = &debt;
+    }
+    if (only != nullptr) valid(only->question.drive, at);
+}
+
 OwedAnswers::Verdict OwedAnswers::heard(Form form, Bytes frame, Instant at)
 {
+    if (names_ == Names::tag) note_valid(form, at);
     if (is_duplicate(frame)) return Verdict::duplicate;
     const auto oldest =
         std::find_if(owed_.begin(), owed_.end(), [form](const Debt& debt) { return fits(debt, form); });
@@ -95,7 +110,7 @@ OwedAnswers::Verdict OwedAnswers::heard(Form form, Bytes frame, Instant at)
         owed_.erase(oldest);
         return Verdict::owed;
     }
-    if (oldest == asked_last) { // nothing owed looks like it
+    if (oldest == asked_last) { // no owed answer looks like it
         waits_ = false;
         end_debts_of(asked_last->question.drive);
         return Verdict::answer;
@@ -155,6 +170,7 @@ void OwedAnswers::clear()
     owed_.clear();
     heard_.clear();
     waits_ = false;
+    answers_from_ = Instant::min();
 }
 
 AnswerCounts OwedAnswers::counts(DriveNumber drive) const

@@ -19,10 +19,12 @@ WordState state_of(AccessError error)
     switch (error) {
         case AccessError::none: return WordState::good;
         case AccessError::no_answer:
-        case AccessError::deferred: return WordState::stale;
+        case AccessError::deferred:
+        case AccessError::not_known: return WordState::stale;
         case AccessError::invalid_tag: return WordState::invalid_tag;
         case AccessError::read_only: return WordState::read_only;
         case AccessError::out_of_range:
+        case AccessError::does_not_fit:
         case AccessError::value_not_encoded: return WordState::out_of_range;
         case AccessError::not_understood:
         case AccessError::not_stopped:
@@ -68,12 +70,13 @@ bool Reading::is_excluded() const
            state == WordState::unscaled;
 }
 
-/// An exclusion stands, but not that of a number whose scale the table has by now.
-void Reading::drive_lost()
+/// An exclusion stands, but not that of a number whose scale the table has by now, nor that of another row.
+void Reading::drive_lost(bool is_result)
 {
-    tried = true; // with this result: there is no answer
-    const bool waits_for_new_row = error == AccessError::no_scale && !unscaled;
-    if (!is_excluded() || waits_for_new_row) lose();
+    const bool waits_for_new_row = error == AccessError::no_scale ? !unscaled : of_other_row;
+    const bool is_over = is_excluded() && !waits_for_new_row;
+    tried = is_result || is_over;
+    if (!is_over) lose();
 }
 
 bool Writing::is_dropped() const
@@ -81,8 +84,8 @@ bool Writing::is_dropped() const
     return state == WordState::invalid_tag || state == WordState::unscaled;
 }
 
-/// A bus that flaps must not cost the memory of the drive a write each time: the first word of a layout is
-/// taken for what the drive holds until a read shows another one.
+/// A bus that drops out again and again must not cost the memory of the drive a write each time: the first
+/// word of a layout counts as held by the drive until a read shows another one.
 void Writing::layout_begins()
 {
     if (!readable) return;
@@ -122,8 +125,8 @@ void Writing::port_changed()
     answered(AccessError::deferred);
 }
 
-/// It may have been without power: whatever it held, every present output is written again. Where outputs are
-/// compared the reads show which of them.
+/// The drive may have been without power: every present output is written again, whatever the drive held. If
+/// outputs are compared the reads show which of them.
 void Writing::drive_returned()
 {
     on(readable && !is_refused() ? KnowledgeEvent::back_and_read : KnowledgeEvent::back);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// One record for each parameter of a drive: what is wanted of it, what is known of it, what is shown of it.
-/// When it is read or written next is no part of it: ReadPlan, OutputPlan and SafeState keep that.
+/// There is one record for each parameter of a drive: what is wanted of it, what is known of it, and what is
+/// shown of it. ReadPlan, OutputPlan and SafeState decide when it is read or written next.
 #pragma once
 
 #include "dpslave/drive/poller.hpp"
@@ -11,7 +11,7 @@
 
 namespace dpslave::drive {
 
-/// What is known of the word that the drive holds in a parameter which is written.
+/// The knowledge about the word that the drive holds in a parameter which is written.
 enum class Knowledge : std::uint8_t {
     unknown,      ///< never written, the answer was lost, or the drive was away
     acknowledged, ///< the drive has answered a write of this word alone, whatever the answer was
@@ -77,14 +77,15 @@ constexpr bool rows_are_in_order()
 }
 static_assert(rows_are_in_order());
 
-/// What an error of an access means for the parameter. Not for no_answer of a drive that is lost.
+/// Returns the meaning of an error of an access for the parameter. It is not called for no_answer of a drive
+/// that is lost.
 WordState state_of(AccessError error);
 
-/// How far the reads or the writes of a parameter have come.
+/// The state of the reads or of the writes of a parameter.
 struct AccessState {
     bool asked = true; ///< false: decided without the drive (STRING, write-only, ...); state says how
     WordState state = WordState::untried;
-    AccessError error = AccessError::none; ///< why; with `state` stale: see UnitSnapshot::errors
+    AccessError error = AccessError::none; ///< why; with `state` stale: see DriveSnapshot::errors
     std::uint16_t word = 0;                ///< as read last, or written and taken last
     int failures = 0;                      ///< accesses in a row without a good answer
     Instant updated_at{};                  ///< last success
@@ -96,27 +97,36 @@ struct AccessState {
     void lose(); ///< the drive is lost: held without an answer
 };
 
-/// What a parameter is read for; several at once.
+/// The reasons to read a parameter; several apply at once.
 enum Use : std::uint8_t {
     kInput = 1,    ///< an input of the layout
     kWatched = 2,  ///< read with or without a layout
     kCompared = 4, ///< an output whose word in the drive is looked at while it is written
     kForm = 8,     ///< an output that only an answer of the drive gives a form: read until it is known (X-49)
+    kAsked = 16, ///< an output of which the drive is asked once whether it has it, and again while it denies
+                 ///< it (X-48)
 };
 
-/// What is read in every round, whatever the outputs do.
+/// The reasons to read an input, or an output before the exchange begins.
+inline constexpr std::uint8_t kOfLayout = kInput | kForm | kAsked;
+
+/// These are read in every round, whatever the outputs do.
 inline constexpr std::uint8_t kReadAlways = kInput | kWatched;
 
 struct Reading : AccessState {
-    std::uint8_t uses = 0; ///< of Use; 0: not read
-    bool unscaled = false; ///< a number has no scale by the row: asked first, before the others
-    bool tried = false;    ///< in this layout, with whatever result
-    AnswerText answer{};   ///< behind the errors no_scale and contradicted
+    std::uint8_t uses = 0;     ///< of Use; 0: not read
+    bool unscaled = false;     ///< a number has no scale by the row: asked first, before the others
+    bool tried = false;        ///< in this layout, with whatever result
+    bool of_other_row = false; ///< the state: no answer under the present row yet
+    AnswerText answer{};       ///< for the errors no_scale, contradicted and invalid_tag
 
     bool serves(std::uint8_t use) const { return (uses & use) != 0; }
+    /// A word was read in this layout: it is held whatever comes.
+    bool was_read() const { return updated_at != Instant{}; }
     /// Not read in every round: the drive has no such tag, or it does not give its value.
     bool is_excluded() const;
-    void drive_lost();
+    /// `is_result`: that there is no answer is the result of the try.
+    void drive_lost(bool is_result);
 };
 
 enum class Verdict : std::uint8_t { accepted, refused };

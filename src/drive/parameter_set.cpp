@@ -19,11 +19,21 @@ void take_over_reading(DriveParameter& now, const DriveParameter& before)
         reading.unscaled = unscaled;
     } else if (reading.asked) {
         reading.word = known.word;
-        reading.tried = known.tried;
-        if (known.error != AccessError::no_scale) return;
+        reading.tried = known.tried && !reading.serves(kAsked);
+        reading.updated_at = known.updated_at;
+        if (known.error == AccessError::no_scale &&
+            !known.asked) { // a register contradicts it no more
+            reading.tried = false;
+            return;
+        }
+        if (known.error != AccessError::no_scale && known.error != AccessError::invalid_tag) return;
+        reading.of_other_row = true;
         reading.state = known.state; // data exchange does not start with a word that was never read
         reading.error = known.error;
         reading.answer = known.answer;
+    } else if (reading.error == AccessError::no_scale) { // it was read before that was found: held
+        reading.word = known.word;
+        reading.updated_at = known.updated_at;
     }
 }
 
@@ -77,7 +87,7 @@ const DriveParameter* ParameterSet::find_output(std::size_t parameter) const
 bool ParameterSet::every_input_tried() const
 {
     return std::all_of(records_.begin(), records_.end(), [](const DriveParameter& one) {
-        return !one.reading.serves(kInput | kForm) || one.reading.tried;
+        return !one.reading.serves(kOfLayout) || one.reading.tried;
     });
 }
 
@@ -88,10 +98,21 @@ bool ParameterSet::scale_missing() const
     });
 }
 
-void ParameterSet::readings_lost()
+ParameterSet::Denied ParameterSet::denied() const
+{
+    bool one_denied = false, one_not = false;
+    for (const DriveParameter& one : records_) {
+        if (!one.reading.serves(kOfLayout)) continue;
+        (one.reading.state == WordState::invalid_tag ? one_denied : one_not) = true;
+    }
+    if (!one_denied) return Denied::none;
+    return one_not ? Denied::some : Denied::all;
+}
+
+void ParameterSet::readings_lost(bool is_result)
 {
     for (DriveParameter& one : records_)
-        if (one.reading.uses != 0) one.reading.drive_lost();
+        if (one.reading.uses != 0) one.reading.drive_lost(is_result);
 }
 
 void ParameterSet::writings_lost()
@@ -108,10 +129,13 @@ void ParameterSet::take_over(const ParameterSet& before)
         const DriveParameter* known =
             now.writing.is_output ? before.find_output(now.writing.parameter) : nullptr;
         if (known == nullptr) continue;
-        if (is_written_alike(*known, now))
-            now.writing = known->writing;
-        else
+        if (!is_written_alike(*known, now)) {
             now.writing.wanted = known->writing.wanted;
+            continue;
+        }
+        const bool readable = now.writing.readable && (known->writing.readable || known->row->once);
+        now.writing = known->writing;
+        now.writing.readable = readable;
     }
 }
 

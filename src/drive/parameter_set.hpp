@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The parameters of one drive that a layout and the watched tags need: one record for each tag, ascending.
-/// Where several outputs of a layout have the same tag, each further one has a record behind it, not read.
+/// If several outputs of a layout have the same tag, each further one has a record after it, which is not
+/// read.
 #pragma once
 
 #include "parameter.hpp"
@@ -29,8 +30,13 @@ public:
     bool every_input_tried() const; ///< and each output whose form is asked for
     /// One of those has answered with a number of unknown scale.
     bool scale_missing() const;
+    /// Says how many of the tags of the layout the drive denies.
+    enum class Denied : std::uint8_t { none, some, all };
+    Denied denied() const;
 
-    void readings_lost(); ///< with the drive
+    /// The readings are lost with the drive. `is_result`: each counts as tried by that; else each is to be
+    /// read again, but for those that the drive does not have.
+    void readings_lost(bool is_result);
     void writings_lost();
 
     /// The rows are other ones for the same layout: what is known stays where the drive is asked the same;

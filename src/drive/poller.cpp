@@ -15,13 +15,18 @@ AnswerText answer_text(std::string_view text)
     return shown;
 }
 
-Poller::Poller(const std::vector<UnitSettings>& units, BlockRule rule)
+Poller::Poller(const std::vector<DriveSettings>& units, BlockRule rule)
 {
-    for (const UnitSettings& settings : units)
+    for (const DriveSettings& settings : units)
         units_.push_back(std::make_unique<Unit>(settings, rule, units_.size()));
 }
 
 Poller::~Poller() = default;
+
+void Poller::heard(std::size_t unit, Instant valid_at)
+{
+    units_[unit]->heard(valid_at);
+}
 
 void Poller::set_outputs(std::size_t unit, const OutputImage& image)
 {
@@ -58,21 +63,24 @@ bool Poller::operate(const OperateOrder& order)
     return order.unit < units_.size() && units_[order.unit]->operate(order);
 }
 
-bool Poller::survey(std::size_t unit, std::uint32_t number, std::uint16_t tag)
+bool Poller::survey(std::size_t unit, std::uint32_t number, std::uint16_t tag,
+                    std::optional<MnemonicRule> rule)
 {
-    return unit < units_.size() && units_[unit]->survey(number, tag);
+    return unit < units_.size() && units_[unit]->survey(number, tag, rule);
 }
 
 /// One transaction a turn, the drives in a circle: what one of them costs, the others do not pay. Between two
 /// rounds of the living drives at most one transaction that can time out, whatever its reason.
 std::optional<Transaction> Poller::next(Instant now)
 {
-    for (const auto& unit : units_) unit->set_now(now);
-    if (doing_) return std::nullopt;
+    shows_first_ = false;
+    for (const auto& unit : units_) shows_first_ = unit->set_now(now) || shows_first_;
+    if (doing_ || shows_first_) return std::nullopt;
     doing_ = next_survey(now);
     if (!doing_) doing_ = next_of(now);
     if (!doing_)
         doing_ = next_of(now); // the living drives have nothing to do: that is the end of their round
+    began_ = now;
     return doing_;
 }
 
@@ -82,9 +90,9 @@ std::optional<Transaction> Poller::next_of(Instant now)
     for (std::size_t i = 0; i < units_.size(); ++i) {
         const std::size_t index = (turn_ + i) % units_.size();
         Unit& unit = *units_[index];
-        const bool risks = unit.link().is_in_doubt();
+        const bool risks = unit.contact().link().is_in_doubt();
         if (risks && !may_time_out()) continue;
-        const auto transaction = unit.link().is_lost() ? probe(index, now) : unit.next(now);
+        const auto transaction = unit.contact().link().is_lost() ? probe(index, now) : unit.next(now);
         if (!transaction) continue;
         turn_ = (index + 1) % units_.size();
         return transaction;
@@ -97,22 +105,25 @@ bool Poller::may_time_out() const
     return std::none_of(units_.begin(), units_.end(), [](const auto& unit) { return unit->owes_round(); });
 }
 
-/// When the next lost drive is probed: the one that has waited longest, one of the line each probe interval.
+/// When a lost drive is probed next. Until it is decided whether it is gone: once a round. Then the one that
+/// has waited longest, one of the line each probe interval.
 Instant Poller::probe_due(std::size_t unit) const
 {
+    if (units_[unit]->contact().is_doubtful()) return units_[unit]->contact().decides_at();
     const auto longest = std::min_element(units_.begin(), units_.end(), [](const auto& a, const auto& b) {
-        return a->link().is_lost() != b->link().is_lost() ? a->link().is_lost()
-                                                          : a->asked_at() < b->asked_at();
+        return a->contact().is_given_up() != b->contact().is_given_up()
+                   ? a->contact().is_given_up()
+                   : a->contact().asked_at() < b->contact().asked_at();
     });
     if (longest->get() != units_[unit].get()) return kNever;
-    if (!probed_at_) return (*longest)->probe_due();
-    return std::max((*longest)->probe_due(), *probed_at_ + (*longest)->probe_interval());
+    if (!probed_at_) return (*longest)->contact().probe_due();
+    return std::max((*longest)->contact().probe_due(), *probed_at_ + (*longest)->contact().probe_interval());
 }
 
 std::optional<Transaction> Poller::probe(std::size_t unit, Instant now)
 {
     if (now < probe_due(unit)) return std::nullopt;
-    probes_ = true;
+    probes_ = units_[unit]->contact().is_given_up();
     return units_[unit]->probe();
 }
 
@@ -121,7 +132,8 @@ std::optional<Transaction> Poller::next_survey(Instant now)
 {
     if (!may_time_out()) return std::nullopt;
     for (std::size_t i = 0; i < units_.size(); ++i)
-        if (units_[i]->link().is_in_doubt() && (!units_[i]->link().is_lost() || now >= probe_due(i)))
+        if (units_[i]->contact().link().is_in_doubt() &&
+            (!units_[i]->contact().link().is_lost() || now >= probe_due(i)))
             return std::nullopt;
     for (std::size_t i = 0; i < units_.size(); ++i) {
         const auto transaction = units_[(turn_ + i) % units_.size()]->next_survey(now);
@@ -137,7 +149,7 @@ void Poller::done(const Outcome& outcome, Instant now)
     if (!doing_) return;
     const Transaction transaction = *std::exchange(doing_, std::nullopt);
     if (std::exchange(probes_, false)) probed_at_ = now;
-    units_[transaction.unit]->done(transaction, outcome, now);
+    units_[transaction.unit]->done(transaction, outcome, began_, now);
     if (outcome.error == AccessError::no_answer)
         for (const auto& unit : units_) unit->owe_round();
 }
@@ -146,9 +158,10 @@ Instant Poller::next_deadline() const
 {
     Instant at = kNever;
     if (doing_) return at; // done() comes first
+    if (shows_first_) return kAtOnce;
     for (std::size_t i = 0; i < units_.size(); ++i) {
         at = std::min(at, units_[i]->next_deadline());
-        if (units_[i]->link().is_lost()) at = std::min(at, probe_due(i));
+        if (units_[i]->contact().link().is_lost()) at = std::min(at, probe_due(i));
     }
     return at;
 }
@@ -181,9 +194,14 @@ bool Poller::safe_state_pending(std::size_t unit) const
     return units_[unit]->safe_state_pending();
 }
 
-const UnitSnapshot& Poller::snapshot(std::size_t unit) const
+const DriveSnapshot& Poller::snapshot(std::size_t unit) const
 {
     return units_[unit]->snapshot();
+}
+
+void Poller::not_asked(Instant now)
+{
+    for (const auto& unit : units_) unit->not_asked(now);
 }
 
 void Poller::leave_port()
@@ -196,7 +214,7 @@ void Poller::port_changed()
     for (const auto& unit : units_) unit->port_changed();
 }
 
-void Poller::exchange(const std::vector<UnitSettings>& units,
+void Poller::exchange(const std::vector<DriveSettings>& units,
                       const std::vector<std::optional<std::size_t>>& stays, BlockRule rule)
 {
     std::vector<std::unique_ptr<Unit>> next;

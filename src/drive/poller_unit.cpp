@@ -1,29 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "poller_unit.hpp"
 
+#include "drive_view.hpp"
 #include "generations.hpp"
-#include "unit_view.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <utility>
 
 namespace dpslave::drive {
 namespace {
 
-/// So many transactions in a row that could not be asked, and the drive rests: what is owed to it needs time.
-constexpr int kDeferredAtOnce = 4;
-constexpr std::chrono::milliseconds kDeferredRest{5};
+constexpr std::array<std::uint16_t, 1> kZero{};
 
 } // namespace
 
-Poller::Unit::Unit(const UnitSettings& settings, BlockRule rule, std::size_t index)
+Poller::Unit::Unit(const DriveSettings& settings, BlockRule rule, std::size_t index)
     : settings_(settings),
       index_(index),
       tags_(settings),
       cyclic_(tags_.parameters({}), rule,
               {settings.output_refresh, settings.compare_outputs, rule.max_written}),
-      safe_state_(settings.zero_after)
+      safe_state_(settings.zero_after),
+      contact_(settings)
 {
+    cyclic_.loss_is_a_result(!presence().is_supervised());
     show();
 }
 
@@ -41,6 +43,7 @@ void Poller::Unit::set_outputs(const OutputImage& image)
     image_ = image;
     cyclic_.outputs().set(image_.words, image_.may_write);
     if (image_.may_write && phase_ == Phase::before_data_exchange) phase_ = Phase::waits;
+    if (presence().is_away()) left_data_exchange(image_.layout.generation); // the bus does not know yet
     if (has_ended(image_.layout.generation)) end_layout();
     if (cyclic_.outputs().writes_now() && phase_ != Phase::writing) begin_writing();
     if (is_new) show();
@@ -50,8 +53,10 @@ void Poller::Unit::new_layout(const OutputImage& image)
 {
     left_data_exchange(image_.layout.generation);
     phase_ = Phase::before_data_exchange;
-    cyclic_.reset(tags_.parameters(image.layout), link_.is_lost());
-    turn_.round_begins();
+    if (image.layout.generation != 0 && !presence().is_away()) safe_state_.drive_is_used();
+    tags_.scales().begin(tags_.depends_on_scales(image.layout));
+    cyclic_.reset(tags_.parameters(image.layout), link().is_lost());
+    orders_.pacing().round_begins();
     snapshot_.cycle = {};
     snapshot_.words = {};
     snapshot_.updated_at = {};
@@ -82,14 +87,16 @@ void Poller::Unit::end_layout()
 void Poller::Unit::zero_outputs()
 {
     phase_ = Phase::safe;
-    cyclic_.outputs().for_each_row([this](const Tag* row) { safe_state_.add(row); });
+    cyclic_.outputs().for_each_row([this](const Tag* row) {
+        if (!cyclic_.outputs().sent_once().was(*row, 0)) safe_state_.add(row);
+    });
 }
 
 void Poller::Unit::left_data_exchange(Generation generation)
 {
     if (generation == 0 || has_ended(generation)) return;
     ended_ = generation;
-    demand_.end(generation);
+    orders_.end(generation);
     if (has_ended(image_.layout.generation)) end_layout();
 }
 
@@ -97,24 +104,22 @@ void Poller::Unit::set_demand(const DemandOrder& order)
 {
     if (has_ended(order.generation)) return;
     const Tag* row = tags_.row(order.tag);
-    demand_.set(order, row, tags_.verdict(*row, order.kind == DemandOrder::Kind::write));
-    if (link_.is_lost()) demand_.drop_superseded();
-    snapshot_.orders_dropped = demand_.dropped();
+    orders_.set_demand(order, row, tags_.verdict(*row, order.kind == DemandOrder::Kind::write),
+                       link().is_lost());
+    snapshot_.orders_dropped = orders_.dropped();
 }
 
 bool Poller::Unit::operate(const OperateOrder& order)
 {
     const Tag* row = tags_.row(order.tag);
     AccessError error = tags_.verdict(*row, order.is_write);
-    if (error == AccessError::none && link_.is_lost()) error = AccessError::no_answer;
-    return operates_.add(order, row, error);
+    if (error == AccessError::none && link().is_lost()) error = AccessError::no_answer;
+    return orders_.operate(order, row, error);
 }
 
-bool Poller::Unit::survey(std::uint32_t number, std::uint16_t tag)
+bool Poller::Unit::survey(std::uint32_t number, std::uint16_t tag, std::optional<MnemonicRule> rule)
 {
-    if (!survey_.set(number, *tags_.row(tag))) return false;
-    if (link_.is_lost()) survey_.done({.error = AccessError::no_answer, .words = {}}, {});
-    return true;
+    return orders_.survey(number, *tags_.row(tag), rule, link().is_lost());
 }
 
 // ---- another port, other settings
@@ -131,26 +136,31 @@ void Poller::Unit::port_changed()
 {
     safe_state_.ride_again();
     if (phase_ == Phase::safe && !has_ended(image_.layout.generation)) phase_ = Phase::waits;
-    link_.port_changed();
+    link().port_changed();
     cyclic_.port_changed();
+    tags_.scales().begin(tags_.depends_on_scales(image_.layout));
     zero_waits_ = false;
-    turn_.nothing_cyclic();
+    orders_.pacing().no_cyclic_left();
     if (cyclic_.outputs().writes_now()) begin_writing();
     show();
 }
 
-void Poller::Unit::go_on_as(std::size_t index, const UnitSettings& settings)
+void Poller::Unit::go_on_as(std::size_t index, const DriveSettings& settings)
 {
     index_ = index;
     settings_.retries = settings.retries;
+    contact_.set(settings);
+    cyclic_.loss_is_a_result(!presence().is_supervised());
     if (settings == settings_) return;
-    UnitTags tags{settings};
+    DriveTags tags{settings};
     tags.keep_contradicted(tags_);
-    cyclic_.exchange(tags.parameters(image_.layout), settings.output_refresh, link_.is_lost());
+    tags_.scales().exchange(settings.scale_registers);
+    tags.scales() = tags_.scales();
+    tags.scales().begin(tags.depends_on_scales(image_.layout));
+    cyclic_.exchange(tags.parameters(image_.layout), settings.output_refresh, link().is_lost());
     const auto row_of = [&tags](const Tag* row) { return tags.row(row->number); };
     safe_state_.exchange(row_of);
-    demand_.exchange(row_of);
-    operates_.exchange(row_of);
+    orders_.exchange(row_of);
     tags_ = std::move(tags); // rows that are in no table stay where they are
     settings_ = settings;
     snapshot_.watched = {};
@@ -160,27 +170,49 @@ void Poller::Unit::go_on_as(std::size_t index, const UnitSettings& settings)
 
 // ---- what next
 
-void Poller::Unit::set_now(Instant now)
+bool Poller::Unit::set_now(Instant now)
 {
     safe_state_.set_now(now);
+    const bool has_decided = note_presence(now);
     snapshot_.ride_ends = safe_state_.ride_ends();
+    return has_decided;
+}
+
+/// A drive that is gone has lost what the master wanted of it: with silent the station leaves, and nothing is
+/// written before it is back.
+bool Poller::Unit::note_presence(Instant now)
+{
+    const bool was_reported = presence().is_reported(), was_away = snapshot_.away;
+    if (presence().on_time(now, safe_state_pending())) {
+        ++snapshot_.departures;
+        if (presence().is_away()) {
+            left_data_exchange(image_.layout.generation);
+            safe_state_.drive_gone(settings_.zeroes_on_return);
+        }
+    }
+    inputs_changed_ = inputs_changed_ || was_reported != presence().is_reported();
+    snapshot_.presence = presence().state();
+    snapshot_.away = presence().is_away();
+    snapshot_.not_zeroed = presence().state() == DrivePresence::here ? safe_state_.not_zeroed() : 0;
+    return was_away != snapshot_.away || was_reported != presence().is_reported();
 }
 
 std::optional<Transaction> Poller::Unit::next(Instant now)
 {
-    if (now < rests_until_) return std::nullopt;
-    auto transaction = asked(now);
+    if (now < contact_.rests_until()) return std::nullopt;
+    auto transaction = probes_next_ ? std::optional{probe()} : asked(now);
+    probes_next_ = false;
     if (!transaction) {
         begin_round(now);
         transaction = asked(now);
     }
     if (!transaction) {
         zero_waits_ = false; // nothing cyclic is there to go first
-        turn_.nothing_cyclic();
+        orders_.pacing().no_cyclic_left();
         transaction = asked(now);
     }
     // Nothing has been asked for a while; or a silence may be the first of a loss.
-    if (!transaction && (!link_.is_certain() || now >= probe_due())) transaction = probe();
+    if (!transaction && (!link().is_certain() || now >= contact_.probe_due())) transaction = probe();
     owes_round_ = owes_round_ && transaction;
     if (!transaction) return std::nullopt;
     wrote_last_ = wrote_last_ || is_write(*transaction);
@@ -192,48 +224,27 @@ std::optional<Transaction> Poller::Unit::next(Instant now)
 std::optional<Transaction> Poller::Unit::asked(Instant now)
 {
     if (!zero_waits_) {
-        if (const Tag* row = safe_state_.next(now)) return write(Purpose::safe_state, row, 0);
+        if (const Tag* row = safe_state_.next(now)) return write_of(Purpose::safe_state, row, kZero);
         if (const Tag* row = safe_state_.next_proof(now)) return read_of(Purpose::safe_state, row);
     }
-    if (auto order = ordered()) return order;
+    // Before anything is written or read whose scale depends on it.
+    if (const auto tag = tags_.scales().next(now)) return read_of(Purpose::scale, tags_.row(*tag));
+    if (auto order = orders_.next()) return order;
     std::optional<Transaction> transaction;
     if (wrote_last_) transaction = cyclic_.next_read(now); // fast outputs do not starve inputs
     if (!transaction) transaction = cyclic_.next(now);
     if (!transaction) return std::nullopt;
     wrote_last_ = zero_waits_ = false;
-    turn_.cyclic_goes();
+    orders_.pacing().cyclic_sent();
     return transaction;
-}
-
-/// Demand Data first, then dpctl.
-std::optional<Transaction> Poller::Unit::ordered()
-{
-    const DemandQueue::Entry* demand = demand_.front();
-    if (demand != nullptr && turn_.may_go(*demand)) {
-        turn_.goes(*demand);
-        order_ = demand->order.number;
-        return demand->writes_next() ? write(Purpose::demand, demand->row, demand->order.value)
-                                     : read_of(Purpose::demand, demand->row);
-    }
-    const OperateQueue::Entry* operate = operates_.front();
-    if (operate == nullptr || !turn_.may_operate()) return std::nullopt;
-    turn_.operates();
-    return operate->writes_next() ? write(Purpose::operate, operate->row, operate->order.word)
-                                  : read_of(Purpose::operate, operate->row);
 }
 
 std::optional<Transaction> Poller::Unit::next_survey(Instant now) const
 {
-    if (link_.is_lost() || survey_.due() > now) return std::nullopt;
-    Transaction transaction = read_of(Purpose::survey, survey_.row());
-    transaction.unit = index_;
+    if (link().is_lost()) return std::nullopt;
+    auto transaction = orders_.next_survey(now);
+    if (transaction) transaction->unit = index_;
     return transaction;
-}
-
-Transaction Poller::Unit::write(Purpose purpose, const Tag* row, std::uint16_t word)
-{
-    word_[0] = word;
-    return write_of(purpose, row, word_);
 }
 
 Transaction Poller::Unit::probe() const
@@ -252,43 +263,50 @@ void Poller::Unit::begin_round(Instant now)
             std::min(std::chrono::ceil<std::chrono::milliseconds>(*took), longest).count()));
     }
     owes_round_ = false;
-    turn_.round_begins();
+    orders_.pacing().round_begins();
 }
 
 /// Of a lost drive only what is not asked of it: its probe is the line's business.
 Instant Poller::Unit::next_deadline() const
 {
-    if (link_.is_lost()) return safe_state_.needs_now() ? kAtOnce : kNever;
-    const bool at_once = !link_.is_certain() || demand_.front() != nullptr || operates_.front() != nullptr;
+    if (link().is_lost()) return safe_state_.needs_now() ? kAtOnce : presence().next_deadline();
+    const bool at_once = !link().is_certain() || orders_.wait();
     const Instant next =
         at_once ? kAtOnce
-                : std::min({probe_due(), survey_.due(), safe_state_.next_due(), cyclic_.next_due()});
-    return std::max(next, rests_until_);
+                : std::min({contact_.probe_due(), orders_.survey_due(), safe_state_.next_due(),
+                            tags_.scales().next_due(), cyclic_.next_due(), presence().next_deadline()});
+    return std::max(next, contact_.rests_until());
 }
 
 // ---- what became of it
 
-void Poller::Unit::done(const Transaction& transaction, const Outcome& outcome, Instant now)
+void Poller::Unit::done(const Transaction& transaction, const Outcome& outcome, Instant began, Instant now)
 {
-    if (transaction.purpose == Purpose::survey)
-        return survey_.done(outcome, now); // nothing else follows from it
+    contact_.began(began, now);
+    if (transaction.purpose == Purpose::survey) {
+        // Only with the next one, if that has no answer either; nothing else follows from it.
+        if (outcome.error == AccessError::no_answer) contact_.note_unanswered(outcome, began);
+        return orders_.survey_done(outcome, now);
+    }
     Outcome what = outcome;
     if (transaction.kind == Transaction::Kind::read && what.error == AccessError::none &&
         what.words.size() < transaction.count)
         what.error = AccessError::no_answer; // half an answer is none
-    what.error = judge(transaction, what);
+    const AccessError error = what.error = judge(transaction, what);
+    if (is_write(transaction) && transaction.tag->once) what.error = end_of_once(what);
     if (what.error == AccessError::deferred) {
         defer(transaction, now);
         return show();
     }
-    deferred_ = 0;
-    asked_at_ = now;
-    count(snapshot_, transaction, what.error);
+    contact_.asked(began, now);
+    count(snapshot_, transaction, error);
+    if (error == AccessError::no_answer) contact_.note_unanswered(outcome, began);
+    note_sent(transaction, what, now);
     switch (transaction.purpose) {
         case Purpose::input:
         case Purpose::output:
         case Purpose::watch:
-            if (cyclic_.done(transaction, what, {settings_.retries, link_.is_last_try(settings_.retries)},
+            if (cyclic_.done(transaction, what, {settings_.retries, contact_.is_last_try()},
                              phase_ == Phase::writing, now))
                 inputs_changed_ = true;
             break;
@@ -297,27 +315,47 @@ void Poller::Unit::done(const Transaction& transaction, const Outcome& outcome, 
                 safe_state_.done(transaction, what, proven_by_reading(transaction), settings_.retries, now);
             break;
         case Purpose::demand:
-            demand_.done(order_, transaction, what, proven_by_reading(transaction), settings_.retries);
-            break;
         case Purpose::operate:
-            operates_.done(transaction, what, proven_by_reading(transaction), settings_.retries);
+            orders_.done(transaction, what, proven_by_reading(transaction), settings_.retries);
             break;
+        case Purpose::scale: note_scale(transaction, what, now); break;
         case Purpose::probe:
         case Purpose::survey: break;
     }
-    if (what.error != AccessError::no_answer)
-        note_answer(now);
-    else
-        note_silence();
+    if (error == AccessError::no_answer)
+        note_silence(began, now);
+    else if (error == AccessError::none || presence().was_heard_since(began))
+        note_answer(now); // a refusal without a word of the drive was never asked of it
     show();
+}
+
+/// What the outputs and their safe state have sent to a parameter of which each write counts.
+void Poller::Unit::note_sent(const Transaction& transaction, const Outcome& outcome, Instant now)
+{
+    const bool is_output =
+        transaction.purpose == Purpose::output || transaction.purpose == Purpose::safe_state;
+    if (is_write(transaction) && is_output && transaction.tag->once && outcome.sent)
+        cyclic_.outputs().sent_once().note(*transaction.tag, transaction.words.front(), outcome.error, now);
+}
+
+/// A contradiction that is new, or gone, makes others of the parameters: what was read is held.
+void Poller::Unit::note_scale(const Transaction& transaction, const Outcome& outcome, Instant now)
+{
+    inputs_changed_ = true;
+    const std::uint16_t tag = transaction.tag->number;
+    if (outcome.error == AccessError::no_answer) {
+        if (contact_.is_last_try()) tags_.scales().lost_on(tag);
+    } else if (tags_.scales().done(tag, outcome, now)) {
+        cyclic_.exchange(tags_.parameters(image_.layout), settings_.output_refresh, link().is_lost());
+    }
 }
 
 /// Neither silence nor answer: it is asked again in a later round, and until then what is known is held.
 void Poller::Unit::defer(const Transaction& transaction, Instant now)
 {
-    if (++deferred_ >= kDeferredAtOnce) rests_until_ = now + kDeferredRest;
     if (transaction.purpose == Purpose::safe_state) zero_waits_ = true;
     if (is_cyclic(transaction.purpose)) cyclic_.defer(transaction, now);
+    probes_next_ = contact_.defer(now) && transaction.kind != Transaction::Kind::probe;
 }
 
 /// With what the table says of a refusal; and a row that an answer has once contradicted stays refused,
@@ -343,54 +381,72 @@ bool Poller::Unit::proven_by_reading(const Transaction& transaction) const
 
 void Poller::Unit::note_answer(Instant now)
 {
-    if (link_.answered()) {
+    presence().answered(now);
+    if (link().answered()) {
+        tags_.scales().begin(tags_.depends_on_scales(image_.layout));
         cyclic_.drive_returned(now);
         safe_state_.drive_returned();
         zero_waits_ = wrote_last_ = false;
-        turn_.nothing_cyclic();
+        orders_.pacing().no_cyclic_left();
     }
     if (!snapshot_.answers) inputs_changed_ = true;
     snapshot_.known = true;
     snapshot_.answers = true;
 }
 
-void Poller::Unit::note_silence()
+void Poller::Unit::note_silence(Instant began, Instant now)
 {
-    if (link_.is_lost()) return;
+    if (link().is_lost()) return presence().not_answered(began);
     cyclic_.hold_reads();
-    if (!link_.not_answered(settings_.retries)) return;
+    inputs_changed_ = inputs_changed_ || !snapshot_.known; // it is found silent
+    if (link().not_answered(settings_.retries)) lose(now);
+}
+
+void Poller::Unit::lose(Instant now)
+{
     snapshot_.known = true;
     snapshot_.answers = false;
     ++snapshot_.losses;
+    presence().lost(now);
     inputs_changed_ = true;
     cyclic_.drive_lost();
-    demand_.drop_superseded();
-    operates_.drive_lost();
-    survey_.done({.error = AccessError::no_answer, .words = {}}, {});
+    orders_.drive_lost();
+}
+
+/// Nothing is written to it before it is back, as if it were gone: it may be.
+void Poller::Unit::not_asked(Instant now)
+{
+    if (!presence().is_supervised()) return;
+    if (!link().is_lost()) {
+        link().lose();
+        lose(now);
+    }
+    presence().not_asked(now);
+    note_presence(now);
 }
 
 // ---- what can be seen
 
 std::optional<InputImage> Poller::Unit::take_inputs()
 {
-    if (!inputs_changed_ || !snapshot_.known) return std::nullopt;
+    if (!inputs_changed_) return std::nullopt;
     inputs_changed_ = false;
-    InputImage image = inputs(image_.layout, cyclic_.parameters());
-    image.scale_missing = image.scale_missing && settings_.unscaled_holds;
+    InputImage image = inputs(image_.layout, cyclic_.parameters(), settings_);
+    image.every_input_tried = image.every_input_tried && snapshot_.known;
+    image.drive_answers = snapshot_.answers || !link().is_in_doubt();
+    image.drive_gone = presence().is_reported();
+    image.every_input_tried = image.every_input_tried && tags_.scales().is_over();
+    if (settings_.unscaled_holds && tags_.scales().fault()) image.hold = StartHold::unscaled;
+    if (presence().is_supervised() && link().is_lost()) image.every_input_tried = false; // gone soon, or back
     return image;
-}
-
-std::optional<OperateAnswer> Poller::Unit::take_operate_answer()
-{
-    if (auto answer = operates_.take_answer()) return answer;
-    return survey_.take();
 }
 
 void Poller::Unit::show()
 {
     snapshot_.generation = image_.layout.generation;
-    snapshot_.orders_dropped = demand_.dropped();
-    const int repeats = link_.is_lost() ? 0 : settings_.retries;
+    snapshot_.orders_dropped = orders_.dropped();
+    snapshot_.scale_fault = tags_.scales().fault();
+    const int repeats = link().is_lost() ? 0 : settings_.retries;
     show_parameters(snapshot_, image_.layout, cyclic_.parameters(), repeats);
     show_watched(snapshot_, tags_, cyclic_.parameters(), repeats);
 }

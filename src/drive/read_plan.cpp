@@ -44,13 +44,17 @@ void ReadPlan::compare(bool outputs)
     rebuild();
 }
 
-bool ReadPlan::in_use(const Turn& turn) const
+/// Returns the reasons to read it at present.
+std::uint8_t ReadPlan::uses_now(const Turn& turn) const
 {
     const Reading& reading = turn.reading();
-    return is_cyclic(turn) || (reading.serves(kForm) && reading.state != WordState::good);
+    std::uint8_t now = cyclic_;
+    if (reading.state != WordState::good) now |= kForm;
+    if (!reading.tried || reading.state == WordState::invalid_tag) now |= kAsked;
+    return reading.uses & now;
 }
 
-/// Not asked in the rounds, but from time to time.
+/// It is not asked in the rounds, but from time to time.
 bool ReadPlan::waits_for_retry(const Turn& turn) const
 {
     return in_use(turn) && turn.reading().asked && turn.reading().is_excluded();
@@ -78,7 +82,7 @@ void ReadPlan::rebuild()
         const bool apart = turn.row().modbus_register.has_value();
         open = open && !excluded && !apart;
         if (excluded || !in_use(turn)) continue;
-        calm_ = calm_ && !turn.reading().serves(kInput | kForm | (cyclic_ & kCompared));
+        calm_ = calm_ && (uses_now(turn) & ~kWatched) == 0;
         if (open && joins(turn))
             blocks_.back().last = i;
         else
@@ -87,7 +91,7 @@ void ReadPlan::rebuild()
     }
 }
 
-/// Whether it has a scale is to be known before the exchange begins, however many others there are to read.
+/// Its scale must be known before the exchange begins, however many others there are to read.
 bool ReadPlan::is_urgent(const Turn& turn) const
 {
     const Reading& reading = turn.reading();
@@ -135,9 +139,9 @@ std::uint16_t ReadPlan::count_of(Block block) const
 Purpose ReadPlan::purpose_of(Block block) const
 {
     std::uint8_t uses = 0;
-    for (std::size_t i = block.first; i <= block.last; ++i) uses |= turns_[i].reading().uses;
+    for (std::size_t i = block.first; i <= block.last; ++i) uses |= uses_now(turns_[i]);
     if ((uses & kInput) != 0) return Purpose::input;
-    return (uses & (kForm | (cyclic_ & kCompared))) != 0 ? Purpose::output : Purpose::watch;
+    return (uses & ~kWatched) != 0 ? Purpose::output : Purpose::watch;
 }
 
 bool ReadPlan::done(Block block, const Outcome& outcome, Instant now)
@@ -160,9 +164,10 @@ bool ReadPlan::good(Block block, std::span<const std::uint16_t> words, Instant n
         Reading& reading = turn.reading();
         const auto word =
             words[static_cast<std::size_t>(turn.row().number - turns_[block.first].row().number)];
-        changed = changed || (reading.serves(kInput | kForm) &&
+        changed = changed || (reading.serves(kOfLayout) &&
                               (!reading.tried || reading.word != word || reading.state != WordState::good));
-        joins_again = joins_again || reading.is_excluded() || reading.serves(kForm);
+        joins_again = joins_again || reading.is_excluded() || (uses_now(turn) & (kForm | kAsked)) != 0;
+        reading.of_other_row = false;
         reading.answered(AccessError::none);
         reading.word = word;
         reading.answer = {};
@@ -183,8 +188,8 @@ std::size_t ReadPlan::in_use_from(std::size_t index) const
     return index;
 }
 
-/// Cut in the middle, where something is read; what is then still refused is cut again. Of its words a
-/// refused block says nothing.
+/// A refused block is cut in the middle, where something is read; a half that is still refused is cut again.
+/// A refused block says nothing about its words.
 void ReadPlan::split(Block block)
 {
     hold(block, AccessError::deferred);
@@ -201,11 +206,11 @@ void ReadPlan::find_hole(Block good)
         halves_->first_is_good = true;
     if (!halves_->first_is_good || good.first != halves_->second || good.last < halves_->block.last) return;
     turns_[halves_->second].cut = Cut::after_hole;
-    mend();
+    remove_search_cuts();
 }
 
 /// The hole is found: the cuts made on the way to it are no longer needed.
-void ReadPlan::mend()
+void ReadPlan::remove_search_cuts()
 {
     for (Turn& turn : turns_)
         if (turn.cut == Cut::search) turn.cut = Cut::none;
@@ -216,15 +221,17 @@ void ReadPlan::mend()
 /// A cut would not help: the block waits for the next round, its words are held as they were.
 bool ReadPlan::busy(Block block)
 {
-    bool changed = false;
+    bool changed = false, asked_once = false;
     for (std::size_t i = block.first; i <= block.last; ++i) {
         Reading& reading = turns_[i].reading();
-        changed = changed || (reading.serves(kInput) && !reading.tried);
+        changed = changed || (reading.serves(kOfLayout) && !reading.tried);
+        asked_once = asked_once || (uses_now(turns_[i]) & kAsked) != 0;
         reading.tried = true;
         if (reading.state == WordState::untried) reading.state = WordState::stale;
         hold(turns_[i], AccessError::not_understood);
     }
     position_ = std::max(position_, block.last + 1);
+    if (asked_once) rebuild();
     return changed;
 }
 
@@ -235,20 +242,20 @@ bool ReadPlan::bad(std::size_t index, const Outcome& outcome, Instant now)
     const Reading before = reading;
     reading.answered(outcome.error);
     reading.answer = answer_text(outcome.answer);
-    // A value that does not fit, or that noise kept away, is held as it was; of a tag that gives no value
-    // nothing is known, so it reads 0.
-    const bool held =
-        reading.state == WordState::out_of_range || outcome.error == AccessError::not_understood;
-    if (!held) reading.word = 0;
+    reading.of_other_row = false;
+    // A value that was read once in this layout is held; the value of a tag that never gave one is 0 (X-48,
+    //
+    if (!reading.was_read()) reading.word = 0;
+    const bool was_asked_once = (uses_now(turn) & kAsked) != 0;
     reading.tried = true;
     turn.retry_at = now + kInvalidRetry;
     position_ = std::max(position_, index + 1);
     if (reading.is_excluded() && !before.is_excluded())
-        mend();
-    else if (reading.is_excluded() != before.is_excluded())
+        remove_search_cuts();
+    else if (reading.is_excluded() != before.is_excluded() || was_asked_once)
         rebuild();
-    return reading.serves(kInput | kForm) && (!before.tried || before.state != reading.state ||
-                                              before.error != reading.error || before.word != reading.word);
+    return reading.serves(kOfLayout) && (!before.tried || before.state != reading.state ||
+                                         before.error != reading.error || before.word != reading.word);
 }
 
 void ReadPlan::refuse(DriveParameter& parameter, AccessError error, std::string_view answer)
@@ -276,7 +283,7 @@ void ReadPlan::defer(Block block, Instant now)
 
 void ReadPlan::hold(const Turn& turn, AccessError why) const
 {
-    if (is_cyclic(turn)) turn.reading().hold(why);
+    if (turn.reading().serves(cyclic_)) turn.reading().hold(why);
 }
 
 void ReadPlan::hold(Block block, AccessError why)

@@ -2,7 +2,7 @@
 /// The cyclic reads of one drive: which tags go into one transaction, and which transaction comes next. A
 /// round reads every tag once, whatever it is for. A block that the drive refuses is cut until the hole is
 /// found between two neighbours or is a tag itself, which only a single read decides; cuts elsewhere are
-/// mended then. A tag with a register of its own is never part of a block.
+/// removed then. A tag with a register of its own is never part of a block.
 #pragma once
 
 #include "parameter_set.hpp"
@@ -15,18 +15,18 @@
 
 namespace dpslave::drive {
 
-/// How long a tag that the drive does not have is left alone: long enough to cost nothing, short enough that
-/// a corrected drive is noticed.
+/// A tag that the drive does not have is not asked for this time: long enough to cost nothing, short enough
+/// that a corrected drive is noticed.
 inline constexpr std::chrono::nanoseconds kInvalidRetry = std::chrono::seconds{10};
 
-/// How long an excluded tag that could not be asked for the sake of an owed answer waits.
+/// An excluded tag that could not be asked because of an owed answer waits for this time.
 inline constexpr std::chrono::nanoseconds kDeferredRetry = std::chrono::milliseconds{100};
 
 /// Rounds in which nothing is read for the master begin this far apart: an idle line stays calm.
 inline constexpr std::chrono::nanoseconds kCalmRound = std::chrono::milliseconds{250};
 
-/// So many rounds in a row a block that is not understood is only left out: the drive may be busy. Then it is
-/// cut like one that is refused [DEC].
+/// A block that is not understood is only left out for this number of rounds in a row: the drive may be busy.
+/// Then it is cut like one that is refused [DEC].
 inline constexpr int kBusyRounds = 3;
 
 /// A deadline that has passed at every moment; unlike Instant::min() it can be subtracted from.
@@ -34,7 +34,7 @@ inline constexpr Instant kAtOnce{};
 
 class ReadPlan {
 public:
-    /// Of turns `first` to `last`, in one transaction.
+    /// The turns `first` to `last`, read in one transaction.
     struct Block {
         std::size_t first = 0;
         std::size_t last = 0;
@@ -42,39 +42,40 @@ public:
 
     explicit ReadPlan(BlockRule rule) : rule_(rule) {}
 
-    /// What is read of `parameters`, which outlives this plan of it.
+    /// Sets the reads of `parameters`, which outlives this plan of it.
     void reset(ParameterSet& parameters);
-    /// The same layout with other rows, and maybe other watched tags. Those of before are still there.
+    /// Exchanges the rows of the same layout, and maybe the watched tags. The former ones still exist.
     void exchange(ParameterSet& parameters);
 
     /// The compared outputs are read from now on, or no more.
     void compare(bool outputs);
 
-    std::optional<Block> next(Instant now); ///< nothing: the round is over
+    std::optional<Block> next(Instant now); ///< nullopt: the round is over
     void begin_round(Instant now);          ///< does nothing while a calm round is not due
     Instant next_due() const;
     std::uint16_t count_of(Block block) const; ///< tags, the unasked ones between included
     Purpose purpose_of(Block block) const;
     const DriveParameter& parameter(std::size_t turn) const { return *turns_[turn].parameter; }
 
-    /// What became of `block`; not for no_answer. True: a value or a state of an input changed.
+    /// Takes the result of `block`; not for no_answer. Returns true if a value or a state of an input
+    /// changed.
     bool done(Block block, const Outcome& outcome, Instant now);
     /// It is not asked for any more: 0 from now on.
     void refuse(DriveParameter& parameter, AccessError error, std::string_view answer);
     void skip(Block block); ///< leaves it out in this round
-    /// It was asked and is no wiser: its words are held from now on, until a good answer.
+    /// It was asked without a result: its words are held from now on, until a good answer.
     void hold(Block block, AccessError why);
     /// The drive has not answered: whatever it was asked, all reads wait for the transaction that is
     /// repeated.
     void hold_all();
-    /// It was not asked for the sake of an answer that is still owed: its words are held, and asked for again
-    /// in the next round.
+    /// The block was not asked because an answer is still owed: its words are held, and asked for again in
+    /// the next round.
     void defer(Block block, Instant now);
     /// Excluded parameters are asked again now: it may be another drive. The round goes on where it was.
     void drive_returned(Instant now);
 
 private:
-    /// Where a block may not go on.
+    /// The places where a block ends.
     enum class Cut : std::uint8_t {
         none,
         search,     ///< before this turn, on the way to a hole
@@ -95,14 +96,14 @@ private:
         bool first_is_good = false;
     };
 
-    bool is_cyclic(const Turn& turn) const { return turn.reading().serves(cyclic_); }
-    bool in_use(const Turn& turn) const;
+    std::uint8_t uses_now(const Turn& turn) const;
+    bool in_use(const Turn& turn) const { return uses_now(turn) != 0; }
     bool waits_for_retry(const Turn& turn) const;
     bool is_urgent(const Turn& turn) const;
     void hold(const Turn& turn, AccessError why) const;
     bool joins(const Turn& turn) const;
     void rebuild();
-    void mend();
+    void remove_search_cuts();
     std::size_t in_use_from(std::size_t index) const;
     void split(Block block);
     bool busy(Block block);

@@ -36,17 +36,16 @@ void SafeState::set_now(Instant now)
 
 Instant SafeState::due_at(const Zero& zero) const
 {
+    if (is_at_once()) return zero.not_before;
     if (!after_) return kNever;
-    const bool at_once = !rides_ || *after_ == std::chrono::nanoseconds{0};
-    if (at_once || !zero.lost_at) return zero.not_before;
+    if (!zero.lost_at) return zero.not_before;
     return std::max(*zero.lost_at + *after_, zero.not_before);
 }
 
 const Tag* SafeState::due(Instant now, bool acknowledged) const
 {
-    if (!after_) return nullptr;
     const auto at = std::find_if(zeros_.begin(), zeros_.end(), [&](const Zero& zero) {
-        return zero.lost_at && (zero.knowledge == Knowledge::acknowledged) == acknowledged &&
+        return zero.lost_at && !zero.is_done && (zero.knowledge == Knowledge::acknowledged) == acknowledged &&
                due_at(zero) <= now;
     });
     return at == zeros_.end() ? nullptr : at->row;
@@ -75,22 +74,58 @@ bool SafeState::done(const Transaction& transaction, const Outcome& outcome, boo
     }
     if (!is_write(transaction) && shows_another_word(outcome)) {
         if (zero != zeros_.end()) zero->on(KnowledgeEvent::another_seen);
-        error = AccessError::not_understood;
+        error = transaction.tag->once ? AccessError::not_kept : AccessError::not_understood;
     }
     const bool not_understood = error == AccessError::not_understood;
-    if (error == AccessError::no_answer || not_understood_.is_repeated(error, retries)) return true;
-    if (!not_understood)
-        remove(transaction.tag); // zeroed, or refused for good
-    else if (zero != zeros_.end())
-        zero->not_before = now + kInvalidRetry;
+    if (error == AccessError::no_answer || retry_.is_repeated(error, retries)) return true;
+    if (is_gone_ && error != AccessError::none && !not_understood && refused_ == 0)
+        refused_ = transaction.tag->number;
+    if (zero != zeros_.end()) {
+        zero->is_done = !not_understood; // zeroed, or refused for good
+        zero->is_refused = error != AccessError::none;
+        if (not_understood) zero->not_before = now + kInvalidRetry;
+    }
     return not_understood;
+}
+
+void SafeState::drive_gone(bool zeroes)
+{
+    is_gone_ = true;
+    zeroes_now_ = zeroes;
+    was_back_ = false;
+    again();
+}
+
+void SafeState::again()
+{
+    refused_ = 0;
+    for (Zero& zero : zeros_) {
+        zero.is_done = zero.is_done && (!zeroes_now_ || zero.row->once);
+        if (zero.is_done && zero.is_refused && refused_ == 0) refused_ = zero.row->number;
+    }
+}
+
+void SafeState::drive_is_used()
+{
+    is_gone_ = zeroes_now_ = false;
+    std::erase_if(zeros_, [](const Zero& zero) { return zero.is_done; });
+}
+
+std::uint16_t SafeState::not_zeroed() const
+{
+    if (!is_gone_ || !was_back_) return 0;
+    const auto zero = std::ranges::find(zeros_, false, &Zero::is_done);
+    return zero != zeros_.end() && pending() ? zero->row->number : refused_;
 }
 
 void SafeState::drive_returned()
 {
+    was_back_ = true;
+    if (is_gone_) again();
     for (Zero& zero : zeros_) {
         zero.not_before = kAtOnce;
-        zero.on(KnowledgeEvent::back); // it may have been without power
+        // It may have been without power.
+        if (!zero.row->once) zero.on(KnowledgeEvent::back);
     }
 }
 
@@ -102,16 +137,17 @@ bool SafeState::needs_now() const
 Instant SafeState::next_due() const
 {
     Instant at = needs_now() ? kAtOnce : kNever;
-    for (const Zero& zero : zeros_) at = std::min(at, due_at(zero));
+    for (const Zero& zero : zeros_)
+        if (!zero.is_done) at = std::min(at, due_at(zero));
     return at;
 }
 
 std::optional<Instant> SafeState::ride_ends() const
 {
-    const bool at_once = after_ && (!rides_ || *after_ == std::chrono::nanoseconds{0});
+    if (is_gone_) return std::nullopt;
     std::optional<Instant> ends;
     for (const Zero& zero : zeros_) {
-        if (at_once || !zero.lost_at) continue;
+        if (is_at_once() || !zero.lost_at || zero.is_done) continue;
         const Instant end = after_ ? *zero.lost_at + *after_ : kNever;
         ends = std::max(end, ends.value_or(end));
     }
@@ -120,7 +156,7 @@ std::optional<Instant> SafeState::ride_ends() const
 
 bool SafeState::pending() const
 {
-    return after_ && !zeros_.empty();
+    return (after_ || zeroes_now_) && std::ranges::find(zeros_, false, &Zero::is_done) != zeros_.end();
 }
 
 } // namespace dpslave::drive

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The outputs of layouts that have ended and that no layout writes any more: each is written 0 when its ride
-/// through the loss of the master is over (RIDE THROUGH of HA463561U002, X-46). Where the answer to a write
+/// through the loss of the master is over (RIDE THROUGH of HA463561U002, X-46). If the answer to a write
 /// names nothing (EI-ASCII), a read-back has to show the 0; all zeros are written before the first is read.
 #pragma once
 
@@ -18,15 +18,24 @@ public:
 
     /// Also for rides that are under way: they count from the loss, whenever that was.
     void set_zero_after(ZeroAfter after) { after_ = after; }
-    /// What would be zeroed later is zeroed now; what never would is still left alone.
+    /// Outputs that would be zeroed later are zeroed now; those that never would be stay as they are.
     void cancel_ride_through() { rides_ = false; }
+
+    /// The drive has gone, and its station with it: nothing rides. All outputs, also those added later, are
+    /// zeroed each time the drive is back (`zeroes`; it may have been without power), even those that were 0
+    /// before; else they are zeroed as zero_after says, until the drive is used again. A row that says `once`
+    /// gets one zero, sent or not known.
+    void drive_gone(bool zeroes);
+    void drive_is_used(); ///< by a new layout
+    /// The first tag that is not zeroed since the drive was gone, or that refused it; 0 = none.
+    std::uint16_t not_zeroed() const;
 
     /// The layout that wrote it has ended. The next set_now() gives the moment of the loss.
     void add(const Tag* row);
-    /// It was zeroed, or the drive refused that, or the present layout writes it.
+    /// The present layout writes it.
     void remove(const Tag* row);
-    /// What became of a zero or of its read-back. `proven_by_reading`: the answer to the write is no proof.
-    /// True: something else goes before the next zero.
+    /// Takes the result of a zero or of its read-back. `proven_by_reading`: the answer to the write is no
+    /// proof. Returns true if something else goes before the next zero.
     bool done(const Transaction& transaction, const Outcome& outcome, bool proven_by_reading, int retries,
               Instant now);
     void set_now(Instant now); ///< before every decision
@@ -48,8 +57,8 @@ public:
     void drive_returned();                    ///< what was postponed is tried at once
     bool needs_now() const;                   ///< set_now() is due, whatever comes next
     Instant next_due() const;
-    /// When the last ride through the loss of the master is over; kNever = never. Nothing: none rides, or
-    /// all are zeroed at once.
+    /// Returns when the last ride through the loss of the master is over; kNever = never. It is nullopt if
+    /// none rides, or all are zeroed at once.
     std::optional<Instant> ride_ends() const;
     bool pending() const; ///< one of them waits for its zero, now or after its ride
 
@@ -58,17 +67,25 @@ private:
         const Tag* row = nullptr;
         std::optional<Instant> lost_at; ///< none: until the next set_now()
         Instant not_before = kAtOnce;
+        bool is_done = false;    ///< it is 0, or was refused: of interest when the drive was gone
+        bool is_refused = false; ///< the last one
         Knowledge knowledge = Knowledge::unknown; ///< of the 0
         void on(KnowledgeEvent event) { knowledge = known_after(event, knowledge); }
     };
 
+    bool is_at_once() const { return zeroes_now_ || (after_ && (!rides_ || after_->count() == 0)); }
     Instant due_at(const Zero& zero) const;
+    void again();
     const Tag* due(Instant now, bool acknowledged) const;
 
     ZeroAfter after_;
-    NotUnderstood not_understood_;
+    RetryAfterGarble retry_;
     bool rides_ = true;
-    std::vector<Zero> zeros_; ///< with "never" they stay: the time may be set to another one later
+    bool is_gone_ = false;      ///< the drive was, and is not used again
+    bool zeroes_now_ = false;   ///< for that
+    bool was_back_ = false;     ///< since then
+    std::uint16_t refused_ = 0; ///< the first tag that refused its zero since then
+    std::vector<Zero> zeros_;   ///< with "never" they stay: the time may be set to another one later
 };
 
 } // namespace dpslave::drive

@@ -33,8 +33,8 @@ std::string labels_of(const Tag& tag, std::uint16_t word)
     return out;
 }
 
-/// Counts of a decimal text; nothing if it is none, or if it has a digit other than 0 behind the tag's
-/// decimals.
+/// Returns the counts of a decimal text; nullopt if it is none, or if it has a digit other than 0 beyond the
+/// tag's decimals.
 std::optional<std::int64_t> parse_decimal(std::string_view text, unsigned decimals)
 {
     const bool negative = !text.empty() && text.front() == '-';
@@ -82,6 +82,8 @@ std::optional<ParsedValue> parse_hex(std::string_view text)
     return ParsedValue{static_cast<std::uint16_t>(value), AccessError::none};
 }
 
+constexpr std::string_view kCounts = " counts";
+
 struct Span {
     std::int64_t min, max;
 };
@@ -112,13 +114,18 @@ std::array<char, 2> two_digits(unsigned number)
     return {kTagDigits[number / 36], kTagDigits[number % 36]};
 }
 
+constexpr unsigned kFirstPno = 1000, kPnos = 128;
+
+std::optional<std::array<char, 2>> by_pno(unsigned number)
+{
+    const unsigned pno = number < kFirstPno ? number : number - kFirstPno;
+    if (pno >= kPnos) return std::nullopt;
+    return std::array{kHexDigits[pno >> 4], kHexDigits[pno & 15]};
+}
+
 std::optional<std::array<char, 2>> by_590plus(unsigned number)
 {
-    constexpr unsigned first_pno = 1000, last_pno = 1127;
-    if (number >= first_pno && number <= last_pno) {
-        const unsigned pno = number - first_pno;
-        return std::array{kHexDigits[pno >> 4], kHexDigits[pno & 15]};
-    }
+    if (number >= kFirstPno && number < kFirstPno + kPnos) return by_pno(number);
     if (number < 936) return two_digits(number + 360);
     const unsigned k = number - 936;
     if (k >= 26 * 26) return std::nullopt;
@@ -195,13 +202,22 @@ std::string displayed(const Tag& tag, std::uint16_t word)
     std::string out = hexadecimal ? hex_text(word, 4) : decimal_text(counts_of(tag, word), decimals);
     const std::string labels = labels_of(tag, word);
     if (!labels.empty()) out += " (" + labels + ")";
-    return out;
+    return tag.in_counts && !hexadecimal ? out.append(kCounts) : out;
+}
+
+void mark_counts(std::vector<Tag>& tags)
+{
+    constexpr std::uint16_t kIeeeArea = 0x8000; // what is read there has its true value
+    for (Tag& tag : tags)
+        tag.in_counts = tag.type == TagType::number && tag.is_real && !tag.follows_display &&
+                        tag.decimals == 0 && tag.modbus_register.value_or(tag.number) < kIeeeArea;
 }
 
 ParsedValue parse_value(const Tag& tag, std::string_view text)
 {
     if (tag.type == TagType::string) return {0, AccessError::unsupported_type};
     text = trimmed(text);
+    if (tag.in_counts && text.ends_with(kCounts)) text.remove_suffix(kCounts.size());
     for (const Label& label : tag.labels)
         if (!label.is_bit && same_any_case(label.text, text))
             return checked(tag, counts_of(tag, label.number));
@@ -283,8 +299,23 @@ std::optional<std::array<char, 2>> mnemonic_by_rule(std::uint16_t number, Mnemon
         case MnemonicRule::none: return std::nullopt;
         case MnemonicRule::dc_590plus: return by_590plus(number);
         case MnemonicRule::ac: return by_ac(number);
+        case MnemonicRule::pno: return by_pno(number);
     }
     return std::nullopt;
+}
+
+std::optional<MnemonicRule> mnemonic_rule_of(std::string_view name)
+{
+    const auto* const found = std::find_if(kMnemonicRules.begin(), kMnemonicRules.end(),
+                                           [&](const NamedRule& one) { return one.name == name; });
+    return found == kMnemonicRules.end() ? std::nullopt : std::optional{found->rule};
+}
+
+std::string_view text(MnemonicRule rule) noexcept
+{
+    for (const NamedRule& one : kMnemonicRules)
+        if (one.rule == rule) return one.name;
+    return "?";
 }
 
 } // namespace dpslave::drive

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What a transaction asks, and what its answer says of a single word: what was read or written, and whether
-/// a read behind a write proves it.
+/// Tells what a transaction asks, and what its answer says of a single word: whether it was read or written,
+/// and whether a read after a write proves it.
 #pragma once
 
 #include "dpslave/drive/poller.hpp"
@@ -25,6 +25,7 @@ inline Transaction write_of(Purpose purpose, const Tag* row, std::span<const std
     transaction.kind = Transaction::Kind::write;
     transaction.count = static_cast<std::uint16_t>(words.size());
     transaction.words = words;
+    transaction.once = row->once && words.size() == 1;
     return transaction;
 }
 
@@ -45,8 +46,19 @@ inline std::uint16_t word_of(const Transaction& transaction, const Outcome& outc
     return outcome.error == AccessError::none ? outcome.words.front() : std::uint16_t{0};
 }
 
-/// What the read behind a write says of it; nothing: the drive holds another word. A tag that the drive takes
-/// and does not give (EE 04) cannot be proven.
+/// Returns the result of a write that counts: if its answer is missing, the result of a sent write is
+/// unknown; a write that was not sent is made later.
+inline AccessError end_of_once(const Outcome& outcome)
+{
+    const bool is_open = outcome.error == AccessError::no_answer || outcome.error == AccessError::deferred ||
+                         outcome.error == AccessError::not_understood;
+    if (!is_open) return outcome.error;
+    if (outcome.sent) return AccessError::not_known;
+    return outcome.error == AccessError::no_answer ? outcome.error : AccessError::deferred;
+}
+
+/// Returns what the read after a write says of it; nullopt if the drive holds another word. A tag that the
+/// drive accepts but does not give (EE 04) cannot be proven.
 inline std::optional<AccessError> proof_of(std::uint16_t written, const Outcome& outcome)
 {
     if (outcome.error == AccessError::unsupported_type) return AccessError::none;
@@ -54,11 +66,11 @@ inline std::optional<AccessError> proof_of(std::uint16_t written, const Outcome&
     return outcome.error;
 }
 
-/// What the drive did not understand is repeated like silence. When that does not help it is left to later:
-/// the drive is there, and the others go on.
-class NotUnderstood {
+/// A transaction that the drive did not understand is repeated like one without an answer. If that does not
+/// help it is postponed: the drive is there, and the others go on.
+class RetryAfterGarble {
 public:
-    /// True: this transaction is repeated now.
+    /// Returns true if this transaction is repeated now.
     bool is_repeated(AccessError error, int retries)
     {
         in_a_row_ = error == AccessError::not_understood ? in_a_row_ + 1 : 0;

@@ -11,8 +11,7 @@ namespace {
 /// links and is fixed by hand, everything above 1.5 Mbit/s is out of a tty's reach.
 constexpr std::array kSearched{Baud::k1500, Baud::k500, Baud::k187_5, Baud::k93_75, Baud::k19_2, Baud::k9_6};
 
-/// So many characters must have been seen, and so many of them bad, to give a rate up before its dwell is
-/// over.
+/// A rate is given up early when at least this many characters were seen and this share of them was bad.
 constexpr std::uint32_t kEnoughCharacters = 20;
 constexpr std::uint32_t kBadPercent = 30;
 
@@ -63,8 +62,8 @@ void BaudSearch::on_telegram(bool to_us, Instant at)
     switch (state_) {
         case BaudState::baud_search: control(at); break;
         case BaudState::baud_control:
-            // Before a master has parameterised a slave, we are polled only now and then: the traffic of all
-            // stations counts. So it does to a search.
+            // Before a master has parameterised a slave, we are polled only now and then, so the traffic of
+            // all stations counts; during a search it counts as well.
             if (to_us || !any_owned_ || in_doubt_) control(at);
             break;
         case BaudState::dp_control:

@@ -7,8 +7,8 @@
 namespace dpslave::fdl {
 namespace {
 
-/// So many telegrams in a row with an echo, or without, settle the question - and so many of the other kind
-/// settle it anew.
+/// This number of consecutive telegrams with an echo, or without, decides the question; the same number of
+/// the other kind decides it anew.
 constexpr std::uint8_t kConvincing = 3;
 
 } // namespace
@@ -46,7 +46,7 @@ Bytes Echo::on_character_error(Instant at) noexcept
     return withheld;
 }
 
-/// The time of an echo that was not whole by now is over; a piece of it that was withheld was ours.
+/// The time of an echo that was not complete by now is over; a piece of it that was withheld was ours.
 bool Echo::is_expected(Instant at) noexcept
 {
     if (length_ != 0 && at > until_) conclude(matched_ == 0 ? Outcome::missing : Outcome::broken);

@@ -12,7 +12,7 @@ bool is_sdn(const Telegram& telegram)
     return telegram.function() == Function::sdn_low || telegram.function() == Function::sdn_high;
 }
 
-/// Whether a slave answers this function at all. Time_Event and the reserved codes are met with silence.
+/// Returns whether a slave answers this function at all. Time_Event and the reserved codes are not answered.
 bool is_answered(Function function)
 {
     switch (function) {
@@ -122,8 +122,7 @@ std::optional<Bytes> Layer2::take_transmit()
     if (!pending_ || !pending_->open) return std::nullopt;
     const Bytes octets = pending_->octets;
     window_ended_ = pending_->not_after;
-    sent_ = octets;
-    answered_address_ = pending_->address;
+    sent_ = pending_->telegram;
     pending_.reset();
     ++counters_.replies;
     return octets;
@@ -154,7 +153,7 @@ void Layer2::take_heard()
     }
 }
 
-/// `newest`: nothing was heard behind this telegram.
+/// `newest` means that nothing was heard after this telegram.
 void Layer2::on_telegram(const Telegram& telegram, Instant read_at, bool newest)
 {
     ++counters_.telegrams;
@@ -189,10 +188,10 @@ void Layer2::on_telegram(const Telegram& telegram, Instant read_at, bool newest)
         report_supervision(read_at);
     } else if (ours && is_answered(telegram.function())) {
         ++counters_.requests;
-        sent_ = {};
+        sent_ = nullptr;
         if (newest) {
             on_request(telegram, read_at);
-        } else { // dropped whole, FCB included: the master's retry still looks new
+        } else { // dropped completely, FCB included: the master's retry still looks new
             ++counters_.overtaken;
             leave_unanswered(Unanswered::Why::overtaken, telegram.da, read_at);
         }
@@ -206,12 +205,10 @@ void Layer2::on_telegram(const Telegram& telegram, Instant read_at, bool newest)
 void Layer2::on_own_address(const Telegram& telegram, Instant at)
 {
     ++counters_.own_address;
-    if (!sent_.empty()) {
-        const auto sent = decode(std::exchange(sent_, {}));
-        if (sent && is_same(*sent, telegram)) {
-            ++counters_.came_back;
-            return;
-        }
+    const Telegram* const sent = std::exchange(sent_, nullptr);
+    if (sent != nullptr && is_same(*sent, telegram)) {
+        ++counters_.came_back;
+        return;
     }
     leave_unanswered(Unanswered::Why::own_address, telegram.sa, at);
 }
@@ -223,11 +220,12 @@ void Layer2::on_request(const Telegram& request, Instant at)
     report_supervision(at);
     pending_ = {.address = request.da,
                 .octets = reply.octets,
+                .telegram = reply.telegram,
                 .not_before = at + duration_of(reply.not_before, baud_),
                 .not_after = at + duration_of(reply.not_after, baud_) - settings_.start_up_latency - unread_};
 }
 
-/// The line is in use: the moment for the reply is over. What the request did and its stored reply stay.
+/// The line is in use: the moment for the reply is over. The effect of the request and its stored reply stay.
 void Layer2::cancel_reply(Instant at)
 {
     if (!pending_) return;
@@ -241,8 +239,8 @@ void Layer2::leave_unanswered(Unanswered::Why why, std::uint8_t address, Instant
     static_cast<void>(unanswered_.push({.why = why, .address = address, .at = at}));
 }
 
-/// Gives the search what was heard. False: the rate has been given up, and what was heard at it means
-/// nothing.
+/// Gives the search what was heard. Returns false if the rate has been given up: octets heard at it have no
+/// meaning.
 bool Layer2::rate_is_kept(std::size_t good, std::size_t bad, Instant at)
 {
     if (!search_) return true;

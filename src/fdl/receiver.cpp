@@ -8,28 +8,28 @@
 namespace dpslave::fdl {
 namespace {
 
-/// The largest receive FIFO in use. A UART may hold so many characters back before it hands them on (OMAP: 48
-/// of 64), and what looks like silence until then may have been a telegram that goes on.
+/// The largest receive FIFO in use. A UART may hold that many characters back before it hands them on (OMAP:
+/// 48 of 64), and what looks like silence until then may have been a telegram that goes on.
 constexpr Tbit kFifo{64 * kCharacter.count};
 
-/// So much silence ends a piece that is no telegram: T_SYN and the idle time-out of a FIFO, which holds the
-/// last octets back for four characters. A master repeats a request after a slot time of 100 T_bit at the
-/// least.
+/// A silence of this length ends octets that are no telegram: T_SYN and the idle timeout of a FIFO, which
+/// holds the last octets back for four characters. A master repeats a request after a slot time of 100 T_bit
+/// at the least.
 constexpr Tbit kPause = kTsyn + Tbit{4 * kCharacter.count};
 
-/// So much silence before the first octet of a read is none of a telegram: its characters follow each other
-/// at once. Less than T_SYN, because the reads before and behind it are late by different times. With the
-/// first character it is longer than T_SYN, so each silence is a boundary.
+/// A silence of this length before the first octet of a read cannot be inside a telegram, whose characters
+/// follow each other at once. It is less than T_SYN, because the reads before and after it are late by
+/// different times. With the first character it is longer than T_SYN, so each silence is a boundary.
 constexpr Tbit kSilence{kTsyn.count - kCharacter.count + 1};
 
-/// When an unfinished telegram is given up although nothing came behind it that shows its end.
+/// Returns when an unfinished telegram is given up if nothing follows that shows its end.
 Instant given_up_at(Instant read_at, Baud baud)
 {
     return read_at + silence_limit(baud) + duration_of(kFifo, baud);
 }
 
-/// Whether these octets are no telegram: the beginning of one that was cut off may be what makes one fail so.
-/// A telegram with a good checksum that says what is not understood is one.
+/// Returns whether these octets are damaged: the beginning of a telegram that was cut off may be the reason.
+/// A telegram with a good checksum and an unknown meaning is not damaged.
 bool is_damage(const Result<Telegram, Flaw>& heard)
 {
     if (heard) return false;
@@ -38,7 +38,7 @@ bool is_damage(const Result<Telegram, Flaw>& heard)
            flaw == Flaw::unfinished;
 }
 
-/// The first of the places behind `begin` and before `end`; `end` if there is none.
+/// Returns the first of the places after `begin` and before `end`; `end` if there is none.
 template <std::size_t Size>
 std::size_t first_of(const std::bitset<Size>& places, std::size_t begin, std::size_t end)
 {
@@ -76,7 +76,7 @@ std::chrono::nanoseconds Receiver::on_wire(std::size_t octets) const
     return duration_of(Tbit{static_cast<std::uint32_t>(octets) * kCharacter.count}, baud_);
 }
 
-/// The pause before the read, if it goes on within a telegram. When it began is known with its last piece.
+/// The pause before the read, if it goes on within a telegram. Its beginning is known with its last piece.
 void Receiver::note_pause(std::size_t octets, Instant read_at)
 {
     const bool goes_on = more_follows_;
@@ -125,7 +125,7 @@ bool Receiver::on_time(Instant now)
     if (now >= hunt_at_) {
         hunt_at_ = kNever;
         boundaries_[used_] = silences_[used_] = true; // until the next read tells that it was none
-        if (in_doubt_ || hunt_behind_stump()) {
+        if (in_doubt_ || hunt_after_cut()) {
             reading_ = true;
             return true;
         }
@@ -160,7 +160,8 @@ const Receiver::Heard* Receiver::next()
     return nullptr;
 }
 
-/// Goes over rx_; what is left at the end is the beginning of a telegram. True: heard_ is the next one.
+/// Goes over rx_; what is left at the end is the beginning of a telegram. Returns true if heard_ is the next
+/// one.
 bool Receiver::next_in_buffer()
 {
     heard_.at = heard_at_;
@@ -172,7 +173,7 @@ bool Receiver::next_in_buffer()
         if (!length) {
             heard_.begin = heard_.end = forgotten_ + at_;
             const bool is_new = begins_flaw();
-            // Hunt on; silence is never waited for: a busy bus has none. What has failed is searched only
+            // Hunt on; silence is never waited for: a busy bus has none. A failed telegram is searched only
             // where something may have begun in it.
             at_ = std::max(at_ + 1, boundary_within(at_, searched_));
             if (!is_new) continue;
@@ -214,7 +215,7 @@ bool Receiver::next_in_buffer()
     return false;
 }
 
-/// What is at at_ is no telegram. True: it is the first of its piece, and counts.
+/// There is no telegram at at_. Returns true if this is the first flaw of its piece, which counts.
 bool Receiver::begins_flaw()
 {
     return at_ >= failed_ && at_ >= counted_ && !std::exchange(damaged_, true);
@@ -237,13 +238,13 @@ Result<Telegram, Flaw> Receiver::telegram_at(std::size_t at, std::size_t length,
     return decode(Bytes{rx_}.subspan(at, length));
 }
 
-/// The first boundary behind `begin` and before `end`; `end` if there is none.
+/// Returns the first boundary after `begin` and before `end`; `end` if there is none.
 std::size_t Receiver::boundary_within(std::size_t begin, std::size_t end) const
 {
     return has_boundary_ ? first_of(boundaries_, begin, end) : end;
 }
 
-/// Whether whole telegrams lie from the first of the octets up to `least` of them or beyond.
+/// Says whether complete telegrams lie from the first of the octets up to `least` of them or beyond.
 Receiver::Tail Receiver::tail_of(Bytes octets, std::size_t least)
 {
     bool has_checksum = false;
@@ -260,8 +261,9 @@ Receiver::Tail Receiver::tail_of(Bytes octets, std::size_t least)
     return has_checksum ? Tail::telegrams : Tail::none;
 }
 
-/// A good telegram lies from at_ to `end`, and a pause within it. A stump and what came behind it look like
-/// one by chance: then telegrams begin behind a silence. Nothing becomes whole across the next silence.
+/// A good telegram lies from at_ to `end`, and a pause within it. A cut telegram and the octets after it can
+/// look like a good one by chance: then telegrams begin after a silence. No telegram is completed across the
+/// next silence.
 Receiver::Doubt Receiver::doubt_about(std::size_t end) const
 {
     const std::size_t falls_silent = first_of(silences_, end - 1, used_ + 1);
@@ -278,9 +280,9 @@ Receiver::Doubt Receiver::doubt_about(std::size_t end) const
     return {.tail = is_open && falls_silent > used_ ? Tail::open : Tail::none, .at = end};
 }
 
-/// The line has fallen silent within a telegram. Where whole telegrams follow a boundary in it and nothing is
-/// left over, it was a stump, and they came after it.
-bool Receiver::hunt_behind_stump()
+/// The line has fallen silent within a telegram. If complete telegrams follow a boundary in it and nothing is
+/// left over, the part before the boundary was cut off, and they came after it.
+bool Receiver::hunt_after_cut()
 {
     for (std::size_t at = boundary_within(0, used_); at < used_; at = boundary_within(at, used_)) {
         if (spoilt_ > at || tail_of(Bytes{rx_}.first(used_).subspan(at), used_ - at) != Tail::telegrams)
@@ -292,7 +294,7 @@ bool Receiver::hunt_behind_stump()
     return false;
 }
 
-/// Until when more is waited for, if a telegram is unfinished.
+/// Sets how long to wait for the rest of an unfinished telegram.
 void Receiver::await_rest()
 {
     gap_ends_ = used_ == 0 ? kNever : given_up_at(heard_at_, baud_);
@@ -305,7 +307,7 @@ void Receiver::give_up()
     forget_all();
 }
 
-/// The line has fallen silent behind the stump that rx_ begins with.
+/// The line has fallen silent after the cut telegram that rx_ begins with.
 void Receiver::report_unfinished()
 {
     if (!std::exchange(damaged_, false) && counted_ == 0) pending_flaw_ = Flaw::unfinished;

@@ -72,37 +72,47 @@ Stations::Reply Stations::on_request(const Telegram& request, Instant at, Baud b
     Station& station = stations_[request.da];
     // Asked before the request is executed: a Set_Prm changes the pause after its own acknowledgement.
     const Tbit min_tsdr = std::max(station.user->min_tsdr(), kLeastTsdr);
+    const bool is_counted_one = is_counted(request);
+    Encoded& encoded = is_counted_one ? station.reply : unstored_;
     Reply reply{.octets = {},
+                .telegram = &encoded.telegram,
                 .not_before = min_tsdr,
                 .not_after = std::max(station.max_tsdr[index_of(baud)], min_tsdr + kWindow)};
     if (is_retry(station, request)) {
         station.user->heard(request.sa, at);
         reply.repeated = true;
-        reply.octets = station.reply;
-    } else if (is_counted(request)) {
-        station.reply = answer(station, request, at);
-        station.stored = true;
-        station.fcb = request.fcb();
-        station.sa = request.sa;
-        station.function = request.function();
-        station.dsap = request.dsap;
-        reply.octets = station.reply;
     } else {
-        unstored_ = answer(station, request, at);
-        reply.octets = unstored_;
+        answer(station, request, at, encoded);
+        if (is_counted_one) {
+            station.stored = true;
+            station.fcb = request.fcb();
+            station.sa = request.sa;
+            station.function = request.function();
+            station.dsap = request.dsap;
+        }
     }
+    reply.octets = encoded.octets;
     called(request.da);
     return reply;
 }
 
-/// Asks the user and puts the answer on the wire form; what no DP slave offers is refused here.
-Frame Stations::answer(Station& station, const Telegram& request, Instant at)
+/// Asks the user and encodes the answer; what no DP slave offers is refused here.
+void Stations::answer(Station& station, const Telegram& request, Instant at, Encoded& reply)
 {
+    Telegram& said = reply.telegram;
+    said.da = request.sa;
+    said.sa = request.da;
+    said.dsap = said.ssap = std::nullopt;
+    said.data = {};
+    const auto without_data = [&](std::uint8_t fc) {
+        said.delimiter = kSD1;
+        reply.octets = encode_sd1(said.da, said.sa, said.fc = fc);
+    };
     const bool srd = request.function() == Function::srd_low || request.function() == Function::srd_high;
     const bool half_extended = request.dsap.has_value() != request.ssap.has_value();
     if (!srd || half_extended) {
         station.user->heard(request.sa, at);
-        return encode_sd1(request.sa, request.da, request.function() == Function::fdl_status ? kFcOk : kFcRs);
+        return without_data(request.function() == Function::fdl_status ? kFcOk : kFcRs);
     }
 
     scratch_.clear();
@@ -110,10 +120,21 @@ Frame Stations::answer(Station& station, const Telegram& request, Instant at)
         {.sa = request.sa, .dsap = request.dsap, .ssap = request.ssap, .data = request.data, .at = at},
         scratch_);
     const bool data = answer == Answer::low || answer == Answer::high;
-    if (answer == Answer::sc || (answer == Answer::low && scratch_.empty())) return encode_sc();
-    if (data && !scratch_.empty()) // the roles swap: the requester's SAP first
-        return encode_sd2(request.sa, request.da, fc_of(answer), request.ssap, request.dsap, scratch_);
-    return encode_sd1(request.sa, request.da, fc_of(answer)); // also DH without data (wire reference 4.7)
+    if (answer == Answer::sc || (answer == Answer::low && scratch_.empty())) {
+        said.delimiter = kSC;
+        reply.octets = encode_sc();
+        return;
+    }
+    const std::uint8_t fc = fc_of(answer);
+    if (!data || scratch_.empty()) return without_data(fc); // also DH without data (wire reference 4.7)
+    said.delimiter = kSD2;
+    said.fc = fc;
+    said.dsap = request.ssap; // the roles swap: the requester's SAP first
+    said.ssap = request.dsap;
+    said.data = scratch_;
+    encode_sd2(reply.octets, said);
+    // Before FCS and ED.
+    said.data = reply.octets.bytes().subspan(reply.octets.size() - scratch_.size() - 2, scratch_.size());
 }
 
 /// Repeats the last request instead of following it. A master that changes function or SAP without a new
@@ -172,7 +193,7 @@ void Stations::called(std::uint8_t address)
     sample(stations_[address]);
 }
 
-/// After a user was called: what it waits for, and how a master watches it.
+/// Reads after a call of a user what it waits for, and how a master watches it.
 void Stations::sample(Station& station)
 {
     users_due_ = std::min(users_due_, station.user->next_deadline());

@@ -111,23 +111,29 @@ Frame encode_sd1(std::uint8_t da, std::uint8_t sa, std::uint8_t fc)
 Frame encode_sd2(std::uint8_t da, std::uint8_t sa, std::uint8_t fc, std::optional<std::uint8_t> dsap,
                  std::optional<std::uint8_t> ssap, Bytes data)
 {
-    const bool extended = dsap && ssap;
-    const auto le = static_cast<std::uint8_t>(3 + (extended ? 2 : 0) + data.size());
     Frame frame;
-    frame.push(kSD2);
-    frame.push(le);
-    frame.push(le);
-    frame.push(kSD2);
-    frame.push(extended ? da | kExtension : da);
-    frame.push(extended ? sa | kExtension : sa);
-    frame.push(fc);
-    if (extended) {
-        frame.push(*dsap);
-        frame.push(*ssap);
-    }
-    frame.append(data);
-    close(frame, 4);
+    encode_sd2(frame, {kSD2, da, sa, fc, dsap, ssap, data});
     return frame;
+}
+
+void encode_sd2(Frame& frame, const Telegram& telegram)
+{
+    const bool extended = telegram.dsap && telegram.ssap;
+    const auto le = static_cast<std::uint8_t>(3 + (extended ? 2 : 0) + telegram.data.size());
+    frame.clear();
+    frame.push(kSD2);
+    frame.push(le);
+    frame.push(le);
+    frame.push(kSD2);
+    frame.push(extended ? telegram.da | kExtension : telegram.da);
+    frame.push(extended ? telegram.sa | kExtension : telegram.sa);
+    frame.push(telegram.fc);
+    if (extended) {
+        frame.push(*telegram.dsap);
+        frame.push(*telegram.ssap);
+    }
+    frame.append(telegram.data);
+    close(frame, 4);
 }
 
 Frame encode_sc()

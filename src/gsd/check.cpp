@@ -13,9 +13,13 @@ Findings check(const Document& document, Reading reading, std::string_view file_
     Judge judge{document, remarks};
     if (document.has_section) {
         check_keywords(judge);
+        check_parameters(judge);
+    }
+    // Up to here each line was judged by itself; the rest judges how they fit together.
+    for (Remark& remark : remarks) remark.unread = remark.unread || remark.weight == Weight::error;
+    if (document.has_section) {
         check_device(judge);
         check_modules(judge);
-        check_parameters(judge);
         if (!file_name.empty()) check_file_name(judge, file_name);
     }
     std::stable_sort(remarks.begin(), remarks.end(),
@@ -26,8 +30,8 @@ Findings check(const Document& document, Reading reading, std::string_view file_
     for (Remark& remark : remarks) {
         if (remark.weight == Weight::pedantic && !strict) continue;
         const bool error = strict || remark.weight == Weight::error;
-        findings.push_back(
-            {remark.line, error ? Severity::error : Severity::warning, std::move(remark.what)});
+        findings.push_back({remark.line, error ? Severity::error : Severity::warning, std::move(remark.what),
+                            remark.unread});
     }
     return findings;
 }

@@ -39,7 +39,7 @@ void check_needed(Judge& judge)
             missing(judge, Weight::error, needed.keyword, needed.example);
     if (judge.document.find("GSD_Revision") == nullptr)
         missing(judge, Weight::warning, "GSD_Revision",
-                "GSD_Revision = 1 or higher; without it tools treat the file as one of the oldest");
+                "GSD_Revision = 1 or higher; a file without it is of the form before revision 1");
     if (!slave) return;
     if (judge.document.find("Max_Diag_Data_Len") == nullptr)
         missing(judge, judge.revision > 0 ? Weight::error : Weight::warning, "Max_Diag_Data_Len",
@@ -65,8 +65,8 @@ void check_rates(Judge& judge)
                     " is missing: add it, with the bit times after which the slave answers at the latest.");
         if (!supported && judge.document.find(tsdr) != nullptr)
             judge.say(judge.line_of(tsdr), Weight::warning,
-                      tsdr + " stands here, but " + supp + " is not 1: remove one, or add the other.");
-        if (const auto bits = judge.document.number(tsdr); bits && *bits > 0 && *bits < 11)
+                      tsdr + " is here, but " + supp + " is not 1: remove one, or add the other.");
+        if (const auto bits = judge.document.number(tsdr); supported && bits && *bits < 11)
             judge.say(judge.line_of(tsdr), Weight::warning,
                       tsdr +
                           " is below 11 bit times, before which no slave may answer: write the true value.");
@@ -86,7 +86,7 @@ void check_lengths(Judge& judge)
                           std::string{keyword} + " is missing, which a modular station needs: add it.");
     if (const auto data = document.number("Max_Data_Len"); data && in && out) {
         if (*data < std::max(*in, *out))
-            judge.say(judge.line_of("Max_Data_Len"), Weight::error,
+            judge.say(judge.line_of("Max_Data_Len"), Weight::warning,
                       "Max_Data_Len is below Max_Input_Len or Max_Output_Len: it counts both together.");
         if (*data > *in + *out)
             judge.say(judge.line_of("Max_Data_Len"), Weight::warning,
@@ -122,9 +122,9 @@ void check_old_style(Judge& judge)
                       ", but User_Prm_Data_Len in line " + std::to_string(length->line) + " says " +
                       std::to_string(*number) + ": make them agree.");
     if (document.find("Max_User_Prm_Data_Len") != nullptr)
-        judge.say(data->line, Weight::warning,
-                  "User_Prm_Data and Max_User_Prm_Data_Len exclude each other: old tools take the first, new "
-                  "tools the second. Keep one.");
+        judge.say(
+            data->line, Weight::warning,
+            "User_Prm_Data and Max_User_Prm_Data_Len exclude each other: old tools take the first, new tools the second. Keep one.");
 }
 
 } // namespace
@@ -133,7 +133,10 @@ void check_device(Judge& judge)
 {
     check_needed(judge);
     check_rates(judge);
-    if (judge.on("Station_Type")) return;
+    if (const Entry* const type = judge.document.find("Station_Type");
+        type != nullptr && judge.on("Station_Type"))
+        return judge.say(type->line, Weight::warning,
+                         "Station_Type = 1: this is the file of a master, and only its form is judged.");
     check_lengths(judge);
     check_old_style(judge);
 }
@@ -146,19 +149,17 @@ void check_file_name(Judge& judge, std::string_view file_name)
     if (extension.size() != 3 || !same_any_case(extension.substr(0, 2), "gs"))
         judge.say(0, Weight::warning,
                   "the file's name " + in_quotes(file_name) +
-                      " does not end in .GSD: tools do not offer it.");
+                      " does not end in .GSD, or in .GSE and the like for one language: rename it.");
     if (stem.size() != 8)
         judge.say(
             0, Weight::warning,
             "the file's name " + in_quotes(file_name) +
-                " is not of the form VVVVIIII.GSD (four characters for the vendor, the Ident_Number in four "
-                "hexadecimal digits): old tools do not find it.");
+                " is not of the form VVVVIIII.GSD (four characters for the vendor, the Ident_Number in four hexadecimal digits): rename it.");
     const auto ident = judge.document.number("Ident_Number");
     if (ident && stem.size() == 8 && !same_any_case(stem.substr(4), hex_word(*ident).substr(2)))
         judge.say(judge.line_of("Ident_Number"), Weight::warning,
                   "the file's name " + in_quotes(file_name) + " does not end in " +
-                      hex_word(*ident).substr(2) +
-                      ", the Ident_Number: tools that go by the name do not find it.");
+                      hex_word(*ident).substr(2) + ", the Ident_Number: rename it, or correct the number.");
 }
 
 } // namespace dpslave::gsd

@@ -4,21 +4,27 @@
 
 #include "dpslave/gsd/device.hpp"
 #include "dpslave/gsd/identifier.hpp"
+#include "dpslave/gsd/sent.hpp"
 
 #include <map>
 
 namespace dpslave::gsd {
 namespace {
 
-/// Of one module by itself: count, form, and what it has against the limits of the device.
+constexpr std::size_t kMaxCfgOctets = 244; ///< of Chk_Cfg, and of a module from GSD_Revision 1 on
+
+/// Judges one module by itself: its count, its form, and the limits of the device.
 void check_identifiers(Judge& judge, const Module& module)
 {
     if (module.identifiers.empty()) return; // the parser has reported why
-    if (module.identifiers.size() > kMaxModuleOctets)
+    const std::string has = "the module " + in_quotes(module.name) + " has " +
+                            count_of(module.identifiers.size(), "identifier octet") + ": ";
+    if (module.identifiers.size() > kMaxCfgOctets)
+        judge.say(module.line, Weight::error,
+                  has + std::to_string(kMaxCfgOctets) + " are allowed. Split it.");
+    else if (judge.revision == 0 && module.identifiers.size() > kMaxModuleOctets)
         judge.say(module.line, kLivesInTheField,
-                  "the module " + in_quotes(module.name) + " has " +
-                      std::to_string(module.identifiers.size()) +
-                      " identifier octets: the standard allows 17. Split it.");
+                  has + std::to_string(kMaxModuleOctets) + " are allowed without GSD_Revision. Split it.");
     const auto sum = sum_of_identifiers(module.identifiers);
     if (!sum) {
         judge.say(module.line, Weight::error,
@@ -47,7 +53,7 @@ void check_names(Judge& judge)
         if (module.name.size() > kMaxText)
             judge.say(module.line, Weight::error,
                       "the module's name has " + std::to_string(module.name.size()) +
-                          " characters: the standard allows 32.");
+                          " characters: 32 are allowed.");
         const auto [first, is_first] = names.try_emplace(module.name, module.line);
         if (!is_first && !module.name.empty())
             judge.say(module.line, kLivesInTheField,
@@ -55,10 +61,10 @@ void check_names(Judge& judge)
                           std::to_string(first->second) + "): give it a name of its own.");
         if (!module.reference) {
             if (judge.revision >= 3)
-                judge.say(module.line, Weight::error,
-                          "the module " + in_quotes(module.name) +
-                              " has no reference number, which GSD_Revision 3 demands: write one in the next "
-                              "line.");
+                judge.say(
+                    module.line, Weight::error,
+                    "the module " + in_quotes(module.name) +
+                        " has no reference number, which GSD_Revision 3 demands: write one in the next line.");
             continue;
         }
         const auto [same_number, is_new] = references.try_emplace(*module.reference, module.line);
@@ -74,7 +80,9 @@ void check_station(Judge& judge)
 {
     const Document& document = judge.document;
     if (document.modules.empty())
-        return judge.say(0, Weight::error, "there is no module: add at least one Module ... EndModule.");
+        return judge.say(
+            0, Weight::error,
+            "there is no module, so Chk_Cfg has no octet: add at least one Module ... EndModule.");
     const bool modular = judge.on("Modular_Station");
     const auto max = document.number("Max_Module");
     if (!modular && document.modules.size() != 1)
@@ -84,7 +92,7 @@ void check_station(Judge& judge)
         judge.say(judge.line_of("Max_Module"), kLivesInTheField,
                   "a compact station has one module: write Max_Module = 1, or Modular_Station = 1.");
 
-    const auto plugged = document.plugged();
+    const auto plugged = preset_modules(document);
     if (!modular || plugged.empty()) return;
     if (max && plugged.size() > *max)
         judge.say(plugged.back()->line, Weight::error,
@@ -110,8 +118,6 @@ void check_modules(Judge& judge)
     check_station(judge);
     check_names(judge);
     for (const Module& module : judge.document.modules) check_identifiers(judge, module);
-    for (const Block& block : judge.document.blocks)
-        if (block.kind == "Module") check_module_keywords(judge, block);
 }
 
 } // namespace dpslave::gsd

@@ -10,10 +10,11 @@
 
 namespace dpslave::gsd {
 
-/// What public files of many makers show and masters live with (wire reference 9.4): never in files of ours.
+/// This is found in public files of many makers, and masters accept it (wire reference 9.4): it is never in
+/// files of ours.
 inline constexpr Weight kLivesInTheField = Weight::warning;
 
-/// What is judged and where the verdict goes.
+/// Holds what is judged and takes the verdict.
 class Judge {
 public:
     Judge(const Document& judged, Remarks& verdict)
@@ -31,6 +32,11 @@ public:
     {
         remarks_.push_back({line, weight, std::move(what)});
     }
+    /// Adds a warning: the line counts as a slip, and is not evaluated.
+    void slip(unsigned line, std::string what)
+    {
+        remarks_.push_back({line, Weight::warning, std::move(what), true});
+    }
     bool on(std::string_view keyword) const { return document.number(keyword).value_or(0) == 1; }
     unsigned line_of(std::string_view keyword) const
     {
@@ -42,10 +48,9 @@ private:
     Remarks& remarks_;
 };
 
-/// check_keywords.cpp: each keyword by itself, and keywords that stand twice.
+/// check_keywords.cpp: each keyword of the device and of its modules by itself, and keywords that stand
+/// twice.
 void check_keywords(Judge& judge);
-/// Of a module's body: the same, for the keywords that may stand there.
-void check_module_keywords(Judge& judge, const Block& module);
 /// check_device.cpp: what must be there, rates, lengths, user parameters in the old style.
 void check_device(Judge& judge);
 void check_file_name(Judge& judge, std::string_view file_name);

@@ -6,7 +6,7 @@
 namespace dpslave::gsd {
 namespace {
 
-constexpr std::size_t kColumn = 19;       ///< where the "=" stands
+constexpr std::size_t kColumn = 19;       ///< where the "=" is
 constexpr std::size_t kOctetsInALine = 8; ///< of User_Prm_Data, as in the manual's listing
 
 class Writer {

@@ -5,12 +5,15 @@
 #include "lines.hpp"
 #include "text.hpp"
 
+#include "dpslave/base/edit_distance.hpp"
+
 #include <algorithm>
 
 namespace dpslave::gsd {
 namespace {
 
 constexpr std::string_view kSection = "#Profibus_DP";
+constexpr std::size_t kSlips = 3; ///< letters that differ, and it is still meant
 
 /// `keyword(index) = value` taken apart. The index may be anything; only a number is kept.
 Entry entry_of(const LogicalLine& line, Remarks& remarks)
@@ -28,8 +31,9 @@ Entry entry_of(const LogicalLine& line, Remarks& remarks)
     entry.value = std::string{trimmed(text.substr(equals + 1))};
     if (const auto open = name.find('('); open != std::string_view::npos) {
         const auto close = name.find(')', open);
-        entry.index = parse_number(trimmed(name.substr(open + 1, close - open - 1)));
-        if (!entry.index || close == std::string_view::npos)
+        const std::string_view inside = trimmed(name.substr(open + 1, close - open - 1));
+        entry.index = parse_number(inside);
+        if (!parse_signed(inside) || close == std::string_view::npos) // the text of a signed value
             remarks.push_back(
                 {line.number, Weight::error, in_quotes(name) + " has no number between ( and ): write one."});
         name = trimmed(name.substr(0, open));
@@ -42,12 +46,15 @@ class Parser {
 public:
     Document parse(std::string_view content)
     {
+        if (std::string why = unreadable(content); !why.empty()) {
+            not_read(1, std::move(why));
+            return std::move(document_);
+        }
         const std::vector<LogicalLine> lines = logical_lines(content, document_.remarks);
         auto line = lines.begin();
         for (; line != lines.end() && !same_any_case(line->text, kSection); ++line) before_section(*line);
         if (line == lines.end()) {
-            remark(0, Weight::error,
-                   "there is no line #Profibus_DP: this is no GSD file, or its first line is spelt wrongly.");
+            no_section(lines);
             return std::move(document_);
         }
         document_.has_section = true;
@@ -66,6 +73,22 @@ private:
         document_.remarks.push_back({line, weight, std::move(what)});
     }
 
+    void not_read(unsigned line, std::string what)
+    {
+        document_.not_read = {line, Weight::error, what};
+        remark(line, Weight::error, std::move(what));
+    }
+
+    void no_section(const std::vector<LogicalLine>& lines)
+    {
+        const auto like_it = std::find_if(lines.begin(), lines.end(), [](const LogicalLine& one) {
+            return edit_distance(to_lower(one.text), to_lower(kSection), kSlips) <= kSlips;
+        });
+        if (like_it == lines.end()) return not_read(0, "there is no line #Profibus_DP: this is no GSD file.");
+        not_read(like_it->number,
+                 in_quotes(like_it->text) + ": the line that begins a GSD file is #Profibus_DP.");
+    }
+
     void before_section(const LogicalLine& line)
     {
         Remarks ignored;
@@ -73,11 +96,7 @@ private:
         if (find_keyword(entry.keyword) != nullptr)
             remark(line.number, Weight::error,
                    in_quotes(entry.keyword) +
-                       " stands before #Profibus_DP, where tools do not read it: move it "
-                       "below.");
-        else
-            remark(line.number, Weight::warning,
-                   "text before #Profibus_DP that is no comment: put a ; in front of it.");
+                       " comes before #Profibus_DP, where tools do not read it: move it below.");
     }
 
     void take(const LogicalLine& line)
@@ -100,10 +119,18 @@ private:
         else if (!entry.keyword.empty())
             document_.keywords.push_back(std::move(entry));
         else
-            remark(line.number, Weight::warning, // common in the field: tools ignore it
-                   in_quotes(entry.value) +
-                       " is neither Keyword = value nor part of a module: remove it, or add "
-                       "what is missing.");
+            document_.remarks.push_back(
+                {line.number, Weight::warning, // common in the field
+                 in_quotes(entry.value) +
+                     " is neither Keyword = value nor part of a module: " + mend(entry.value),
+                 true});
+    }
+
+    static std::string mend(const std::string& text)
+    {
+        const std::string_view nearest = nearest_keyword(text);
+        return nearest.empty() ? "remove it, or add what is missing."
+                               : "the standard spells it " + in_quotes(nearest) + '.';
     }
 
     static bool belongs_to_unit(const Entry& entry)
@@ -156,18 +183,22 @@ private:
             remark(block.line, Weight::error,
                    "the module's identifiers " + in_quotes(octets) +
                        " are no octets: write them as 0x50 or 80, with commas between.");
+        DataArea area;
         for (const Entry& entry : block.body) {
-            if (same_any_case(entry.keyword, "Preset")) module.preset = entry.value == "1";
+            if (area.has(entry.keyword, entry.value)) continue;
+            if (same_any_case(entry.keyword, "Preset")) module.preset = parse_number(entry.value) == 1U;
             if (!entry.keyword.empty()) continue;
             if (!module.reference && parse_number(entry.value))
                 module.reference = parse_number(entry.value);
-            else if (!same_any_case(entry.value, "Data_Area_Beg") &&
-                     !same_any_case(entry.value, "Data_Area_End"))
+            else
                 remark(entry.line, Weight::error,
                        in_quotes(entry.value) +
-                           " is neither the module's reference number nor Keyword = value: remove "
-                           "it, or add what is missing.");
+                           " is neither the module's reference number nor Keyword = value: " +
+                           mend(entry.value));
         }
+        if (area.is_open())
+            remark(block.line, Weight::warning,
+                   "the module has Data_Area_Beg without Data_Area_End: add it.");
         document_.modules.push_back(std::move(module));
     }
 
@@ -205,33 +236,6 @@ std::vector<std::uint8_t> Document::octets(std::string_view keyword) const
     const Entry* entry = find(keyword);
     if (entry == nullptr) return {};
     return parse_octets(entry->value).value_or(std::vector<std::uint8_t>{});
-}
-
-std::vector<std::uint8_t> Document::user_prm_data() const
-{
-    constexpr std::uint32_t kLongest = 237;
-    if (const auto length = number("Max_User_Prm_Data_Len")) {
-        std::vector<std::uint8_t> out(std::min(*length, kLongest));
-        for (const Entry& entry : keywords) {
-            if (!same_any_case(entry.keyword, "Ext_User_Prm_Data_Const") || !entry.index) continue;
-            const auto constants = parse_octets(entry.value).value_or(std::vector<std::uint8_t>{});
-            for (std::size_t i = 0; i < constants.size() && *entry.index + i < out.size(); ++i)
-                out[*entry.index + i] = constants[i];
-        }
-        return out;
-    }
-    std::vector<std::uint8_t> out = octets("User_Prm_Data");
-    out.resize(std::min(number("User_Prm_Data_Len").value_or(0), kLongest));
-    return out;
-}
-
-std::vector<const Module*> Document::plugged() const
-{
-    const bool modular = number("Modular_Station").value_or(0) == 1;
-    std::vector<const Module*> out;
-    for (const Module& module : modules)
-        if (!modular || module.preset) out.push_back(&module);
-    return out;
 }
 
 Document parse(std::string_view content)

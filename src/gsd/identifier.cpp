@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpslave/gsd/identifier.hpp"
 
+#include <utility>
+
 namespace dpslave::gsd {
 namespace {
 
@@ -21,22 +23,28 @@ std::optional<Identifier> first_identifier(Bytes octets)
         const std::size_t length = ((head & 0x0FU) + 1U) * ((head & 0x40) != 0 ? 2U : 1U);
         if ((head & 0x10) != 0) found.in = length;
         if ((head & 0x20) != 0) found.out = length;
+        found.in_words = (head & 0x40) != 0;
         return found;
     }
     const bool in = (head & 0x40) != 0;
     const bool out = (head & 0x80) != 0;
-    const std::size_t own = (head & 0x0F) == 15 ? 0U : head & 0x0FU; // manufacturer's octets at the end
-    found.length = 1U + (in ? 1U : 0U) + (out ? 1U : 0U) + own;
+    found.manufacturer = (head & 0x0F) == 15 ? 0U : head & 0x0FU;
+    found.length = 1U + (in ? 1U : 0U) + (out ? 1U : 0U) + found.manufacturer;
     if (octets.size() < found.length) return std::nullopt;
+    found.in_words = in || out;
     std::size_t at = 1;
-    if (out) found.out = octets_of(octets[at++]); // of two length octets the one of the outputs comes first
-    if (in) found.in = octets_of(octets[at]);
+    for (const auto& [is_there, length] : {std::pair{out, &found.out}, std::pair{in, &found.in}}) {
+        if (!is_there) continue; // of two length octets the one of the outputs comes first
+        const std::uint8_t octet = octets[at++];
+        *length = octets_of(octet);
+        found.in_words = found.in_words && (octet & 0x40) != 0;
+    }
     return found;
 }
 
 std::optional<Identifier> sum_of_identifiers(Bytes octets)
 {
-    Identifier sum{0, 0, 0};
+    Identifier sum{.length = 0};
     while (!octets.empty()) {
         const auto next = first_identifier(octets);
         if (!next) return std::nullopt;
@@ -46,6 +54,16 @@ std::optional<Identifier> sum_of_identifiers(Bytes octets)
         octets = octets.subspan(next->length);
     }
     return sum;
+}
+
+std::size_t empty_slots(Bytes octets)
+{
+    std::size_t count = 0;
+    while (const auto next = first_identifier(octets)) {
+        if (octets[0] == kEmptySlot) ++count;
+        octets = octets.subspan(next->length);
+    }
+    return count;
 }
 
 } // namespace dpslave::gsd

@@ -4,6 +4,7 @@
 #include "text.hpp"
 
 #include "dpslave/gsd/identifier.hpp"
+#include "dpslave/gsd/sent.hpp"
 
 #include <algorithm>
 #include <array>
@@ -25,7 +26,9 @@ constexpr std::string_view kUnused{"Demand Data: reserved"};
 class MapMaker {
 public:
     MapMaker(const Document& document, const MapHints& hints)
-        : hints_(hints), plugged_(document.plugged()), prm_(document.user_prm_data())
+        : hints_(hints),
+          modules_(hints.modules ? *hints.modules : plugged_modules(document)),
+          prm_(sent_by_master(document, modules_).user.octets)
     {
         at_ = hints.tags_at.value_or(prm_.size() % 2 == 1 ? 3 : 0);
         if (!hints.tags_at && !looks_like_tags()) prm_.clear();
@@ -33,22 +36,28 @@ public:
 
     IoMap make()
     {
-        map_.fixed = !plugged_.empty();
-        for (const Module* module : plugged_) add(*module);
+        map_.fixed = !modules_.empty();
+        for (const Module* module : modules_) add(*module);
         map_.advice = advice_on_lengths(map_.in_octets, map_.out_octets);
         return std::move(map_);
     }
 
 private:
-    /// Of a file that says nothing of tags: as many words as there are parameters, none zero, then zeros
-    /// only.
+    /// For a file that does not mention tags: true if there are as many words as parameters, none zero, then
+    /// zeros only.
     bool looks_like_tags() const
     {
         std::vector<std::uint8_t> octets;
-        for (const Module* module : plugged_)
+        for (const Module* module : modules_)
             octets.insert(octets.end(), module->identifiers.begin(), module->identifiers.end());
-        const bool demand = !octets.empty() && octets.front() == hints_.demand_identifier;
-        const std::size_t end = at_ + 2 * (octets.size() - (demand ? 1 : 0));
+        std::size_t words = 0;
+        Bytes rest = octets;
+        if (!rest.empty() && rest.front() == hints_.demand_identifier) rest = rest.subspan(1);
+        for (auto one = first_identifier(rest); one; one = first_identifier(rest)) {
+            words += parameters_of(*one);
+            rest = rest.subspan(one->length);
+        }
+        const std::size_t end = at_ + 2 * words;
         if (end > prm_.size()) return false;
         for (std::size_t at = at_; at < end; at += 2)
             if (be16(prm_, at) == 0) return false;
@@ -82,16 +91,31 @@ private:
         }
     }
 
+    /// Each word is one; other forms have one value.
+    static std::size_t parameters_of(const Identifier& identifier)
+    {
+        if (!identifier.in_words) return identifier.in + identifier.out > 0 ? 1 : 0;
+        return std::max(identifier.in, identifier.out) / 2;
+    }
+
     void parameter(const Module& module, const Identifier& identifier)
     {
-        const auto tag = next_tag();
-        std::string what = module.name;
-        if (tag) {
-            const auto name = hints_.names.find(*tag);
-            what = name == hints_.names.end() ? "tag " + std::to_string(*tag) : name->second;
+        const std::size_t count = parameters_of(identifier);
+        const auto octets_of = [&](std::size_t all, std::size_t i) {
+            return identifier.in_words ? (2 * i < all ? 2 : 0) : all;
+        };
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto tag = next_tag();
+            std::string what = module.name;
+            if (tag) {
+                const auto name = hints_.names.find(*tag);
+                what = name == hints_.names.end() ? "tag " + std::to_string(*tag) : name->second;
+            }
+            if (const std::size_t in = octets_of(identifier.in, i))
+                put(map_.inputs, map_.in_octets, in, what, tag);
+            if (const std::size_t out = octets_of(identifier.out, i))
+                put(map_.outputs, map_.out_octets, out, what, tag);
         }
-        if (identifier.in > 0) put(map_.inputs, map_.in_octets, identifier.in, what, tag);
-        if (identifier.out > 0) put(map_.outputs, map_.out_octets, identifier.out, what, tag);
     }
 
     static void put(std::vector<IoValue>& values, std::size_t& length, std::size_t octets, std::string what,
@@ -101,7 +125,7 @@ private:
         length += octets;
     }
 
-    /// Tags stand in the order of the identifiers; a zero is none.
+    /// The tags are in the order of the identifiers; a zero means no tag.
     std::optional<std::uint16_t> next_tag()
     {
         if (at_ + 2 > prm_.size()) return std::nullopt;
@@ -112,7 +136,7 @@ private:
     }
 
     const MapHints& hints_;
-    std::vector<const Module*> plugged_;
+    std::vector<const Module*> modules_;
     std::vector<std::uint8_t> prm_;
     std::size_t at_ = 0; ///< of the next tag
     bool is_first_ = true;

@@ -62,17 +62,17 @@ constexpr std::array kKeywords = std::to_array<Keyword>({
     boolean("3M_supp"),
     boolean("6M_supp"),
     boolean("12M_supp"),
-    number("MaxTsdr_9.6", 1, 0xFFFF),
-    number("MaxTsdr_19.2", 1, 0xFFFF),
-    number("MaxTsdr_31.25", 1, 0xFFFF, 2),
-    number("MaxTsdr_45.45", 1, 0xFFFF, 2),
-    number("MaxTsdr_93.75", 1, 0xFFFF),
-    number("MaxTsdr_187.5", 1, 0xFFFF),
-    number("MaxTsdr_500", 1, 0xFFFF),
-    number("MaxTsdr_1.5M", 1, 0xFFFF),
-    number("MaxTsdr_3M", 1, 0xFFFF),
-    number("MaxTsdr_6M", 1, 0xFFFF),
-    number("MaxTsdr_12M", 1, 0xFFFF),
+    number("MaxTsdr_9.6", 0, 0xFFFF),
+    number("MaxTsdr_19.2", 0, 0xFFFF),
+    number("MaxTsdr_31.25", 0, 0xFFFF, 2),
+    number("MaxTsdr_45.45", 0, 0xFFFF, 2),
+    number("MaxTsdr_93.75", 0, 0xFFFF),
+    number("MaxTsdr_187.5", 0, 0xFFFF),
+    number("MaxTsdr_500", 0, 0xFFFF),
+    number("MaxTsdr_1.5M", 0, 0xFFFF),
+    number("MaxTsdr_3M", 0, 0xFFFF),
+    number("MaxTsdr_6M", 0, 0xFFFF),
+    number("MaxTsdr_12M", 0, 0xFFFF),
     boolean("Redundancy"),
     number("Repeater_Ctrl_Sig", 0, 2),
     number("24V_Pins", 0, 2),
@@ -197,6 +197,15 @@ const BlockKind* find_closing(std::string_view word)
     return found == kBlocks.end() ? nullptr : &*found;
 }
 
+bool DataArea::has(std::string_view keyword, std::string_view value)
+{
+    const std::string_view word = keyword.empty() ? value : keyword;
+    const bool ends = same_any_case(word, "Data_Area_End");
+    const bool belongs = open_ || ends || same_any_case(word, "Data_Area_Beg");
+    open_ = belongs && !ends;
+    return belongs;
+}
+
 std::string_view nearest_keyword(std::string_view name)
 {
     constexpr std::size_t kLongest = 64; // longer ones are no slip of the pen
@@ -205,12 +214,17 @@ std::string_view nearest_keyword(std::string_view name)
     const std::string wanted = to_lower(name);
     std::string_view nearest;
     std::size_t best = kApart + 1;
-    for (const Keyword& keyword : kKeywords) {
-        const std::size_t apart = edit_distance(wanted, to_lower(keyword.name), kApart);
+    const auto compare = [&](std::string_view known) {
+        const std::size_t apart = edit_distance(wanted, to_lower(known), kApart);
         if (apart < best) {
             best = apart;
-            nearest = keyword.name;
+            nearest = known;
         }
+    };
+    for (const Keyword& keyword : kKeywords) compare(keyword.name);
+    for (const BlockKind& kind : kBlocks) {
+        compare(kind.opens);
+        compare(kind.closes);
     }
     return nearest;
 }

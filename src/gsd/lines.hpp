@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// From octets to logical lines: character set, line ends, comments, continuation.
+/// Makes logical lines of octets: character set, line ends, comments, continuation.
 #pragma once
 
 #include "dpslave/gsd/document.hpp"
@@ -15,7 +15,10 @@ struct LogicalLine {
     unsigned number = 0;
 };
 
-/// What is odd about the text goes into `remarks`.
+/// Why the octets cannot be read as a GSD file at all, and how to mend that; empty: they can.
+std::string unreadable(std::string_view content);
+
+/// Returns the lines; remarks about unusual text go into `remarks`.
 std::vector<LogicalLine> logical_lines(std::string_view content, Remarks& remarks);
 
 } // namespace dpslave::gsd

@@ -14,12 +14,12 @@ namespace dpslave::gsd {
 
 std::string_view trimmed(std::string_view text);
 
-/// Decimal or 0x1AF, nothing before or behind; up to 32 bits.
+/// Reads decimal or 0x1AF, with nothing before or after it; up to 32 bits.
 std::optional<std::uint32_t> parse_number(std::string_view text);
-/// The same with a sign allowed.
+/// Reads a number like parse_number(), with a sign allowed.
 std::optional<std::int64_t> parse_signed(std::string_view text);
 
-/// A string in quotes at the start of a value, and what stands behind it, trimmed.
+/// A string in quotes at the start of a value, and the text after it, trimmed.
 struct Quoted {
     std::string text;
     std::string_view rest; ///< points into the value
@@ -29,7 +29,7 @@ std::optional<Quoted> parse_quoted(std::string_view value);
 /// Parts between commas, trimmed; one empty part for an empty text.
 std::vector<std::string_view> split(std::string_view text, char between);
 
-/// Numbers 0..255 between commas. Nothing: a part is none.
+/// Reads numbers 0..255 between commas; returns nullopt if a part is no such number.
 std::optional<std::vector<std::uint8_t>> parse_octets(std::string_view value);
 
 std::string hex_octet(std::uint8_t octet);                     ///< "0x7F"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// 2408f/2404f handbook ch. 4: the REM beacon in the instrument's display (C-009). How fast it flashes is not
-/// printed: 1 Hz, half of it lit [DEC].
+/// The lamp is the REM beacon in the instrument's display (2408f/2404f handbook ch. 4, C-009). The handbook
+/// does not say how fast it flashes: 1 Hz, half of it lit [DEC].
 #include "languages.hpp"
 
 namespace dpslave::led {

@@ -12,7 +12,7 @@ inline constexpr Pattern kOff{std::chrono::milliseconds{0}, std::chrono::millise
 inline constexpr Pattern kOn{std::chrono::milliseconds{0}, std::chrono::milliseconds{1}};
 inline constexpr Pattern kFlash1Hz{std::chrono::milliseconds{1000}, std::chrono::milliseconds{500}};
 
-/// What a language says of one condition.
+/// The lamps and the words of a language for one condition.
 struct Shown {
     std::vector<Lamp> lamps;
     std::string_view meaning;

@@ -9,7 +9,7 @@ using std::chrono::milliseconds;
 
 constexpr Pattern kFlash2Hz{milliseconds{500}, milliseconds{250}};
 
-/// What the two lamps of the option board can say (HA389815 ch. 9).
+/// The two lamps of the option board can say this (HA389815 ch. 9).
 enum class Say : std::uint8_t { dark, normal, external_fault, internal_fault };
 
 struct Row {
@@ -19,7 +19,7 @@ struct Row {
     std::string_view meaning;
 };
 
-// In the order of Say.
+// The rows are in the order of Say.
 constexpr std::array kTable = std::to_array<Row>({
     {kOff, kOff, kOff, "no power or major fault: this station is not served"},
     {kOff, kOff, kFlash2Hz, "normal operation: data exchange with the master"},

@@ -19,19 +19,19 @@ struct ModuleRow {
     std::string_view meaning;
 };
 
-// In the order of OptionFault: the MODULE lamp.
+// The MODULE lamp, in the order of OptionFault.
 constexpr std::array kModule = std::to_array<ModuleRow>({
     {kOn, "valid set-up, ready for external communications"},
     {kLongFlash, "set-up fault: a parameter of the TEC OPTION function block is out of range"},
     {kFlash, "wrong type or disabled: TYPE is not PROFIBUS DP"},
     {kShortFlash, "self-test failed: hardware fault, internal"},
-    {kOff, "hardware fault, external: the bus port or the drive line cannot be opened"},
+    {kOff, "hardware fault, external: the bus port cannot be opened, or the drive is gone"},
     {kOff, "no option fitted"}, // no pattern of its own: off, as all that is bad [DEC, B-035]
 });
 
 static_assert(kModule.size() == static_cast<std::size_t>(OptionFault::missing) + 1);
 
-// In the order of NetworkState: the NETWORK lamp.
+// The NETWORK lamp, in the order of NetworkState.
 constexpr std::array kNetwork = std::to_array<ModuleRow>({
     {kOn, "data exchange with the master"},
     {kLongFlash, "data exchange with error: at least one parameter cannot be read or written"},
@@ -59,7 +59,7 @@ Shown technology_box(const Condition& condition)
     const ModuleRow& module = kModule[static_cast<std::size_t>(condition.fault)];
     const ModuleRow& network = kNetwork[static_cast<std::size_t>(condition.network)];
     const bool ready = module.pattern == kOn; // else NETWORK is off whatever its state (B-032)
-    // What a silent drive said last is no news of its health.
+    // The last health report of a silent drive does not count.
     const Pattern health = lamp(condition.drive_answers && condition.health);
     const Pattern run = lamp(condition.drive_answers && condition.run);
     return {{{"network", ready ? network.pattern : kOff},

@@ -4,6 +4,8 @@
 #include "frame_receiver.hpp"
 #include "pdu.hpp"
 
+#include "dpslave/drive/wire_time.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -11,11 +13,12 @@ namespace dpslave::modbus {
 namespace {
 
 using namespace std::chrono_literals;
-using drive::EchoMode;
 using drive::Form;
 using Verdict = drive::OwedAnswers::Verdict;
 
-/// Octets around the part from the function code on: unit address before it, check sum behind it.
+constexpr std::string_view kNoAnswer = "no answer";
+
+/// The octets around the part from the function code on: unit address before it, checksum after it.
 constexpr std::size_t kFrame = 3;
 
 /// Unit, function, and what else an answer shows: its length, of function 8 the two octets of our choice.
@@ -36,7 +39,7 @@ std::chrono::nanoseconds characters(std::size_t count, const ClientSettings& set
                                     std::nano::den / settings.baud};
 }
 
-/// As it is on the wire.
+/// Returns the frame as it is on the wire.
 ByteBuffer<kLongestFrame> framed(std::uint8_t unit, Bytes pdu)
 {
     ByteBuffer<kLongestFrame> frame;
@@ -48,7 +51,7 @@ ByteBuffer<kLongestFrame> framed(std::uint8_t unit, Bytes pdu)
     return frame;
 }
 
-/// Where answers name the drive, none is taken that may be older.
+/// If answers name the drive, none is accepted that may be older.
 drive::Judgement judgement_of(Verdict verdict, Bytes pdu)
 {
     if (verdict == Verdict::answer)
@@ -66,7 +69,7 @@ std::chrono::nanoseconds settle_of(const ClientSettings& settings)
 
 } // namespace
 
-ModbusClient::Exchange::Exchange(FrameLine& line, ClientSettings settings)
+ModbusClient::Exchange::Exchange(ModbusPort& line, ClientSettings settings)
     : line_(line),
       settings_(std::move(settings)),
       owed_(drive::OwedAnswers::Names::drive, settle_of(settings_)),
@@ -100,7 +103,7 @@ drive::Question ModbusClient::Exchange::question_of(std::uint8_t unit, Bytes req
     return question;
 }
 
-/// Until it is known whether there is an echo, nothing is asked whose answer looks like its request.
+/// A question whose answer looks like its request is not asked until it is known whether there is an echo.
 bool ModbusClient::Exchange::differs_from_echo(Bytes request) const
 {
     return echo_ != Echo::unknown || (request[0] != kWriteRegister && request[0] != kLoopback);
@@ -116,7 +119,7 @@ bool ModbusClient::Exchange::may_ask(std::uint8_t unit, Bytes request, bool gave
 bool ModbusClient::Exchange::ask(std::uint8_t unit, Bytes request)
 {
     unit_ = unit;
-    heard_unit_ = false;
+    heard_unit_ = has_sent_ = false;
     if (!fall_silent()) return false;
     const drive::Question question = question_of(unit, request);
     const Instant begun = line_.now();
@@ -124,30 +127,34 @@ bool ModbusClient::Exchange::ask(std::uint8_t unit, Bytes request)
         trouble_ = "the line does not accept the request";
         return false;
     }
+    has_sent_ = true;
     notes_.sent(unit, framed(unit, request), begun);
-    const Instant sent_at = line_.now() + duration_of(request.size() + kFrame); // send() need not wait
-    owed_.asked(question, sent_at);
+    const Instant sent_at = drive::end_of_question(begun, line_.now(), duration_of(request.size() + kFrame));
+    if (line_.takes_wire_time())
+        owed_.asked(question, sent_at, drive::answers_from(begun, request.size() + kFrame, duration_of(1)));
+    else
+        owed_.asked(question, sent_at);
     echo_due_ = echo_ != Echo::none;
     const bool is_answered = wait(request, sent_at + settings_.timeout + question.wire_time);
     owed_.wait_is_over();
     return is_answered;
 }
 
-/// Without a pause a slave does not take what follows for the beginning of a request. What is heard meanwhile
-/// is judged. False: octets keep coming for longer than two of the longest frames.
+/// Without a pause a slave does not recognise the beginning of a request. Octets that are heard meanwhile are
+/// judged. Returns false if octets keep coming for longer than two of the longest frames.
 bool ModbusClient::Exchange::fall_silent()
 {
     const Instant end = line_.now() + duration_of(2 * kLongestFrame) + 2 * pause();
     for (Instant now = line_.now(); now <= end; now = line_.now()) {
         switch (line_.receive(std::max(now, heard_at_ + pause()))) {
-            case FrameLine::Heard::frame:
+            case ModbusPort::Heard::frame:
                 heard_at_ = line_.now();
-                judge({}, line_.frame());
+                if (!refuse_early()) judge({}, line_.frame());
                 break;
-            case FrameLine::Heard::broken: broken(); break;
-            case FrameLine::Heard::rest: note(drive::Judgement::no_frame); break;
-            case FrameLine::Heard::silence:
-            case FrameLine::Heard::gone: owed_.settle(line_.now()); return true;
+            case ModbusPort::Heard::broken: broken(); break;
+            case ModbusPort::Heard::rest: note(drive::Judgement::no_frame); break;
+            case ModbusPort::Heard::silence:
+            case ModbusPort::Heard::gone: owed_.settle(line_.now()); return true;
         }
     }
     trouble_ = "noise and no answer: the line is never silent";
@@ -156,24 +163,24 @@ bool ModbusClient::Exchange::fall_silent()
 
 bool ModbusClient::Exchange::wait(Bytes request, Instant until)
 {
-    trouble_ = "no answer";
+    trouble_ = kNoAnswer;
     for (Instant now = line_.now(); now < until; now = line_.now()) {
         switch (line_.receive(until)) {
-            case FrameLine::Heard::frame:
+            case ModbusPort::Heard::frame:
                 heard_at_ = line_.now();
                 if (!take_frame(request)) break;
                 trouble_.clear();
                 return true;
-            case FrameLine::Heard::broken:
-                broken();
-                trouble_ = "an answer with a wrong check sum or parity, or one that broke off";
-                // Noise before the echo or the echo itself: the drive may have heard better. The next copy is
-                // taken for the echo; it cannot be proven to be the answer.
+            case ModbusPort::Heard::broken:
+                if (!broken()) break;
+                trouble_ = "an answer with a wrong checksum or parity, or one that broke off";
+                // Noise before the echo or the echo itself: the drive may have heard better. The next copy
+                // counts as the echo; it cannot be proven to be the answer.
                 if (echo_due_) break;
                 return false;
-            case FrameLine::Heard::rest: note(drive::Judgement::no_frame); break;
-            case FrameLine::Heard::silence: break; // the time is over
-            case FrameLine::Heard::gone: trouble_ = "the port has gone"; return false;
+            case ModbusPort::Heard::rest: note(drive::Judgement::no_frame); break;
+            case ModbusPort::Heard::silence: break; // the time is over
+            case ModbusPort::Heard::gone: trouble_ = "the port has gone"; return false;
         }
     }
     notes_.no_answer(line_.now());
@@ -182,16 +189,49 @@ bool ModbusClient::Exchange::wait(Bytes request, Instant until)
 
 void ModbusClient::Exchange::note(drive::Judgement judgement)
 {
-    const FrameLine::Piece piece = line_.piece();
-    notes_.came(piece.octets, piece.read_at);
+    const ModbusPort::Piece piece = line_.piece();
+    if (!piece.noise.empty()) {
+        owed_.noise(unit_);
+        notes_.received(piece.noise, piece.read_at - duration_of(piece.octets.size()));
+        notes_.judge(drive::Judgement::noise_before);
+    }
+    notes_.received(piece.octets, piece.read_at);
     notes_.judge(judgement);
 }
 
-void ModbusClient::Exchange::broken()
+/// Returns false if it is noise, and the answer may still come.
+bool ModbusClient::Exchange::broken()
 {
     heard_at_ = line_.now();
+    const drive::Judgement flaw = line_.piece().flaw;
+    note(flaw);
+    if (flaw == drive::Judgement::no_frame) {
+        owed_.noise(unit_);
+        if (trouble_ == kNoAnswer) trouble_ = "noise and no answer";
+        return false;
+    }
     owed_.damaged(unit_);
-    note(line_.piece().flaw);
+    return true;
+}
+
+/// Rule of time, of the frame heard last.
+bool ModbusClient::Exchange::refuse_early()
+{
+    if (!owed_.is_too_early(line_.piece().begun)) return false;
+    note(drive::Judgement::early);
+    owed_.early(unit_);
+    note_valid(line_.frame());
+    return true;
+}
+
+/// Sign of life of a unit: whatever it answers, but nothing that a gateway says for it, nor what may be an
+/// echo and answers nothing.
+void ModbusClient::Exchange::note_valid(Bytes frame, bool answers_something)
+{
+    const Bytes pdu = frame.subspan(1);
+    const bool gateway = pdu.size() == 2 && is_of_gateway(pdu[1]); // only an exception is that short
+    const bool is_like_request = pdu[0] == kWriteRegister || pdu[0] == kLoopback;
+    if (!gateway && (answers_something || !is_like_request)) owed_.valid(frame[0], line_.now());
 }
 
 /// The first copy of a request is its echo, a second one the answer (function 6, 8).
@@ -199,11 +239,13 @@ bool ModbusClient::Exchange::take_echo(Bytes request, Bytes frame)
 {
     const bool is_copy = frame[0] == unit_ && std::ranges::equal(frame.subspan(1), request);
     if (is_copy && echo_ == Echo::unknown) echo_ = Echo::heard;
-    if (is_copy && echo_ == Echo::none && longest_answer(request) != request.size()) {
+    const bool is_no_answer =
+        longest_answer(request) != request.size() || owed_.is_too_early(line_.piece().begun);
+    if (!is_copy || (!echo_due_ && !is_no_answer)) return false;
+    if (echo_ == Echo::none) {
         trouble_ = "the line hears its own request: set echo = \"on\" for it";
-        owed_.came_back(unit_);
+        owed_.count_return(unit_);
     }
-    if (!is_copy || !echo_due_) return false;
     echo_due_ = false;
     note(drive::Judgement::echo);
     return true;
@@ -212,7 +254,7 @@ bool ModbusClient::Exchange::take_echo(Bytes request, Bytes frame)
 bool ModbusClient::Exchange::take_frame(Bytes request)
 {
     const Bytes frame = line_.frame();
-    if (take_echo(request, frame)) return false;
+    if (take_echo(request, frame) || refuse_early()) return false;
     const Bytes pdu = frame.subspan(1);
     const Verdict verdict = judge(request, frame);
     if (verdict == Verdict::answer) {
@@ -220,24 +262,25 @@ bool ModbusClient::Exchange::take_frame(Bytes request)
         answer_.assign(pdu.begin(), pdu.end());
         return true;
     }
-    if (verdict == Verdict::foreign && trouble_ == "no answer")
+    if (verdict == Verdict::foreign && trouble_ == kNoAnswer)
         trouble_ = frame[0] == unit_ ? "an answer that does not fit the request: " +
                                            hex(pdu.first(std::min<std::size_t>(pdu.size(), 5)))
                                      : "an answer of unit " + std::to_string(frame[0]);
     return false;
 }
 
-/// Of a frame that has the form of an answer to `request` the rest has to fit, too.
+/// If a frame has the form of an answer to `request` the rest has to fit, too.
 Verdict ModbusClient::Exchange::judge(Bytes request, Bytes frame)
 {
     const Bytes pdu = frame.subspan(1);
     const Form form = form_of_answer(frame[0], pdu);
-    const bool gateway = pdu.size() == 2 && is_of_gateway(pdu[1]); // only an exception is that short
     const bool has_form = !request.empty() && form == question_of(unit_, request).answer;
     const Verdict verdict =
         has_form && !answers(request, pdu) ? Verdict::foreign : owed_.heard(form, frame, line_.now());
     note(judgement_of(verdict, pdu));
     if (verdict == Verdict::foreign) owed_.foreign(unit_);
+    note_valid(frame, verdict == Verdict::answer || verdict == Verdict::owed);
+    const bool gateway = pdu.size() == 2 && is_of_gateway(pdu[1]);
     if (frame[0] == unit_ && !gateway && verdict != Verdict::foreign) heard_unit_ = true;
     return verdict;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// One question on a Modbus line and what is heard until its wait is over: takes the echo away and lets
-/// OwedAnswers say whose a frame is. Pure.
+/// OwedAnswers say whose a frame is. It is pure.
 #pragma once
 
 #include "dpslave/drive/owed_answers.hpp"
@@ -13,21 +13,23 @@ namespace dpslave::modbus {
 
 class ModbusClient::Exchange {
 public:
-    Exchange(FrameLine& line, ClientSettings settings);
+    Exchange(ModbusPort& line, ClientSettings settings);
 
-    /// `request` from the function code on. True: answer() is that to this request and to no other, an
-    /// exception included; else trouble() says why. Precondition: may_ask().
+    /// `request` from the function code on. Returns true if answer() is that to this request and to no other,
+    /// an exception included; else trouble() says why. Precondition: may_ask().
     bool ask(std::uint8_t unit, Bytes request);
     Bytes answer() const { return answer_; } ///< from the function code on
     const std::string& trouble() const { return trouble_; }
 
-    /// Could the answer to it be taken? `gave_data`: it did before; else it may be denied, and nothing of its
-    /// function may be owed, because an exception does not show which of two it answers.
+    /// Returns whether an answer to the request could be accepted. `gave_data`: the unit gave data before;
+    /// else it may refuse, and no answer of this function may be owed, because an exception does not show
+    /// which of two it answers.
     bool may_ask(std::uint8_t unit, Bytes request, bool gave_data);
     /// Judges what has come since the last question.
     void listen() { fall_silent(); }
-    /// Whether anything came from the unit that was asked last.
+    /// Returns whether anything came from the unit that was asked last.
     bool heard_unit() const { return heard_unit_; }
+    bool has_sent() const { return has_sent_; } ///< the last question got on the line
     drive::AnswerCounts counts(std::uint8_t unit) const { return owed_.counts(unit); }
 
 private:
@@ -38,14 +40,16 @@ private:
     bool fall_silent();
     bool wait(Bytes request, Instant until);
     bool take_frame(Bytes request);
+    bool refuse_early();
+    void note_valid(Bytes frame, bool answers_something = false);
     bool take_echo(Bytes request, Bytes frame);
     drive::OwedAnswers::Verdict judge(Bytes request, Bytes frame);
     void note(drive::Judgement judgement);
-    void broken();
+    bool broken();
     std::chrono::nanoseconds duration_of(std::size_t count) const;
     std::chrono::nanoseconds pause() const;
 
-    FrameLine& line_;
+    ModbusPort& line_;
     ClientSettings settings_;
     drive::OwedAnswers owed_;
     Echo echo_;
@@ -53,6 +57,7 @@ private:
     bool echo_due_ = false; ///< of the request under way
     std::uint8_t unit_ = 0; ///< asked last
     bool heard_unit_ = false;
+    bool has_sent_ = false;
     Instant heard_at_{};
     std::vector<std::uint8_t> answer_;
     std::string trouble_;

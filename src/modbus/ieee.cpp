@@ -14,7 +14,7 @@ bool is_single(const drive::Tag& tag)
     return tag.type == drive::TagType::number && tag.is_real;
 }
 
-/// What the second register holds of everything that is no single.
+/// The second register holds this for everything that is no single.
 constexpr std::uint16_t kNoNumber = 0x8000;
 
 float single_of(IeeePair pair)
@@ -25,13 +25,14 @@ float single_of(IeeePair pair)
 /// The shortest decimal that is this single and no other, without an exponent.
 std::string decimal_of(float value)
 {
-    std::array<char, 64> room{}; // 39 digits before the point, or 45 zeros and 9 digits behind it
+    std::array<char, 64> room{}; // 39 digits before the point, or 45 zeros and 9 digits after it
     const auto end =
         std::to_chars(room.data(), room.data() + room.size(), value, std::chars_format::fixed).ptr;
     return {room.data(), end};
 }
 
-/// "12.34" with one decimal: 123, and 124 if the first digit cut off is 5 or more. Nothing beyond 65536.
+/// Rounds "12.34" with one decimal to 123, and to 124 if the first digit cut off is 5 or more. It returns
+/// nullopt beyond 65536.
 std::optional<std::int32_t> rounded_counts(std::string_view decimal, unsigned decimals)
 {
     constexpr std::int32_t kTooMany = 65'536;
@@ -78,11 +79,17 @@ IeeePair pair_of(const drive::Tag& tag, std::uint16_t word)
     return {static_cast<std::uint16_t>(bits >> 16), static_cast<std::uint16_t>(bits & 0xFFFF)};
 }
 
-std::string ieee_text(IeeePair pair)
+std::string ieee_flaw(const drive::Tag& tag, IeeePair pair)
 {
+    const std::string where = " in tag " + std::to_string(tag.number);
+    const float value = single_of(pair);
+    if (std::isnan(value)) return "the drive itself has no number" + where + " (NaN)";
+    if (std::isinf(value)) return "the drive itself has an infinite value" + where;
     std::array<char, 32> room{};
-    const auto end = std::to_chars(room.data(), room.data() + room.size(), single_of(pair)).ptr;
-    return {room.data(), end};
+    const auto end = std::to_chars(room.data(), room.data() + room.size(), value).ptr;
+    return "the drive itself has " + std::string{room.data(), end} + where + ", which with " +
+           std::to_string(tag.decimals) + (tag.decimals == 1 ? " decimal" : " decimals") +
+           " does not fit 16 bits";
 }
 
 } // namespace dpslave::modbus

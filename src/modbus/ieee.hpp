@@ -19,14 +19,14 @@ using IeeePair = std::array<std::uint16_t, 2>; ///< in the order of the register
 
 bool is_ieee(const drive::Tag& tag);
 
-/// Of a REAL: the value in counts of the row's decimals, rounded to nearest, ties away from zero, as
-/// the value is written in decimal: 0.35 with one decimal is 4 counts, whatever the single makes of it.
-/// Nothing when it does not fit 16 bits. Everything else lies in the first register as it is; times, which
-/// take both as milliseconds, are not read from here (the tag table refuses such rows).
+/// Returns for a REAL the value in counts of the row's decimals, rounded to nearest, ties away from zero
+/// as the value is written in decimal: 0.35 with one decimal is 4 counts, whatever the single makes
+/// of it. It is nullopt if the value does not fit 16 bits. Everything else lies in the first register as it
+/// is; times, which take both as milliseconds, are not read from here (the tag table refuses such rows).
 std::optional<std::uint16_t> word_of(const drive::Tag& tag, IeeePair pair);
 IeeePair pair_of(const drive::Tag& tag, std::uint16_t word);
 
-/// "999.9"; for the log.
-std::string ieee_text(IeeePair pair);
+/// Returns for the log why word_of() is nullopt: a sentence with the value that the drive itself has.
+std::string ieee_flaw(const drive::Tag& tag, IeeePair pair);
 
 } // namespace dpslave::modbus

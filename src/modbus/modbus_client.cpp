@@ -15,7 +15,8 @@ using drive::UnitAddress;
 
 namespace {
 
-/// From a device that is silent to a function that it lacks, as a 2400 is.
+/// A device that lacks this function and is silent to it, such as a 2400, gets at most this number of
+/// loopbacks.
 constexpr int kSilentLoopbacks = 3;
 
 /// The register that one tag is found at.
@@ -31,13 +32,13 @@ bool fits_one_request(std::size_t words)
 
 } // namespace
 
-ModbusClient::ModbusClient(FrameLine& line, ClientSettings settings)
+ModbusClient::ModbusClient(ModbusPort& line, ClientSettings settings)
     : settings_(std::move(settings)), exchange_(std::make_unique<Exchange>(line, settings_))
 {}
 
 ModbusClient::~ModbusClient() = default;
 
-void ModbusClient::set_units(std::vector<ModbusUnit> units)
+void ModbusClient::set_units(std::vector<ModbusDrive> units)
 {
     settings_.units = std::move(units);
     silent_loopbacks_.clear();
@@ -71,11 +72,11 @@ drive::BlockRule ModbusClient::block_rule() const
     return block_rule(settings_.baud, settings_.bits_of_a_character);
 }
 
-ModbusUnit ModbusClient::functions_of(std::uint8_t unit) const
+ModbusDrive ModbusClient::functions_of(std::uint8_t unit) const
 {
     const auto found = std::find_if(settings_.units.begin(), settings_.units.end(),
-                                    [unit](const ModbusUnit& one) { return one.unit == unit; });
-    return found == settings_.units.end() ? ModbusUnit{} : *found;
+                                    [unit](const ModbusDrive& one) { return one.unit == unit; });
+    return found == settings_.units.end() ? ModbusDrive{} : *found;
 }
 
 ModbusClient::Reply ModbusClient::ask(std::uint8_t unit, Bytes request)
@@ -89,7 +90,7 @@ ModbusClient::Reply ModbusClient::ask(std::uint8_t unit, Bytes request)
     return {.error = {}, .exception = exception, .answer = {}};
 }
 
-/// Function 3, or 4 where an answer of the same length to function 3 is owed.
+/// Returns function 3, or 4 if an answer of the same length to function 3 is owed.
 std::optional<std::uint8_t> ModbusClient::function_for(const Block& block)
 {
     const bool gave_data = gave_data_.count(block) != 0;
@@ -114,7 +115,7 @@ ModbusClient::Reply ModbusClient::ask_for(const Block& block)
     if (!has_address(block.unit)) return {.error = AccessError::no_answer, .exception = {}, .answer = {}};
     auto function = function_for(block);
     if (!function) {
-        exchange_->listen(); // what is owed may have come
+        exchange_->listen(); // the owed answer may have come
         function = function_for(block);
     }
     if (!function) {
@@ -125,6 +126,8 @@ ModbusClient::Reply ModbusClient::ask_for(const Block& block)
     if (!function) return {.error = AccessError::deferred, .exception = {}, .answer = {}};
     const Reply reply = ask(block.unit, read_registers(block.first, block.count, *function));
     if (reply.exception) gave_data_.erase(block);
+    if (reply.exception && error_of_exception(*reply.exception, false, nullptr) == AccessError::invalid_tag)
+        denial_ = "exception " + std::to_string(*reply.exception);
     if (!reply.answer.empty()) gave_data_.insert(block);
     return reply;
 }
@@ -160,6 +163,7 @@ AccessError ModbusClient::loop_back(std::uint8_t unit)
 AccessError ModbusClient::read(UnitAddress unit, const Tag& tag, std::span<std::uint16_t> words)
 {
     trouble_.clear();
+    denial_.clear();
     if (!fits_one_request(words.size()) || (words.size() == 1 && tag.type == TagType::string)) {
         trouble_ = words.size() == 1 ? "a STRING is not transported" : "1 to 123 tags can be read at a time";
         return AccessError::unsupported_type;
@@ -182,9 +186,8 @@ AccessError ModbusClient::read_ieee(std::uint8_t unit, const Tag& tag, std::uint
     const IeeePair pair{word_read(reply.answer, 0), word_read(reply.answer, 1)};
     const auto value = word_of(tag, pair);
     if (!value) {
-        trouble_ = "tag " + std::to_string(tag.number) + " is " + ieee_text(pair) + ", which with " +
-                   std::to_string(tag.decimals) + " decimals does not fit 16 bits";
-        return AccessError::out_of_range;
+        trouble_ = ieee_flaw(tag, pair);
+        return AccessError::does_not_fit;
     }
     word = *value;
     return AccessError::none;
@@ -200,12 +203,15 @@ ModbusClient::Reply ModbusClient::ask_to_write(std::uint8_t unit, Bytes request)
         if (!exchange_->may_ask(unit, request, false))
             return {.error = AccessError::deferred, .exception = {}, .answer = {}};
     }
-    return ask(unit, request);
+    Reply reply = ask(unit, request);
+    has_sent_ = exchange_->has_sent();
+    return reply;
 }
 
 AccessError ModbusClient::write(UnitAddress unit, const Tag& tag, std::span<const std::uint16_t> words)
 {
     trouble_.clear();
+    has_sent_ = false;
     if (!fits_one_request(words.size()) || (words.size() == 1 && tag.type == TagType::string)) {
         trouble_ =
             words.size() == 1 ? "a STRING is not transported" : "1 to 123 tags can be written at a time";
@@ -233,21 +239,33 @@ AccessError ModbusClient::write_single(std::uint8_t unit, const Tag& tag, std::u
     return AccessError::out_of_range;
 }
 
-/// Register 1, alone or with as many behind it as make an answer that the unit does not owe.
-bool ModbusClient::probe(UnitAddress unit)
+/// Reads register 1, alone or with as many after it as make an answer that the unit does not owe.
+AccessError ModbusClient::probe(UnitAddress unit)
 {
     constexpr std::uint16_t kAnyRegister = 1;
-    constexpr std::uint16_t kMostTried = 8;
+    constexpr std::uint16_t kMostTried = 16; // more than the questions for which a settle time has room
     trouble_.clear();
-    if (!has_address(unit.unit)) return false;
+    if (!has_address(unit.unit)) return AccessError::no_answer;
     for (std::uint16_t count = 1; count <= kMostTried; ++count) {
         const auto request = read_registers(kAnyRegister, count);
         if (!exchange_->may_ask(unit.unit, request, true)) continue;
         ask(unit.unit, request);
         if (exchange_->heard_unit()) trouble_.clear();
-        return exchange_->heard_unit();
+        return exchange_->heard_unit() ? AccessError::none : AccessError::no_answer;
     }
-    return false;
+    return AccessError::deferred;
+}
+
+drive::Sight ModbusClient::look(UnitAddress unit, const drive::Look& what)
+{
+    using Kind = drive::Sight::Kind;
+    trouble_.clear();
+    const Reply reply = ask_for({unit.unit, what.reg, 1});
+    if (reply.exception && !exchange_->heard_unit()) return {}; // of a gateway, for a unit that is silent
+    if (reply.exception) return {Kind::denied, "exception " + std::to_string(*reply.exception)};
+    if (reply.error == AccessError::none)
+        return {Kind::value, drive::displayed(drive::unlisted_tag(what.reg), word_read(reply.answer, 0))};
+    return {exchange_->heard_unit() ? Kind::damaged : Kind::silence, {}};
 }
 
 } // namespace dpslave::modbus

@@ -41,6 +41,11 @@ int ModbusRtu::fd() const
     return line_->fd();
 }
 
+io::SwitchedPort& ModbusRtu::port()
+{
+    return line_->port();
+}
+
 drive::BlockRule ModbusRtu::block_rule(const RtuSettings& settings)
 {
     return ModbusClient::block_rule(settings.baud, bits_of_a_character(settings));

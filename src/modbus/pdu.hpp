@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Requests of Modbus from the function code on, without address and check sum, and what answers them. Pure.
-/// Source: MODBUS Application Protocol V1.1b3, ch. 6.3, 6.6, 6.12 and 7.
+/// Makes requests of Modbus from the function code on, without address and checksum, and judges their
+/// answers. It is pure. Source: MODBUS Application Protocol V1.1b3, ch. 6.3, 6.6, 6.12 and 7.
 #pragma once
 
 #include "dpslave/base/bytes.hpp"
@@ -19,7 +19,7 @@ inline constexpr std::uint16_t kMostRegisters = 123;
 
 using Request = ByteBuffer<6 + 2 * kMostRegisters>;
 
-inline constexpr std::size_t kLongestFrame = 256; ///< unit and check sum included
+inline constexpr std::size_t kLongestFrame = 256; ///< unit and checksum included
 inline constexpr std::uint8_t kLowestUnit = 1;
 inline constexpr std::uint8_t kHighestUnit = 247;
 
@@ -40,12 +40,13 @@ Request write_registers(std::uint16_t first, std::span<const std::uint16_t> word
 /// Octets of the longest answer that this request can have, from the function code on.
 std::size_t longest_answer(Bytes request);
 
-/// Can this be the answer to the request, an exception included? Of function 6 the register has to be echoed;
-/// the value is echoed_word()'s business.
+/// Returns whether this can be the answer to the request, an exception included. An answer to function 6 has
+/// to echo the register; echoed_word() judges the value.
 bool answers(Bytes request, Bytes answer);
 
-/// Of an answer that fits: its exception code. nullopt: it is no exception. Code 0, which the protocol does
-/// not know, is an exception too: the function code says so (MODBUS Application Protocol V1.1b3, ch. 7).
+/// Returns the exception code of an answer that fits; nullopt if it is no exception. Code 0, which the
+/// protocol does not know, is an exception too: the function code says so (MODBUS Application Protocol
+/// V1.1b3, ch. 7).
 std::optional<std::uint8_t> exception_of(Bytes answer);
 
 /// Exceptions 10 and 11: it is the gateway that speaks, not the unit.
@@ -54,7 +55,7 @@ bool is_of_gateway(std::uint8_t code);
 /// "exception 2 (illegal data address)"
 std::string exception_text(std::uint8_t code);
 
-/// What an exception means for the access of one tag. `row` is its row; nullptr: several tags.
+/// Returns the meaning of an exception for the access of one tag. `row` is its row; nullptr: several tags.
 AccessError error_of_exception(std::uint8_t code, bool is_write, const drive::Tag* row);
 
 /// Word `index` in the answer to function 3.

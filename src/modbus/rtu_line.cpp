@@ -5,6 +5,9 @@
 
 #include "dpslave/io/clock.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 
@@ -37,27 +40,41 @@ int bits_of_a_character(const RtuSettings& settings)
 Result<std::unique_ptr<RtuLine>, std::string> RtuLine::open(const RtuSettings& settings,
                                                             std::atomic<bool>& is_open)
 {
-    auto port = io::Port::open(settings.port, tty_settings(settings), settings.reopen_after);
+    auto port = io::SwitchedPort::open(settings.port, tty_settings(settings), settings.transceiver,
+                                       settings.reopen_after);
     if (!port) return Failure{port.error()};
     // libmodbus never opens the port: it would leave cooked modes of the tty on and fall back to 9600 in
     // silence.
     Context context{modbus_new_rtu(settings.port.c_str(), static_cast<int>(settings.baud), settings.parity,
                                    settings.data_bits, settings.stop_bits)};
     if (!context) return Failure{settings.port + ": libmodbus refuses the settings of this port"};
-    return std::unique_ptr<RtuLine>{new RtuLine{settings, std::move(context), *std::move(port), is_open}};
+    std::array<int, 2> ends{};
+    if (::pipe2(ends.data(), O_CLOEXEC | O_NONBLOCK) < 0)
+        return Failure{settings.port + ": no descriptor is left (" + std::system_category().message(errno) +
+                       ')'};
+    Pipe built{.in = io::Fd{ends[1]}, .out = io::Fd{ends[0]}};
+    return std::unique_ptr<RtuLine>{
+        new RtuLine{settings, std::move(context), std::move(built), *std::move(port), is_open}};
 }
 
-RtuLine::RtuLine(RtuSettings settings, Context context, io::Port port, std::atomic<bool>& is_open)
-    : settings_(std::move(settings)), context_(std::move(context)), port_(std::move(port)), is_open_(is_open)
+RtuLine::RtuLine(RtuSettings settings, Context context, Pipe built, io::SwitchedPort port,
+                 std::atomic<bool>& is_open)
+    : settings_(std::move(settings)),
+      context_(std::move(context)),
+      built_(std::move(built)),
+      port_(std::move(port)),
+      is_open_(is_open),
+      character_(std::chrono::nanoseconds{bits_of_a_character(settings_) * std::nano::den / settings_.baud})
 {
+    modbus_set_socket(context_.get(), built_.in.get());
     use_port();
 }
 
 void RtuLine::use_port()
 {
-    modbus_set_socket(context_.get(), port_.tty().fd());
     receiver_.silence();
     hold_back_ = port_.tty().hold_back();
+    takes_wire_time_ = drive::takes_wire_time(settings_.wire_time, port_.tty().is_pty());
     heard_ = {};
     bad_behind_ = false;
 }
@@ -76,7 +93,6 @@ bool RtuLine::ready()
 
 void RtuLine::lose()
 {
-    modbus_set_socket(context_.get(), -1);
     port_.lose(now());
     is_open_.store(false, std::memory_order_relaxed);
     messages_.push_back({true, settings_.port + " is missing; it is opened again as soon as it returns"});
@@ -95,32 +111,48 @@ std::chrono::nanoseconds RtuLine::gap() const
            settings_.rules.hold_back + hold_back_;
 }
 
-bool RtuLine::send(std::uint8_t unit, Bytes pdu)
+/// The frame as it goes on the wire. It is in the pipe as a whole: it is shorter than what a pipe takes.
+Bytes RtuLine::build(std::uint8_t unit, Bytes pdu)
 {
-    if (!ready()) return false;
     ByteBuffer<Request::capacity() + 1> raw;
     raw.push(unit);
     raw.append(pdu);
-    receiver_.sent(unit, pdu);
     modbus_set_slave(context_.get(), unit);
     const Bytes octets = raw;
-    if (modbus_send_raw_request(context_.get(), octets.data(), static_cast<int>(octets.size())) >= 0)
-        return true;
-    if (errno == EAGAIN || errno == EINTR || errno == EMBBADDATA) // a port that is only slow is still there
-        modbus_flush(context_.get());
-    else
-        lose();
-    return false;
+    if (modbus_send_raw_request(context_.get(), octets.data(), static_cast<int>(octets.size())) < 0)
+        return {};
+    const ssize_t size = ::read(built_.out.get(), request_.data(), request_.size());
+    return size > 0 ? Bytes{request_}.first(static_cast<std::size_t>(size)) : Bytes{};
 }
 
-FrameLine::Heard RtuLine::receive(Instant until)
+bool RtuLine::send(std::uint8_t unit, Bytes pdu)
+{
+    if (!ready()) return false;
+    receiver_.sent(unit, pdu);
+    const Bytes request = build(unit, pdu);
+    if (request.empty()) return false;
+    const std::error_code trouble = port_.write(request);
+    // A port that is only slow, or whose guard is at work, is still there.
+    const bool is_there =
+        !trouble || trouble == std::errc::timed_out || trouble == std::errc::resource_unavailable_try_again;
+    if (!port_.is_open())
+        is_open_.store(false, std::memory_order_relaxed); // its driver enable has failed: ready() says so
+    else if (!is_there)
+        lose();
+    return !trouble;
+}
+
+ModbusPort::Heard RtuLine::receive(Instant until)
 {
     if (!ready()) return Heard::gone;
+    const Instant latest =
+        until + character_ * std::int64_t{kLongestFrame} + gap(); // a line may never stop sending
     for (;;) {
         if (const Heard heard = take_heard(); heard != Heard::silence) return heard;
         const bool in_frame = receiver_.in_frame();
-        const Instant end = in_frame ? now() + gap() : until;
-        if (fetch(end)) continue;
+        const Instant at = now();
+        const Instant end = in_frame ? std::min(at + gap(), latest) : until;
+        if ((!in_frame || at < end) && fetch(end)) continue;
         if (!port_.is_open()) return Heard::gone;
         if (!in_frame) return Heard::silence;
         const FrameReceiver::Found found = receiver_.silence();
@@ -129,16 +161,24 @@ FrameLine::Heard RtuLine::receive(Instant until)
     }
 }
 
-/// What of the octets read has become a frame or broken; silence: they are used up.
-FrameLine::Heard RtuLine::take_heard()
+/// Returns when the next of the octets read was on the line at the latest: the others came after it.
+Instant RtuLine::end_of_next() const
+{
+    const std::size_t behind = heard_.size() + (bad_behind_ ? 1 : 0) - 1;
+    return drive::latest_begin(read_at_, behind, character_);
+}
+
+/// Returns whether the octets read have become a frame or something broken; silence: they are used up.
+ModbusPort::Heard RtuLine::take_heard()
 {
     while (!heard_.empty() || bad_behind_) {
         FrameReceiver::Found found{};
+        const Instant end = end_of_next();
         if (heard_.empty()) {
             bad_behind_ = false;
-            found = receiver_.fault();
+            found = receiver_.fault(end);
         } else {
-            found = receiver_.feed(heard_.front());
+            found = receiver_.feed(heard_.front(), end);
             heard_ = heard_.subspan(1);
         }
         if (found == FrameReceiver::Found::frame) return Heard::frame;
@@ -147,7 +187,7 @@ FrameLine::Heard RtuLine::take_heard()
     return Heard::silence;
 }
 
-/// False: nothing came, or the port has gone.
+/// Returns false if nothing came, or the port has gone.
 bool RtuLine::fetch(Instant until)
 {
     if (!port_.tty().wait_readable(std::max<std::chrono::nanoseconds>(until - now(), 0ns))) return false;

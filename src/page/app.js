@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page put together: the state, the actions, the views, and the one place where the views learn of a new state.
 import { drafting } from './actions/draft.js';
-import { editing, standardDocument } from './actions/edit.js';
+import { editing, explaining, standardDocument } from './actions/edit.js';
 import { opening } from './actions/files.js';
 import { keptNotes } from './actions/kept.js';
 import { keeping } from './actions/library.js';
@@ -11,7 +11,7 @@ import { copyText } from './files/clipboard.js';
 import { keep, keptText } from './files/storage.js';
 import { newHistory } from './mapping/history.js';
 import { contentOf } from './mapping/keeping.js';
-import { questions } from './questions.js';
+import { isError, questions } from './questions.js';
 import { newStore } from './store.js';
 import { footView, headView, noticeView, otherDraftView } from './view/bars.js';
 import { checkView } from './view/check.js';
@@ -41,8 +41,25 @@ function firstState(ask) {
         sides: [null, null], // the files that are checked
         saved: '', // the content of the mapping that was saved last
         otherDraft: null, // the draft of another window, as long as it is not decided which one stays
+        reason: null, // why the last step was not done: {places, text}
         notice: null, said: { text: '', severity: '' },
     };
+}
+
+/** To a list that has parameters; to the search where none has, so that one is added. */
+function leadToList(app) {
+    const { history, selectedList } = app.store.state();
+    const { list } = history.present;
+    if (list.length === 0) return leadToField('search');
+    const direction = list.some((one) => one.direction === selectedList) ? selectedList : list[0].direction;
+    return app.showEntry(list.findIndex((one) => one.direction === direction));
+}
+
+function leadToField(key) {
+    const found = document.querySelector(`.mapping :is([data-field="${key}"], [data-way="${key}"])`);
+    found.scrollIntoView({ block: 'center' });
+    found.focus({ preventScroll: true });
+    found.select?.();
 }
 
 /** The actions that lie over several modules. */
@@ -71,8 +88,14 @@ function commands(app) {
         },
         async doSaveAs() {
             const document = store.state().history.present;
-            const wanted = await askSave(document, app.ask.profile(document.profile), app.save.target()?.kind ?? 'gsd');
-            if (wanted) await app.save.saveAs(wanted.kind, wanted.name, wanted.place);
+            const wanted = await askSave(document, app.ask.profile(document.profile), app.save.target()?.kind ?? 'gsd', {
+                errorsOf: (ident) => app.ask.preview(ident === null ? document : { ...document, ident }).findings.filter(isError),
+                lead: app.lead,
+            });
+            if (!wanted) return;
+            if (wanted.ident !== null) app.edit.set('ident', wanted.ident);
+            app.edit.seal();
+            await app.save.saveAs(wanted.kind, wanted.name, wanted.place);
         },
         async doPrint() {
             const parts = await askPrint();
@@ -92,6 +115,13 @@ function commands(app) {
             store.change({ selectedList: direction, selectedAt: at });
             app.focusList(direction);
         },
+        /** Leads to what mends a finding: its parameter, or the field of the mapping, which gets the focus. */
+        lead({ at, field: key }) {
+            app.go('mapping');
+            if (Number.isInteger(at)) app.showEntry(at);
+            else if (key === 'list') leadToList(app);
+            else leadToField(key);
+        },
         async drop(files, side) {
             const onCheck = store.state().screen === 'check';
             if (!onCheck) await app.files.open(files[0]);
@@ -109,7 +139,7 @@ function mappingScreen(app) {
     const [tree, meter, lists, details, live] = views;
     app.focusList = lists.focusList;
     return {
-        element: h('div', { class: 'mapping' }, tree.element, h('div', { class: 'middle' }, meter.element, lists.element, details.element), live.element),
+        element: h('div', { class: 'mapping' }, details.first, tree.element, h('div', { class: 'middle' }, meter.element, lists.element, details.element), live.element),
         update(state) { for (const view of views) view.update(state); },
     };
 }
@@ -136,8 +166,9 @@ export function startApp(call) {
     const ask = questions(call);
     const store = newStore(firstState(ask));
     const say = (text, severity = '') => store.change({ said: { text, severity } });
-    const notify = (severity, title, sentences) => store.change({ notice: { severity, title, sentences }, said: { text: title, severity } });
-    const app = { ask, store, say, notify };
+    const notify = (severity, title, sentences, findings = []) =>
+        store.change({ notice: { severity, title, sentences, findings }, said: { text: title, severity } });
+    const app = { ask, store, say, notify, explain: explaining({ store }) };
     app.noteKept = keptNotes(app);
     app.edit = editing(app);
     app.library = keeping({ ...app, askReplace, askDelete });

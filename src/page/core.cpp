@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the script of the page calls: the files of the project go in once, then each request is one call.
-// Texts pass through one buffer: the script asks for room, writes, calls, and reads the reply at the place
-// returned.
+// The script of the page calls these functions: the files of the project go in once, then each request is one
+// call. Texts pass through one buffer: the script asks for room, writes, calls, and reads the reply at the
+// place returned.
 #include "dpslave/configurator/configurator.hpp"
 
 #include <map>

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Numbers of the format: draft-ietf-opsawg-pcapng, sections 3 and 4.
+/// Numbers of the format: draft-ietf-opsawg-pcapng, sections 3 and 4. And the reader of the older format.
 #pragma once
 
+#include "dpslave/pcapng/pcapng.hpp"
+
 #include <cstdint>
+#include <string>
 
 namespace dpslave::pcapng {
 
@@ -29,5 +32,10 @@ inline constexpr std::uint32_t kDirectionMask = 3, kInbound = 1, kOutbound = 2;
 inline constexpr std::uint32_t kChecksumError = 1U << 24, kSymbolError = 1U << 31;
 
 inline constexpr std::uint8_t kNanoseconds = 9; // if_tsresol: 10^-9 s
+
+/// It begins as a classic pcap file does.
+bool is_pcap(Bytes file);
+/// Reads a capture of the older format like read(). Precondition: is_pcap(file).
+Result<Capture, std::string> read_pcap(Bytes file, bool* cut);
 
 } // namespace dpslave::pcapng

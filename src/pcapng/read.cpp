@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "blocks.hpp"
+#include "view.hpp"
 
 #include "dpslave/pcapng/pcapng.hpp"
 
@@ -8,30 +9,6 @@
 
 namespace dpslave::pcapng {
 namespace {
-
-/// Octets in the byte order of their section.
-struct View {
-    Bytes octets;
-    bool swapped = false; ///< big endian
-
-    std::uint16_t u16(std::size_t at) const
-    {
-        const std::uint16_t low = octets[at], high = octets[at + 1];
-        return static_cast<std::uint16_t>(swapped ? low << 8 | high : high << 8 | low);
-    }
-    std::uint32_t u32(std::size_t at) const
-    {
-        const std::uint32_t one = u16(at), other = u16(at + 2);
-        return swapped ? one << 16 | other : other << 16 | one;
-    }
-    std::uint64_t u64(std::size_t at) const
-    {
-        const std::uint64_t one = u32(at), other = u32(at + 4);
-        return swapped ? one << 32 | other : other << 32 | one;
-    }
-    View from(std::size_t at) const { return {octets.subspan(std::min(at, octets.size())), swapped}; }
-    std::string text() const { return {octets.begin(), octets.end()}; }
-};
 
 struct OptionValue {
     std::uint16_t code = 0;
@@ -43,7 +20,7 @@ constexpr std::size_t padded(std::size_t length)
     return (length + 3) / 4 * 4;
 }
 
-/// Those that are whole; what follows a broken one is passed over.
+/// Those that are complete; what follows a broken one is passed over.
 std::vector<OptionValue> options(View view)
 {
     std::vector<OptionValue> found;
@@ -57,7 +34,7 @@ std::vector<OptionValue> options(View view)
     return found;
 }
 
-/// How the time stamps of an interface become nanoseconds.
+/// Converts the time stamps of an interface to nanoseconds.
 struct Clock {
     std::uint8_t resolution = 6; // if_tsresol: microseconds unless the file says otherwise
     std::int64_t offset_s = 0;
@@ -79,7 +56,7 @@ private:
         for (unsigned i = kNanoseconds; i < exponent() && units != 0; ++i) units /= 10;
         return units;
     }
-    /// Of a second's fraction 34 bits are used: more than nanoseconds need, and the product fits.
+    /// The fraction of a second is used with 34 bits: more than nanoseconds need, and the product fits.
     std::uint64_t from_binary(std::uint64_t units) const
     {
         constexpr std::uint64_t kSecond = 1'000'000'000;
@@ -144,6 +121,7 @@ private:
         if (length > body.octets.size() - 20) return "a packet is longer than its block";
         const Bytes octets = body.octets.subspan(20, length);
         found.octets.assign(octets.begin(), octets.end());
+        found.is_part = body.u32(16) > length;
         for (const OptionValue& option : options(body.from(20 + padded(length)))) {
             if (option.code == kComment) found.comments.push_back(option.value.text());
             if (option.code == kFlags && option.value.octets.size() == 4) flag(found, option.value.u32(0));
@@ -163,6 +141,7 @@ private:
         const std::size_t length = std::min<std::size_t>(body.u32(0), body.octets.size() - 4);
         const Bytes octets = body.octets.subspan(4, length);
         found.octets.assign(octets.begin(), octets.end());
+        found.is_part = body.u32(0) > length;
         capture.packets.push_back(std::move(found));
         return std::nullopt;
     }
@@ -203,7 +182,8 @@ private:
     std::vector<Clock> clocks_;       // of capture.interfaces
 };
 
-/// Whether a section begins here, and in which byte order: 0 = none, 1 = little endian, 2 = big endian.
+/// Returns whether a section begins here, and in which byte order: 0 = none, 1 = little endian, 2 = big
+/// endian.
 int byte_order(Bytes rest)
 {
     constexpr std::size_t kLeast = 28;
@@ -212,14 +192,42 @@ int byte_order(Bytes rest)
     return order == kByteOrder ? 1 : order == kByteOrderSwapped ? 2 : 0;
 }
 
+/// Returns what a file is that is no capture, and what to do.
+std::string what_it_is(Bytes file)
+{
+    using namespace std::string_view_literals;
+    struct Begin {
+        std::string_view octets, what;
+    };
+    static constexpr std::array kBegins = std::to_array<Begin>({
+        {"\x1F\x8B"sv, "it is compressed with gzip: unpack it first"},
+        {"\x28\xB5\x2F\xFD"sv, "it is compressed with zstd: unpack it first"},
+        {"\x04\x22\x4D\x18"sv, "it is compressed with lz4: unpack it first"},
+        {"\xFD"
+         "7zXZ"sv,
+         "it is compressed with xz: unpack it first"},
+        {"\x34\xCD\xB2\xA1"sv, "it is a variant of pcap: save it as pcapng, with editcap or Wireshark"},
+        {"\xA1\xB2\xCD\x34"sv, "it is a variant of pcap: save it as pcapng, with editcap or Wireshark"},
+        {"dpslaved incident "sv,
+         "it is an incident of dpslaved, no capture: dpctl trace --incident shows it"},
+    });
+    if (file.empty()) return "it is empty: no capture was written into it";
+    for (const Begin& begin : kBegins)
+        if (file.size() >= begin.octets.size() &&
+            std::equal(begin.octets.begin(), begin.octets.end(), file.begin(),
+                       [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; }))
+            return std::string{begin.what};
+    return "it is no capture: it begins neither as pcapng nor as pcap. Save the capture in one of these forms";
+}
+
 } // namespace
 
 Result<Capture, std::string> read(Bytes file, bool* cut)
 {
     if (cut != nullptr) *cut = false;
+    if (is_pcap(file)) return read_pcap(file, cut);
     const int first = byte_order(file);
-    if (first == 0)
-        return Failure{std::string{"this is no pcapng file: it does not begin with a section header"}};
+    if (first == 0) return Failure{what_it_is(file)};
     Reader reader;
     bool swapped = first == 2;
     for (std::size_t at = 0; at < file.size();) {

@@ -8,7 +8,7 @@
 namespace dpslave::pcapng {
 namespace {
 
-/// One block, built from its front. Its length stands at both ends.
+/// One block, built from its front. Its length is at both ends.
 class Builder {
 public:
     explicit Builder(std::uint32_t type)

@@ -15,14 +15,14 @@ std::string trimmed(std::string_view text)
 
 class Reader {
 public:
-    Reader(std::string_view content, const std::string& file, toml::Faults& faults)
+    Reader(std::string_view content, const std::string& file, input::Faults& faults)
         : rest_(content), file_(file), faults_(faults)
     {}
 
     std::vector<Row> rows()
     {
         std::vector<Row> out;
-        while (!rest_.empty() && faults_.size() <= toml::kMaxFaults) {
+        while (!rest_.empty() && faults_.size() <= input::kMaxFaults) {
             Row row = read_row();
             const bool empty = row.cells.size() == 1 && row.cells[0].text.empty();
             row.good = row_is_good_;
@@ -96,8 +96,8 @@ private:
         }
         while (rest_.starts_with(' ') || rest_.starts_with('\t')) take();
         if (at_end_of_line() || rest_.starts_with(',')) return;
-        fault("text after the closing quote: end the cell with a comma here, or write a quote within it "
-              "twice.");
+        fault(
+            "text after the closing quote: end the cell with a comma here, or write a quote within it twice.");
         while (!at_end_of_line() && !rest_.starts_with(',')) take();
     }
 
@@ -128,7 +128,7 @@ private:
 
     std::string_view rest_;
     const std::string& file_;
-    toml::Faults& faults_;
+    input::Faults& faults_;
     unsigned line_ = 1;
     unsigned column_ = 1;
     bool row_is_good_ = true;
@@ -136,7 +136,7 @@ private:
 
 } // namespace
 
-std::vector<Row> read_csv(std::string_view content, const std::string& file, toml::Faults& faults)
+std::vector<Row> read_csv(std::string_view content, const std::string& file, input::Faults& faults)
 {
     return Reader{content, file, faults}.rows();
 }

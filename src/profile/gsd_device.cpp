@@ -1,176 +1,137 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpslave/profile/gsd_device.hpp"
-
 #include "gsd_command.hpp"
+#include "gsd_device_facts.hpp"
+#include "gsd_made.hpp"
+#include "parameter_notes.hpp"
+
+#include "dpslave/base/bytes.hpp"
+#include "dpslave/dp/set_prm.hpp"
 
 #include <algorithm>
-#include <set>
 
 namespace dpslave::profile {
 namespace {
 
 constexpr std::size_t kMaxOctets = 244; ///< of one direction (wire reference 4.6)
 
-bool reads(const Parameter& parameter)
-{
-    return parameter.direction != Direction::out;
-}
-
-bool writes(const Parameter& parameter)
-{
-    return parameter.direction != Direction::in;
-}
-
 class DeviceMaker {
 public:
     DeviceMaker(const Profile& profile, const Selection& selection)
-        : profile_(profile), personality_(profile.personality), facts_(profile.gsd), wanted_(selection)
+        : profile_(profile),
+          personality_(personality_of(profile, legal_keys(profile, selection))),
+          facts_(profile.gsd),
+          wanted_(selection)
     {
         Selection own;
         own.in = facts_.in_tags;
         own.out = facts_.out_tags;
         words_ = selection.parameters();
-        standard_ = !own.parameters().empty() && (!selection.says_parameters() || words_ == own.parameters());
+        const bool says_nothing =
+            !selection.says_parameters() && !selection.tags && selection.modules.empty();
+        standard_ =
+            !own.parameters().empty() && (says_nothing || (!selection.tags && words_ == own.parameters()));
         if (standard_) words_ = own.parameters();
-        generic_ = words_.empty() && !selection.demand;
+        is_choice_ = !std::any_of(selection.modules.begin(), selection.modules.end(),
+                                  [](const PlantModule& module) { return module.preset; }) &&
+                     (selection.tags || !selection.modules.empty());
+        generic_ = words_.empty() && !selection.demand && !selection.tags && selection.modules.empty();
     }
 
     Draft make()
     {
-        identity();
-        rates();
-        behaviour();
+        for (const WrongKey& wrong : wrong_keys(profile_, wanted_.keys())) refuse(wrong.key, wrong.sentence);
+        const auto presets = std::count_if(wanted_.modules.begin(), wanted_.modules.end(),
+                                           [](const PlantModule& module) { return module.preset; });
+        if (presets != 0 && presets != static_cast<std::ptrdiff_t>(wanted_.modules.size()))
+            refuse("preset",
+                   "some modules are preset and others are not: write preset = true into each or into none.");
+        // The profile's description speaks of its own mapping, so not of another one.
+        if (generic_ || standard_) description_ = facts_.description;
+        add_facts(profile_, wanted_, description_, device_, notes_);
+        draft_.tags_at = personality_.prm.tags_at;
         if (generic_) {
             generic();
+        } else if (is_choice_) {
+            choice();
         } else {
-            check_tags();
-            check_lengths();
+            note_parameters(profile_, personality_, words_, notes_);
             if (fits()) fixed();
         }
+        lengths();
         head();
         draft_.parameters = std::move(words_);
         return std::move(draft_);
     }
 
 private:
-    void refuse(std::string_view code, std::string sentence)
+    /// Returns the keys if they are valid, else none: wrong ones are refused.
+    static StationKeys legal_keys(const Profile& profile, const Selection& selection)
     {
-        draft_.notes.push_back({true, code, std::move(sentence), at_});
-    }
-    void warn(std::string_view code, std::string sentence)
-    {
-        draft_.notes.push_back({false, code, std::move(sentence), at_});
+        const StationKeys keys = selection.keys();
+        return wrong_keys(profile, keys).empty() ? keys : StationKeys{};
     }
 
-    std::string text_of(std::string_view what, const std::string& text, std::size_t longest)
+    void refuse(std::string_view code, std::string sentence) { notes_.refuse(code, std::move(sentence)); }
+
+    /// Returns the smallest number of identifiers that have just these words. It is empty if there are none,
+    /// or no word.
+    std::vector<const dp::Identifier*> identifiers() const
     {
-        std::string out = gsd::latin1(text);
-        if (out.size() > longest)
-            refuse("text_too_long", "the " + std::string{what} + " has " + std::to_string(out.size()) +
-                                        " characters: a GSD has room for " + std::to_string(longest) + '.');
-        if (out.find('?') != std::string::npos && text.find('?') == std::string::npos)
-            warn("character_lost",
-                 "a character of the " + std::string{what} +
-                     " is none of ISO 8859-1, the character set of a GSD, and becomes a question mark.");
+        constexpr std::size_t kNever = SIZE_MAX;
+        std::vector<std::size_t> count(words_.size() + 1, kNever);
+        std::vector<const dp::Identifier*> last(words_.size() + 1, nullptr);
+        count[0] = 0;
+        for (std::size_t at = 0; at < words_.size(); ++at)
+            for (const dp::Identifier& each : personality_.identifiers) {
+                const std::size_t end = at + each.words();
+                if (count[at] == kNever || each.words() == 0 || end > words_.size() ||
+                    count[at] + 1 >= count[end])
+                    continue;
+                const auto is_its = [&](const GsdParameter& word) {
+                    return (each.reads > 0) == reads(word) && (each.writes > 0) == writes(word);
+                };
+                if (!std::all_of(words_.begin() + static_cast<std::ptrdiff_t>(at),
+                                 words_.begin() + static_cast<std::ptrdiff_t>(end), is_its))
+                    continue;
+                count[end] = count[at] + 1;
+                last[end] = &each;
+            }
+        std::vector<const dp::Identifier*> out;
+        for (std::size_t at = words_.size(); at > 0 && last[at] != nullptr; at -= last[at]->words())
+            out.push_back(last[at]);
+        std::reverse(out.begin(), out.end());
         return out;
     }
 
-    void identity()
+    void generic_lengths()
     {
-        device_.vendor = text_of("vendor", facts_.vendor, gsd::kMaxText);
-        device_.model = text_of("model", wanted_.model.value_or(facts_.model), gsd::kMaxText);
-        device_.revision = text_of("revision", facts_.revision, gsd::kMaxText);
-        device_.hardware = text_of("hardware release", facts_.hardware, gsd::kMaxText);
-        device_.software = text_of("software release", facts_.software, gsd::kMaxText);
-        device_.description =
-            text_of("description", wanted_.description.value_or(own_description()), gsd::kMaxDescription);
-        const auto ident = wanted_.ident ? wanted_.ident : profile_.ident;
-        if (!ident)
-            refuse(
-                "ident_missing",
-                "the profile " + profile_.name +
-                    " has no Ident_Number, because no source states it: give that of your device. It is in "
-                    "the GSD file that came with the device, in the present project of the master, and in "
-                    "octets 5 and 6 of the device's diagnosis. Write the same into the station (ident = "
-                    "0x...).");
-        else if (*ident == 0)
-            refuse("ident_missing", "the Ident_Number 0 belongs to no device: give that of your device.");
-        else if (profile_.ident && *ident != *profile_.ident)
-            warn("ident_differs", "the Ident_Number is not that of the profile " + profile_.name + ", " +
-                                      hex_of(*profile_.ident) + ": write ident = " + hex_of(*ident) +
-                                      " into the station, else it refuses the master.");
-        device_.ident = ident.value_or(0);
-    }
-
-    /// It speaks of the profile's own mapping, so not of another one.
-    std::string own_description() const { return generic_ || standard_ ? facts_.description : std::string{}; }
-
-    void rates()
-    {
-        const std::uint32_t own = wanted_.max_tsdr.value_or(0);
-        bool larger = false;
-        for (const Baud baud : kBauds) {
-            const Tbit bits = personality_.max_tsdr[index_of(baud)];
-            if (bits.count == 0 || baud == Baud::k45_45)
-                continue; // only ever fixed by hand, so no tool offers it
-            device_.max_tsdr[index_of(baud)] = std::max(bits, Tbit{own});
-            larger = larger || own > bits.count;
-        }
-        if (own > 0xFFFF)
-            refuse("max_tsdr_too_high",
-                   "MaxTsdr is " + std::to_string(own) + ": a GSD has room for 65535 bit times.");
-        if (wanted_.max_tsdr && !larger)
-            refuse("max_tsdr_no_effect",
-                   "MaxTsdr " + std::to_string(own) + " is at no rate larger than that of the profile " +
-                       profile_.name + ": leave it out, or give what [bus] max_tsdr of the daemon says.");
-        if (own > 1000)
-            warn("max_tsdr_long",
-                 "MaxTsdr is above 1000 bit times: many masters do not wait that long; check that yours "
-                 "does.");
-    }
-
-    void behaviour()
-    {
-        device_.family = facts_.family;
-        device_.repeater = facts_.repeater;
-        device_.freeze = personality_.freeze;
-        device_.sync = personality_.sync;
-        device_.fail_safe = personality_.fail_safe;
-        device_.min_slave_interval = facts_.min_slave_interval;
-        device_.max_diag_length = static_cast<std::uint8_t>(personality_.max_diag_length);
-    }
-
-    const dp::Identifier* identifier(const Parameter& word) const
-    {
-        const auto found = std::find_if(personality_.identifiers.begin(), personality_.identifiers.end(),
-                                        [&](const dp::Identifier& each) {
-                                            return each.reads == reads(word) && each.writes == writes(word);
-                                        });
-        return found == personality_.identifiers.end() ? nullptr : &*found;
+        const bool demand = personality_.demand_identifier != 0;
+        const std::size_t parameters = personality_.max_parameters;
+        const std::size_t longest = (demand ? dp::kDemandOctets : 0) + 2 * parameters;
+        const std::size_t both = identifier_for(personality_, {Direction::in_out}) != nullptr ? 2 : 1;
+        std::size_t sum = 2 * (demand ? dp::kDemandOctets : 0) + 2 * both * parameters;
+        if (personality_.max_words > 0) sum = std::min(sum, 2 * personality_.max_words);
+        device_.max_in = device_.max_out = static_cast<std::uint8_t>(std::min({longest, sum, kMaxOctets}));
+        device_.max_data = static_cast<std::uint16_t>(std::min(sum, 2 * kMaxOctets));
     }
 
     /// The modules by their names; the master's tool puts them together, the engineer enters the tags.
     void generic()
     {
-        const std::size_t parameters = personality_.max_parameters;
-        const bool demand = personality_.demand_identifier != 0;
-        const std::size_t longest = (demand ? dp::kDemandOctets : 0) + 2 * parameters;
-        const std::size_t both = identifier({Direction::in_out}) != nullptr ? 2 : 1;
-        std::size_t sum = 2 * (demand ? dp::kDemandOctets : 0) + 2 * both * parameters;
-        if (personality_.max_words > 0) sum = std::min(sum, 2 * personality_.max_words);
         const dp::PrmLayout& prm = personality_.prm;
         if (prm.list == dp::TagList::exact)
-            return refuse("no_mapping",
-                          "the tags of a " + profile_.name +
-                              " stand in the GSD, one for each word, and none is chosen: choose tags as "
-                              "inputs and outputs, or Demand Data alone.");
-        device_.choice_of_modules = true;
-        device_.max_module = static_cast<std::uint8_t>(parameters + (demand ? 1 : 0));
-        device_.max_in = device_.max_out = static_cast<std::uint8_t>(std::min(longest, kMaxOctets));
-        device_.max_data = static_cast<std::uint16_t>(std::min(sum, 2 * kMaxOctets));
-        if (demand) device_.modules.push_back({facts_.demand_module, {personality_.demand_identifier}});
-        for (const dp::Identifier& each : personality_.identifiers)
-            device_.modules.push_back({gsd::latin1(module_name(each)), {each.octet}});
+            return refuse(
+                "no_mapping",
+                "the tags of a " + profile_.name +
+                    " are in the GSD, one for each word, and none is chosen: choose tags as inputs and outputs, or Demand Data alone.");
+        generic_lengths();
+        modules_of_choice();
+        open_tags();
+    }
+
+    void open_tags()
+    {
+        const dp::PrmLayout& prm = personality_.prm;
         device_.user_prm_data.assign(prm.list == dp::TagList::none ? prm.min_length : prm.max_length, 0);
         if (prm.list == dp::TagList::none) return;
         device_.prm_comments.push_back(
@@ -179,99 +140,117 @@ private:
                                        std::to_string(prm.tags_at) + " on; the rest stays zero.");
     }
 
-    const std::string& module_name(const dp::Identifier& each) const
+    void modules_of_choice()
     {
-        if (each.reads && each.writes) return facts_.in_out_module;
-        return each.reads ? facts_.in_module : facts_.out_module;
+        const bool demand = personality_.demand_identifier != 0;
+        device_.choice_of_modules = true;
+        device_.max_module = static_cast<std::uint8_t>(personality_.max_parameters + (demand ? 1 : 0));
+        plant_modules();
+        if (!device_.modules.empty()) return;
+        if (demand) device_.modules.push_back({facts_.demand_module, {personality_.demand_identifier}});
+        for (const dp::Identifier& each : personality_.identifiers)
+            device_.modules.push_back({module_name(each), {each.octets().begin(), each.octets().end()}});
     }
 
-    void check_tags()
+    void plant_modules()
     {
-        std::set<std::uint16_t> read, written;
-        for (std::size_t at = 0; at < words_.size(); ++at) {
-            const Parameter& word = words_[at];
-            at_ = at;
-            const std::string name = "tag " + std::to_string(word.tag);
-            if (identifier(word) == nullptr)
-                refuse("no_such_direction",
-                       name + ": the profile " + profile_.name +
-                           " has no identifier for a parameter that is both read and written: choose it "
-                           "once as input and once as output.");
-            if (personality_.prm.list == dp::TagList::none)
-                refuse("no_tags", name + ": the device of the profile " + profile_.name +
-                                      " takes no tags from the master.");
-            else if (word.tag == 0 || word.tag > personality_.prm.max_tag)
-                refuse("tag_out_of_range", name + " is not a tag: tags of the profile " + profile_.name +
-                                               " go from 1 to " + std::to_string(personality_.prm.max_tag) +
-                                               '.');
-            if (reads(word) && !read.insert(word.tag).second)
-                refuse("read_twice", name + " is read twice: remove one.");
-            if (writes(word) && !written.insert(word.tag).second)
-                refuse("written_twice",
-                       name + " is written twice, and the two values would conflict: remove one.");
-            check_access(word, name);
+        for (const PlantModule& module : wanted_.modules)
+            device_.modules.push_back(
+                {notes_.text_of("name of the module " + module.name, module.name, gsd::kMaxText),
+                 module.identifiers});
+    }
+
+    /// The plant's own modules or tags: the master's tool puts the modules together.
+    void choice()
+    {
+        if (wanted_.tags && !words_.empty())
+            refuse("tags_and_list",
+                   "the tags are listed beside parameters with a direction: keep one of them.");
+        if (wanted_.tags)
+            for (const std::uint16_t tag : *wanted_.tags)
+                note_tag(profile_, tag, "tag " + std::to_string(tag), notes_);
+        note_parameters(profile_, personality_, words_, notes_);
+        generic_lengths();
+        modules_of_choice();
+        std::vector<std::uint16_t> tags = wanted_.tags.value_or(std::vector<std::uint16_t>{});
+        for (const GsdParameter& word : words_) tags.push_back(word.tag);
+        if (tags.empty() && personality_.prm.list != dp::TagList::exact) return open_tags();
+        put_tags(tags);
+        if (wanted_.tags)
+            device_.prm_comments.push_back(
+                "User_Prm_Data: the tags of the modules' words in their order, from octet " +
+                std::to_string(personality_.prm.tags_at) + " on, high octet first.");
+        describe_words();
+    }
+
+    void put_tags(const std::vector<std::uint16_t>& tags)
+    {
+        const dp::PrmLayout& prm = personality_.prm;
+        if (tags.empty() && prm.may_be_absent) return;
+        device_.user_prm_data.assign(prm.tags_at, 0);
+        for (const std::uint16_t tag : tags) {
+            device_.user_prm_data.push_back(high(tag));
+            device_.user_prm_data.push_back(low(tag));
         }
-        at_.reset();
+        if (device_.user_prm_data.size() < prm.min_length) device_.user_prm_data.resize(prm.min_length, 0);
     }
 
-    void check_access(const Parameter& word, const std::string& name)
+    /// Sets the lengths in which the file of the plant differs.
+    void lengths()
     {
-        const drive::Tag* tag = profile_.tags.find(word.tag);
-        if (tag == nullptr && profile_.tags_only_from_table)
-            refuse("tag_not_listed", name + " is not in the tag table of the profile " + profile_.name +
-                                         ", and the profile allows no other: choose one of the table.");
-        const auto& never = profile_.never_written;
-        const bool locked = std::find(never.begin(), never.end(), word.tag) != never.end();
-        if (writes(word) && locked)
-            refuse("never_written",
-                   name + " must never be written: the profile " + profile_.name + " says so.");
-        else if (writes(word) && tag != nullptr && tag->access == drive::Access::read_only)
-            warn("read_only",
-                 name + " (" + tag->name + ") is read only: the drive will refuse what the master writes.");
-        if (tag != nullptr && tag->type == drive::TagType::string)
-            warn("text_tag", name + " (" + tag->name + ") is a text, which is not transported.");
+        const PlantLengths& own = wanted_.lengths;
+        if (own.user_prm_data)
+            device_.user_prm_data.resize(std::min<std::size_t>(*own.user_prm_data, dp::kMaxUserPrm), 0);
+        if (own.max_module) device_.max_module = static_cast<std::uint8_t>(*own.max_module);
+        if (own.max_input) device_.max_in = static_cast<std::uint8_t>(*own.max_input);
+        if (own.max_output) device_.max_out = static_cast<std::uint8_t>(*own.max_output);
+        if (own.max_data) device_.max_data = static_cast<std::uint16_t>(*own.max_data);
     }
 
-    void check_lengths()
+    /// A name for several words has the octets as well, so that names differ.
+    std::string module_name(const dp::Identifier& each) const
     {
-        for (const Parameter& word : words_) {
+        const std::string name = gsd::latin1(each.reads > 0 && each.writes > 0 ? facts_.in_out_module
+                                             : each.reads > 0                  ? facts_.in_module
+                                                                               : facts_.out_module);
+        const bool is_own =
+            std::find(profile_.personality.identifiers.begin(), profile_.personality.identifiers.end(),
+                      each) != profile_.personality.identifiers.end();
+        return is_own ? name : (name + ' ' + profile::to_string(each)).substr(0, gsd::kMaxText);
+    }
+
+    /// Returns whether octets can be made of the words, refused or not.
+    bool fits()
+    {
+        for (const GsdParameter& word : words_) {
             in_ += reads(word) ? 2U : 0U;
             out_ += writes(word) ? 2U : 0U;
         }
         if (wanted_.demand) {
             in_ += dp::kDemandOctets;
             out_ += dp::kDemandOctets;
-            if (personality_.demand_identifier == 0)
-                refuse("no_demand_data", "the device of the profile " + profile_.name +
-                                             " has no Demand Data: leave Demand Data out.");
         }
-        if (words_.size() > personality_.max_parameters)
-            refuse("too_many_parameters", std::to_string(words_.size()) + " parameters are more than a " +
-                                              profile_.name + " has, " +
-                                              std::to_string(personality_.max_parameters) +
-                                              ": remove some, and use Demand Data for them.");
-        if (words_.empty() && !personality_.may_have_no_parameters)
-            refuse("no_parameters",
-                   "a " + profile_.name + " needs at least one parameter: choose one as input or output.");
-        const std::size_t words = (in_ + out_) / 2;
-        if (personality_.max_words > 0 && words > personality_.max_words)
-            refuse("too_many_words", std::to_string(words) + " words in and out" +
-                                         (wanted_.demand ? ", 8 of them Demand Data," : "") +
-                                         " are more than a " + profile_.name + " has, " +
-                                         std::to_string(personality_.max_words) + ": remove " +
-                                         std::to_string(words - personality_.max_words) + ".");
-        if (in_ > kMaxOctets || out_ > kMaxOctets)
-            refuse("too_many_octets",
-                   "more than 244 octets in one direction do not fit in a telegram: remove parameters.");
-    }
-
-    /// Whether octets can be made of the words, refused or not.
-    bool fits() const
-    {
-        return in_ <= kMaxOctets && out_ <= kMaxOctets && personality_.prm.list != dp::TagList::none &&
-               personality_.prm.tags_at + 2 * words_.size() <= dp::kMaxUserPrm &&
-               std::all_of(words_.begin(), words_.end(),
-                           [this](const Parameter& word) { return identifier(word) != nullptr; });
+        if (in_ > kMaxOctets || out_ > kMaxOctets ||
+            personality_.prm.tags_at + 2 * words_.size() > dp::kMaxUserPrm) {
+            refuse(
+                "too_many_octets",
+                "more than 244 octets in one direction, or more tags than Set_Prm has room for, do not fit in a telegram: remove parameters.");
+            return false;
+        }
+        if (wanted_.demand && personality_.demand_identifier == 0) {
+            notes_.field = "demand";
+            refuse("no_demand_data", "the device of the profile " + profile_.name +
+                                         " has no Demand Data: leave Demand Data out.");
+            return false;
+        }
+        if (personality_.prm.list == dp::TagList::none) return false;
+        if (words_.empty() || !identifiers().empty()) return true;
+        if (std::all_of(words_.begin(), words_.end(),
+                        [this](const auto& word) { return identifier_for(personality_, word) != nullptr; }))
+            refuse(
+                "no_such_words",
+                "the identifiers of the station have more words in a row than there are parameters of one direction: add parameters, or change their order.");
+        return false;
     }
 
     /// The mapping as it was chosen: User_Prm_Data holds the tags, the modules all identifiers in their
@@ -280,26 +259,24 @@ private:
     /// see it). More become several modules in a fixed order.
     void fixed()
     {
-        const dp::PrmLayout& prm = personality_.prm;
-        std::vector<std::uint8_t> identifiers;
-        if (wanted_.demand) identifiers.push_back(personality_.demand_identifier);
-        const bool none_sent = words_.empty() && prm.may_be_absent;
-        if (!none_sent) device_.user_prm_data.assign(prm.tags_at, 0);
-        for (const Parameter& word : words_) {
-            identifiers.push_back(identifier(word)->octet);
-            device_.user_prm_data.push_back(static_cast<std::uint8_t>(word.tag >> 8));
-            device_.user_prm_data.push_back(static_cast<std::uint8_t>(word.tag & 0xFF));
+        std::vector<std::uint8_t> cfg;
+        if (wanted_.demand) cfg.push_back(personality_.demand_identifier);
+        std::vector<std::size_t> ends; // of modules
+        std::size_t begin = 0;
+        for (const dp::Identifier* one : identifiers()) {
+            for (std::size_t word = 0; word < one->words(); ++word)
+                draft_.cfg_places.emplace_back(cfg.size(), one->length);
+            if (cfg.size() + one->length - begin > gsd::kMaxModuleOctets) ends.push_back(begin = cfg.size());
+            cfg.insert(cfg.end(), one->octets().begin(), one->octets().end());
         }
-        if (!none_sent && device_.user_prm_data.size() < prm.min_length)
-            device_.user_prm_data.resize(prm.min_length, 0);
+        ends.push_back(cfg.size());
+        std::vector<std::uint16_t> tags;
+        for (const GsdParameter& word : words_) tags.push_back(word.tag);
+        put_tags(tags);
 
         device_.choice_of_modules = false;
-        for (std::size_t at = 0; at < identifiers.size(); at += gsd::kMaxModuleOctets) {
-            const std::size_t end = std::min(at + gsd::kMaxModuleOctets, identifiers.size());
-            device_.modules.push_back({name_of_module(at, end),
-                                       {identifiers.begin() + static_cast<std::ptrdiff_t>(at),
-                                        identifiers.begin() + static_cast<std::ptrdiff_t>(end)}});
-        }
+        plant_modules();
+        if (device_.modules.empty()) own_modules(cfg, ends);
         device_.max_module = static_cast<std::uint8_t>(device_.modules.size());
         device_.max_in = static_cast<std::uint8_t>(in_);
         device_.max_out = static_cast<std::uint8_t>(out_);
@@ -307,13 +284,24 @@ private:
         describe_words();
     }
 
-    /// "Demand Data, parameters 1 to 16": the longest is 31 characters while there are below 100.
-    std::string name_of_module(std::size_t at, std::size_t end) const
+    void own_modules(const std::vector<std::uint8_t>& cfg, const std::vector<std::size_t>& ends)
     {
-        const bool demand = wanted_.demand && at == 0;
-        const std::size_t shift = wanted_.demand ? 1 : 0;
-        const std::size_t first = at + (demand ? 1 : 0) + 1 - shift;
-        const std::size_t last = end - shift;
+        std::size_t begin = 0, words = 0;
+        for (const std::size_t end : ends) {
+            const std::size_t before = words;
+            const auto is_its = [&](const auto& place) { return place.first >= begin && place.first < end; };
+            words += static_cast<std::size_t>(
+                std::count_if(draft_.cfg_places.begin(), draft_.cfg_places.end(), is_its));
+            device_.modules.push_back({name_of_module(begin == 0 && wanted_.demand, before + 1, words),
+                                       {cfg.begin() + static_cast<std::ptrdiff_t>(begin),
+                                        cfg.begin() + static_cast<std::ptrdiff_t>(end)}});
+            begin = end;
+        }
+    }
+
+    /// "Demand Data, parameters 1 to 16": the longest is 31 characters while there are below 100.
+    static std::string name_of_module(bool demand, std::size_t first, std::size_t last)
+    {
         if (last < first) return "Demand Data";
         std::string name = demand ? "Demand Data, p" : "P";
         name += first == last ? "arameter " + std::to_string(first)
@@ -327,7 +315,7 @@ private:
         device_.prm_comments.push_back("User_Prm_Data: the tags of the parameters, from octet " +
                                        std::to_string(personality_.prm.tags_at) + " on, high octet first:");
         std::size_t number = 0;
-        for (const Parameter& word : words_) {
+        for (const GsdParameter& word : words_) {
             const drive::Tag* tag = profile_.tags.find(word.tag);
             std::string line =
                 std::to_string(++number) +
@@ -341,37 +329,30 @@ private:
     void head()
     {
         device_.comments.push_back("Made for the profile " + profile_.name + " of dpslaved by the command");
-        device_.comments.push_back(make_command(
-            profile_, wanted_, standard_ ? std::nullopt : std::optional{words_}, own_description()));
+        device_.comments.push_back(
+            make_command(profile_, wanted_, standard_ ? std::nullopt : std::optional{words_}, description_));
     }
 
     const Profile& profile_;
-    const dp::Personality& personality_;
+    const dp::Personality personality_; ///< with the keys of the selection
     const GsdFacts& facts_;
     const Selection& wanted_;
-    bool standard_ = false; ///< the profile's own mapping
-    bool generic_ = false;  ///< no mapping at all
-    std::vector<Parameter> words_;
-    std::optional<std::size_t> at_; ///< the word that is judged
-    std::size_t in_ = 0, out_ = 0;  ///< octets
+    bool standard_ = false;  ///< the profile's own mapping
+    bool generic_ = false;   ///< no mapping at all
+    bool is_choice_ = false; ///< the plant's own modules or tags, in an order of the master's project
+    std::vector<GsdParameter> words_;
+    std::size_t in_ = 0, out_ = 0; ///< octets
+    std::string description_;      ///< where the selection says none
     Draft draft_;
+    Notes notes_{draft_.notes};
     gsd::Device& device_ = draft_.device;
 };
 
 } // namespace
 
-Draft draft_of(const Profile& profile, const Selection& selection)
+Draft made(const Profile& profile, const Selection& selection)
 {
     return DeviceMaker{profile, selection}.make();
-}
-
-Result<GsdDevice, std::vector<std::string>> device_of(const Profile& profile, const Selection& selection)
-{
-    Draft draft = draft_of(profile, selection);
-    std::vector<std::string> warnings, refused;
-    for (Note& note : draft.notes) (note.refuses ? refused : warnings).push_back(std::move(note.text));
-    if (!refused.empty()) return Failure{std::move(refused)};
-    return GsdDevice{std::move(draft.device), std::move(warnings)};
 }
 
 } // namespace dpslave::profile

@@ -12,7 +12,7 @@ namespace {
 
 class FactsReader {
 public:
-    FactsReader(toml::Table& table, const Profile& profile) : table_(table), profile_(profile) {}
+    FactsReader(input::Table& table, const Profile& profile) : table_(table), profile_(profile) {}
 
     GsdFacts read()
     {
@@ -107,14 +107,14 @@ private:
                               std::to_string(personality.max_parameters) + ".");
     }
 
-    toml::Table& table_;
+    input::Table& table_;
     const Profile& profile_;
     GsdFacts facts_;
 };
 
 } // namespace
 
-GsdFacts read_gsd_facts(toml::Table& table, const Profile& profile)
+GsdFacts read_gsd_facts(input::Table& table, const Profile& profile)
 {
     return FactsReader{table, profile}.read();
 }

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "dpslave/base/number.hpp"
+#include "dpslave/input/document.hpp"
 #include "dpslave/profile/gsd_device.hpp"
-#include "dpslave/toml/document.hpp"
-
-#include <charconv>
 
 namespace dpslave::profile {
 namespace {
 
-std::vector<std::uint16_t> tags_of(toml::Table& table, std::string_view key)
+std::vector<std::uint16_t> tags_of(input::Table& table, std::string_view key)
 {
     std::vector<std::uint16_t> tags;
     for (const std::int64_t tag : table.integers(key, 1, 0xFFFF).value_or(std::vector<std::int64_t>{}))
@@ -15,19 +14,19 @@ std::vector<std::uint16_t> tags_of(toml::Table& table, std::string_view key)
     return tags;
 }
 
-std::optional<std::vector<Parameter>> list_of(toml::Table& table)
+std::optional<std::vector<GsdParameter>> list_of(input::Table& table)
 {
     const auto texts = table.texts("list", 0);
     if (!texts) return std::nullopt;
-    std::vector<Parameter> list;
+    std::vector<GsdParameter> list;
     for (const std::string& one : *texts) {
         if (const auto parameter = parse_parameter(one))
             list.push_back(*parameter);
         else
-            table.refuse("list",
-                         "\"" + one +
-                             "\" is no parameter: write in:1, out:1 or in-out:1, with the number of the "
-                             "tag for 1.");
+            table.refuse(
+                "list",
+                "\"" + one +
+                    "\" is no parameter: write in:1, out:1 or in-out:1, with the number of the tag for 1.");
     }
     for (const char* key : {"in", "out", "in_out"})
         if (table.has(key))
@@ -36,8 +35,61 @@ std::optional<std::vector<Parameter>> list_of(toml::Table& table)
     return list;
 }
 
+std::optional<std::vector<std::uint16_t>> open_tags_of(input::Table& table)
+{
+    if (!table.has("tags")) return std::nullopt;
+    for (const char* key : {"in", "out", "in_out", "list"})
+        if (table.has(key))
+            table.refuse(key, "'tags' leaves the directions to the master's modules, and '" +
+                                  std::string{key} + "' says them: keep one of them.");
+    return tags_of(table, "tags");
+}
+
+std::vector<dp::Identifier> identifiers_of(input::Table& table)
+{
+    std::vector<dp::Identifier> all;
+    for (const std::string& text : table.texts("identifiers").value_or(std::vector<std::string>{}))
+        if (const auto identifier = read_identifier(text))
+            all.push_back(*identifier);
+        else
+            table.refuse("identifiers", identifier.error());
+    return all;
+}
+
+std::vector<PlantModule> modules_of(input::Table& root)
+{
+    std::vector<PlantModule> all;
+    for (input::Table& table : root.tables("module")) {
+        table.require("name", R"(name = "Speed in")");
+        table.require("identifiers", R"(identifiers = "50 60")");
+        PlantModule module{.name = table.text("name").value_or(""),
+                           .preset = table.boolean("preset").value_or(false)};
+        const auto text = table.text("identifiers");
+        if (auto octets = text ? read_hex_octets(*text) : std::nullopt)
+            module.identifiers = *std::move(octets);
+        else if (text)
+            table.refuse("identifiers",
+                         '"' + *text + "\" is no list of octets in hexadecimal: write \"50 60\".");
+        all.push_back(std::move(module));
+    }
+    return all;
+}
+
+PlantLengths lengths_of(input::Table& table)
+{
+    const auto length = [&](const char* key, std::int64_t most) -> std::optional<std::uint32_t> {
+        const auto number = table.integer(key, 0, most);
+        return number ? std::optional{static_cast<std::uint32_t>(*number)} : std::nullopt;
+    };
+    return {.user_prm_data = length("user_prm_data_len", dp::kMaxUserPrm),
+            .max_module = length("max_module", 0xFF),
+            .max_input = length("max_input_len", 0xFF),
+            .max_output = length("max_output_len", 0xFF),
+            .max_data = length("max_data_len", 0xFFFF)};
+}
+
 /// [table]: what is wrong within its rows is named with their own lines.
-std::optional<OwnTable> table_of(toml::Table table, const std::string& file, toml::Faults& faults)
+std::optional<OwnTable> table_of(input::Table table, const std::string& file, input::Faults& faults)
 {
     if (!table.exists()) return std::nullopt;
     table.require("file", R"(file = "mine.csv")");
@@ -62,27 +114,26 @@ std::string_view text(Direction direction) noexcept
     return "in-out";
 }
 
-std::string to_string(const Parameter& parameter)
+std::string to_string(const GsdParameter& parameter)
 {
     return std::string{text(parameter.direction)} + ':' + std::to_string(parameter.tag);
 }
 
-std::optional<Parameter> parse_parameter(std::string_view text_of_it)
+std::optional<GsdParameter> parse_parameter(std::string_view text_of_it)
 {
     const auto colon = text_of_it.find(':');
     if (colon == std::string_view::npos) return std::nullopt;
-    const std::string_view number = text_of_it.substr(colon + 1);
-    std::uint16_t tag = 0;
-    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), tag);
-    if (error != std::errc{} || end != number.data() + number.size() || tag == 0) return std::nullopt;
+    const auto tag = read_number(text_of_it.substr(colon + 1), 1, 0xFFFF);
+    if (!tag) return std::nullopt;
     for (const Direction direction : {Direction::in, Direction::out, Direction::in_out})
-        if (text(direction) == text_of_it.substr(0, colon)) return Parameter{direction, tag};
+        if (text(direction) == text_of_it.substr(0, colon))
+            return GsdParameter{direction, static_cast<std::uint16_t>(*tag)};
     return std::nullopt;
 }
 
-std::vector<Parameter> Selection::parameters() const
+std::vector<GsdParameter> Selection::parameters() const
 {
-    std::vector<Parameter> all;
+    std::vector<GsdParameter> all;
     for (const std::uint16_t tag : in) all.push_back({Direction::in, tag});
     for (const std::uint16_t tag : out) all.push_back({Direction::out, tag});
     for (const std::uint16_t tag : in_out) all.push_back({Direction::in_out, tag});
@@ -90,18 +141,23 @@ std::vector<Parameter> Selection::parameters() const
     return all;
 }
 
+StationKeys Selection::keys() const
+{
+    return {.ident = ident, .tags_at = tags_at, .identifiers = identifiers};
+}
+
 bool Selection::says_parameters() const
 {
     return list || !in.empty() || !out.empty() || !in_out.empty();
 }
 
-Result<Mapping, toml::Faults> load_mapping(const toml::TextSource& source, const std::string& file)
+Result<Mapping, input::Faults> load_mapping(const input::TextSource& source, const std::string& file)
 {
-    toml::Document document{source, file};
-    toml::Faults of_rows;
+    input::Document document{source, file};
+    input::Faults of_rows;
     Mapping mapping;
     if (document.readable()) {
-        toml::Table root = document.root();
+        input::Table root = document.root();
         root.require("profile", R"(profile = "2408f")");
         mapping.profile = root.text("profile").value_or("");
         Selection& selection = mapping.selection;
@@ -109,6 +165,7 @@ Result<Mapping, toml::Faults> load_mapping(const toml::TextSource& source, const
         selection.out = tags_of(root, "out");
         selection.in_out = tags_of(root, "in_out");
         selection.list = list_of(root);
+        selection.tags = open_tags_of(root);
         selection.demand = root.boolean("demand").value_or(false);
         if (const auto ident = root.integer("ident", 1, 0xFFFF))
             selection.ident = static_cast<std::uint16_t>(*ident);
@@ -116,9 +173,14 @@ Result<Mapping, toml::Faults> load_mapping(const toml::TextSource& source, const
             selection.max_tsdr = static_cast<std::uint32_t>(*bits);
         selection.description = root.text("description");
         selection.model = root.text("model");
+        if (const auto at = root.integer("tags_at", 0, dp::kMaxUserPrm - 2))
+            selection.tags_at = static_cast<std::size_t>(*at);
+        selection.identifiers = identifiers_of(root);
+        selection.lengths = lengths_of(root);
+        selection.modules = modules_of(root);
         mapping.table = table_of(root.table("table"), file, of_rows);
     }
-    toml::Faults faults = document.faults();
+    input::Faults faults = document.faults();
     faults.insert(faults.end(), of_rows.begin(), of_rows.end());
     cap(faults);
     if (!faults.empty()) return Failure{std::move(faults)};

@@ -6,7 +6,7 @@
 namespace dpslave::profile {
 namespace {
 
-/// Nothing but digits, from `min` to `max`.
+/// Reads digits only, from `min` to `max`.
 std::optional<unsigned> number_of(std::string_view text, unsigned min, unsigned max)
 {
     unsigned number = 0;

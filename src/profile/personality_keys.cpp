@@ -33,7 +33,7 @@ struct GeneralFormat {
 
 class PersonalityReader {
 public:
-    PersonalityReader(toml::Document& document, dp::Personality& into)
+    PersonalityReader(input::Document& document, dp::Personality& into)
         : document_(document), personality_(into)
     {}
 
@@ -49,7 +49,7 @@ public:
 private:
     void max_tsdr()
     {
-        toml::Table table = needed_table(root_, "max_tsdr");
+        input::Table table = needed_table(root_, "max_tsdr");
         bool any = false;
         for (const Baud baud : kBauds) {
             const std::string key = std::to_string(static_cast<std::uint32_t>(baud));
@@ -58,37 +58,39 @@ private:
             if (tbit) personality_.max_tsdr[index_of(baud)] = Tbit{static_cast<std::uint32_t>(*tbit)};
         }
         if (table.exists() && !any)
-            document_.fault(table.place(),
-                            "[max_tsdr] names no rate: add a line such as 187500 = 60 for each "
-                            "rate that the device supports.");
+            document_.fault(
+                table.place(),
+                "[max_tsdr] names no rate: add a line such as 187500 = 60 for each rate that the device supports.");
     }
 
     void cfg_data()
     {
-        toml::Table table = needed_table(root_, "cfg_data");
+        input::Table table = needed_table(root_, "cfg_data");
         table.require("identifiers", "identifiers = [0x50, 0x60]");
         for (const std::int64_t value :
              table.integers("identifiers", 0, 0xFF).value_or(std::vector<std::int64_t>{})) {
             const auto octet = static_cast<std::uint8_t>(value);
             const GeneralFormat format{octet};
             if (format.octets != 2 || !(format.reads || format.writes))
-                table.refuse("identifiers",
-                             "identifier " + hex_octet(octet) +
-                                 " is not one word in, out or both: a parameter is one word, as 0x50 and "
-                                 "0x60 have it.");
+                table.refuse(
+                    "identifiers",
+                    "identifier " + hex_octet(octet) +
+                        " is not one word in, out or both: a parameter is one word, as 0x50 and 0x60 have it.");
             else if (identifier_known(octet))
                 table.refuse("identifiers",
                              "identifier " + hex_octet(octet) + " is listed twice: remove one.");
             else
-                personality_.identifiers.push_back({octet, format.reads, format.writes});
+                personality_.identifiers.emplace_back(octet, format.reads ? std::uint8_t{1} : std::uint8_t{0},
+                                                      format.writes ? std::uint8_t{1} : std::uint8_t{0});
         }
         personality_.max_parameters = 12;
         needed_integer(table, "max_parameters", 1, kMaxParameters, personality_.max_parameters);
         if (const auto words = table.integer("max_words", kDemandWords, kMaxWords)) {
             personality_.max_words = static_cast<std::size_t>(*words);
             if (personality_.max_words < personality_.max_parameters)
-                table.refuse("max_words", "'max_words' is below 'max_parameters': that number of parameters "
-                                          "could never be configured.");
+                table.refuse(
+                    "max_words",
+                    "'max_words' is below 'max_parameters': that number of parameters could never be configured.");
         }
         needed_boolean(table, "may_have_no_parameters", personality_.may_have_no_parameters);
     }
@@ -96,12 +98,12 @@ private:
     bool identifier_known(std::uint8_t octet) const
     {
         return std::any_of(personality_.identifiers.begin(), personality_.identifiers.end(),
-                           [&](const dp::Identifier& known) { return known.octet == octet; });
+                           [&](const dp::Identifier& known) { return known.form[0] == octet; });
     }
 
     void demand_data()
     {
-        toml::Table table = needed_table(root_, "demand_data");
+        input::Table table = needed_table(root_, "demand_data");
         table.require("form", R"(form = "none")");
         using dp::DemandForm;
         const auto form = table.choice<DemandForm>(
@@ -139,7 +141,7 @@ private:
 
     void user_prm_data()
     {
-        toml::Table table = needed_table(root_, "user_prm_data");
+        input::Table table = needed_table(root_, "user_prm_data");
         dp::PrmLayout& prm = personality_.prm;
         const bool placed = needed_integer(table, "tags_at", 0, kMaxUserPrmData, prm.tags_at);
         const bool bounded = needed_integer(table, "min_length", 0, kMaxUserPrmData, prm.min_length);
@@ -170,20 +172,20 @@ private:
 
     void global_control()
     {
-        toml::Table table = needed_table(root_, "global_control");
+        input::Table table = needed_table(root_, "global_control");
         needed_boolean(table, "sync", personality_.sync);
         needed_boolean(table, "freeze", personality_.freeze);
         needed_boolean(table, "fail_safe", personality_.fail_safe);
     }
 
-    toml::Document& document_;
-    toml::Table root_ = document_.root();
+    input::Document& document_;
+    input::Table root_ = document_.root();
     dp::Personality& personality_;
 };
 
 } // namespace
 
-void read_personality(toml::Document& document, dp::Personality& into)
+void read_personality(input::Document& document, dp::Personality& into)
 {
     PersonalityReader{document, into}.read();
 }

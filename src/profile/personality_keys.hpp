@@ -3,12 +3,12 @@
 #pragma once
 
 #include "dpslave/dp/personality.hpp"
-#include "dpslave/toml/document.hpp"
+#include "dpslave/input/document.hpp"
 
 namespace dpslave::profile {
 
-/// [max_tsdr], [cfg_data], [demand_data], [user_prm_data] and [global_control]. What is wrong becomes a fault
+/// [max_tsdr], [cfg_data], [demand_data], [user_prm_data] and [global_control]. A wrong value becomes a fault
 /// of the document; `into` then keeps what it was.
-void read_personality(toml::Document& document, dp::Personality& into);
+void read_personality(input::Document& document, dp::Personality& into);
 
 } // namespace dpslave::profile

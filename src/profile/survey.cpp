@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a survey saw of a tag, which tag is asked next, and how long it takes.
+// Keeps what a survey saw of a tag, and says which tag is asked next, and how long it takes.
 #include "dpslave/profile/survey.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ std::string_view without_blanks(std::string_view text)
     return text;
 }
 
-/// "-12.50", "30."; nothing: it is no decimal number.
+/// Reads "-12.50", "30."; returns nullopt if it is no decimal number.
 std::optional<SeenNumber> decimal_of(std::string_view text)
 {
     const bool negative = text.starts_with('-');
@@ -43,7 +43,7 @@ std::optional<SeenNumber> decimal_of(std::string_view text)
     return number;
 }
 
-/// ">1B0B": one to four digits behind the sign.
+/// Reads ">1B0B": one to four digits after the sign.
 std::optional<SeenNumber> hexadecimal_of(std::string_view text)
 {
     if (!text.starts_with('>') || text.size() < 2 || text.size() > 5) return std::nullopt;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "survey_row.hpp"
 
-#include "dpslave/toml/wording.hpp"
+#include "dpslave/input/wording.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -23,7 +23,7 @@ std::int64_t counts_with(SeenNumber number, unsigned decimals)
     return number.counts;
 }
 
-/// As the drive wrote it: a word in hexadecimal.
+/// Returns the number as the drive wrote it: a word in hexadecimal.
 std::string shown(SeenNumber number, bool is_word)
 {
     if (!is_word) return text(number);
@@ -33,7 +33,7 @@ std::string shown(SeenNumber number, bool is_word)
     return '>' + digits;
 }
 
-/// A cell seen_min or seen_max; nothing: empty, or something else was written there.
+/// Reads a cell seen_min or seen_max; returns nullopt if it is empty, or something else was written there.
 std::optional<SeenNumber> seen_cell(std::string_view cell)
 {
     Sighting one;
@@ -103,11 +103,11 @@ unsigned decimals_of(std::string_view cell)
 std::optional<std::string> no_row_for(const Sighting& one)
 {
     if (one.form == SurveyForm::mixed)
-        return "it answers in more than one form, the last time " + toml::in_quotes(one.last) +
+        return "it answers in more than one form, the last time " + input::in_quotes(one.last) +
                ": no row can be made";
     if (one.form != SurveyForm::number) return std::nullopt;
     if (one.decimals > kMaxDecimals)
-        return "it answers " + toml::in_quotes(one.last) + ": a table has 4 decimals at most";
+        return "it answers " + input::in_quotes(one.last) + ": a table has 4 decimals at most";
     const bool fits =
         counts_with(one.lowest, one.decimals) >= kSignedMin &&
         counts_with(one.highest, one.decimals) <= (one.lowest.counts < 0 ? kSignedMax : kUnsignedMax);
@@ -156,7 +156,7 @@ std::vector<std::string> against(const Tag& row, bool has_decimals, const Sighti
     }
     const std::string type{drive::type_name(row)};
     if (one.form == SurveyForm::mixed || !may_be(type, one))
-        return {"its row says " + type + ", the drive answered " + toml::in_quotes(one.last)};
+        return {"its row says " + type + ", the drive answered " + input::in_quotes(one.last)};
     if (row.type != TagType::number || one.form != SurveyForm::number) return {};
     if (!has_decimals)
         return {"its row says no decimals, the drive answers with " + std::to_string(one.decimals) +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the sighting of a tag says of its row.
+/// Decides what the sighting of a tag says of its row.
 #pragma once
 
 #include "dpslave/drive/tag.hpp"
@@ -21,7 +21,7 @@ using Cells = std::map<std::string, std::string>;
 inline constexpr std::array<std::string_view, 7> kSurveyColumns = {"type",     "decimals", "min",     "max",
                                                                    "mnemonic", "seen_min", "seen_max"};
 
-/// Why no row can be made of these answers; nothing: one can, or nothing answered.
+/// Returns why no row can be made of these answers; nullopt if one can, or nothing answered.
 std::optional<std::string> no_row_for(const Sighting& one);
 
 /// A row made of these answers, without its tag. Precondition: there were answers, and no_row_for() has
@@ -32,7 +32,7 @@ Cells new_row(const Sighting& one);
 /// further extremes. Precondition: as new_row().
 void widen_row(Cells& cells, const Sighting& one);
 
-/// What the answers have against a confirmed row. `has_decimals`: the row says how many.
+/// Returns how the answers contradict a confirmed row. `has_decimals`: the row says how many.
 std::vector<std::string> against(const drive::Tag& row, bool has_decimals, const Sighting& one);
 
 } // namespace dpslave::profile

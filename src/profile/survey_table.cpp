@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// From what a survey saw to the rows of a tag table.
+// Makes the rows of a tag table from what a survey saw.
 #include "csv.hpp"
 #include "survey_row.hpp"
 
+#include "dpslave/input/text_source.hpp"
 #include "dpslave/profile/profile.hpp"
 #include "dpslave/profile/survey.hpp"
-#include "dpslave/toml/text_source.hpp"
 
 #include <algorithm>
 
@@ -18,7 +18,7 @@ constexpr std::string_view kNewTable =
 /// A table as text, row by row: what is not changed stays as it was written.
 class TableText {
 public:
-    TableText(std::string_view table, const std::string& file, toml::Faults& faults)
+    TableText(std::string_view table, const std::string& file, input::Faults& faults)
         : rows_(read_csv(table, file, faults)),
           end_of_line_(table.find("\r\n") < table.find('\n') ? "\r\n" : "\n")
     {
@@ -101,7 +101,9 @@ bool waits(const TableText& table, std::size_t row)
 
 class Merger {
 public:
-    Merger(TableText table, const drive::TagTable& tags) : table_(std::move(table)), tags_(tags) {}
+    Merger(TableText table, const drive::TagTable& tags, MnemonicCells cells)
+        : table_(std::move(table)), tags_(tags), mnemonic_cells_(cells)
+    {}
 
     SurveyedTable merge(const Survey& seen)
     {
@@ -178,8 +180,24 @@ private:
     void compare(std::size_t row, std::uint16_t tag, const Sighting& one)
     {
         const bool has_decimals = !table_.cell(row, "decimals").empty();
-        for (const std::string& what : against(*tags_.find(tag), has_decimals, one))
-            contradictions_.push_back(place(row, tag) + what);
+        const auto objections = against(*tags_.find(tag), has_decimals, one);
+        for (const std::string& what : objections) contradictions_.push_back(place(row, tag) + what);
+        if (objections.empty() && one.answers > 0) fill_mnemonic(row, tag, one);
+    }
+
+    void fill_mnemonic(std::size_t row, std::uint16_t tag, const Sighting& one)
+    {
+        const bool is_wanted = mnemonic_cells_ == MnemonicCells::fill && !one.mnemonic.empty() &&
+                               table_.cell(row, "mnemonic").empty();
+        if (!is_wanted) return;
+        const auto [known, is_new] = mnemonics_.try_emplace(one.mnemonic, tag);
+        if (!is_new) {
+            contradictions_.push_back(place(row, tag) + "its mnemonic by the rule is that of tag " +
+                                      std::to_string(known->second));
+            return;
+        }
+        table_.need("mnemonic");
+        table_.replace(row, {{"mnemonic", one.mnemonic}});
     }
 
     std::string place(std::size_t row, std::uint16_t tag) const
@@ -191,6 +209,7 @@ private:
 
     TableText table_;
     const drive::TagTable& tags_;
+    MnemonicCells mnemonic_cells_;
     std::map<std::string, std::uint16_t> mnemonics_; ///< that rows have, with their tags
     std::vector<std::uint16_t> added_, waiting_;
     std::vector<std::string> contradictions_;
@@ -198,19 +217,19 @@ private:
 
 } // namespace
 
-Result<SurveyedTable, toml::Faults> merge_survey(std::string_view table, const std::string& file,
-                                                 const Survey& seen)
+Result<SurveyedTable, input::Faults> merge_survey(std::string_view table, const std::string& file,
+                                                  const Survey& seen, MnemonicCells mnemonics)
 {
-    const bool is_marked = table.starts_with(toml::kByteOrderMark);
-    if (table.size() == (is_marked ? toml::kByteOrderMark.size() : 0)) table = kNewTable;
+    const bool is_marked = table.starts_with(input::kByteOrderMark);
+    if (table.size() == (is_marked ? input::kByteOrderMark.size() : 0)) table = kNewTable;
     const auto tags = read_tags(table, file);
     if (!tags) return Failure{tags.error()};
-    if (table.starts_with(toml::kByteOrderMark)) table.remove_prefix(toml::kByteOrderMark.size());
-    toml::Faults faults;
+    if (table.starts_with(input::kByteOrderMark)) table.remove_prefix(input::kByteOrderMark.size());
+    input::Faults faults;
     TableText text{table, file, faults};
     if (!faults.empty()) return Failure{faults};
-    SurveyedTable merged = Merger{std::move(text), *tags}.merge(seen);
-    if (is_marked) merged.text.insert(0, toml::kByteOrderMark); // the spreadsheet program needs it
+    SurveyedTable merged = Merger{std::move(text), *tags, mnemonics}.merge(seen);
+    if (is_marked) merged.text.insert(0, input::kByteOrderMark); // the spreadsheet program needs it
     return merged;
 }
 

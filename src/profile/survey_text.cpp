@@ -2,8 +2,9 @@
 // The options of a survey as text, and its record as a file.
 #include "csv.hpp"
 
+#include "dpslave/base/number.hpp"
+#include "dpslave/input/wording.hpp"
 #include "dpslave/profile/survey.hpp"
-#include "dpslave/toml/wording.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -11,7 +12,7 @@
 namespace dpslave::profile {
 namespace {
 
-/// A whole text as a number; nothing if it is anything else.
+/// A complete text as a number; nullopt if it is anything else.
 template <class T>
 std::optional<T> whole(std::string_view text)
 {
@@ -96,37 +97,6 @@ std::optional<std::pair<std::uint16_t, Sighting>> record_row(const Row& row)
 
 } // namespace
 
-Result<std::vector<TagSpan>, std::string> parse_tag_spans(std::string_view text)
-{
-    std::vector<TagSpan> spans;
-    std::string_view rest = text;
-    do {
-        const auto comma = rest.find(',');
-        const std::string_view item = rest.substr(0, comma);
-        rest = comma == std::string_view::npos ? std::string_view{} : rest.substr(comma + 1);
-        const auto dash = item.find('-');
-        const auto first = whole<std::uint16_t>(item.substr(0, dash));
-        const auto last =
-            dash == std::string_view::npos ? first : whole<std::uint16_t>(item.substr(dash + 1));
-        if (!first || !last || (rest.empty() && comma != std::string_view::npos))
-            return Failure{toml::in_quotes(text) +
-                           ": write tags from 0 to 65535 without blanks, as in 1-600,1000-1127"};
-        if (*first > *last)
-            return Failure{toml::in_quotes(item) + ": the first tag is above the last one: swap them"};
-        spans.push_back({*first, *last});
-    } while (!rest.empty());
-
-    std::sort(spans.begin(), spans.end(), [](TagSpan a, TagSpan b) { return a.first < b.first; });
-    std::vector<TagSpan> joined;
-    for (const TagSpan span : spans) {
-        if (!joined.empty() && span.first <= std::uint32_t{joined.back().last} + 1)
-            joined.back().last = std::max(joined.back().last, span.last);
-        else
-            joined.push_back(span);
-    }
-    return joined;
-}
-
 std::string spans_text(std::span<const std::uint16_t> tags)
 {
     std::string out;
@@ -139,18 +109,6 @@ std::string spans_text(std::span<const std::uint16_t> tags)
         i = end;
     }
     return out;
-}
-
-std::optional<std::chrono::seconds> parse_duration(std::string_view text)
-{
-    constexpr std::int64_t max_seconds = 30LL * 24 * 3600;
-    std::int64_t unit = 1;
-    if (text.ends_with('m')) unit = 60;
-    if (text.ends_with('h')) unit = 3600;
-    if (text.ends_with('s') || unit > 1) text.remove_suffix(1);
-    const auto count = whole<std::int64_t>(text);
-    if (!count || *count <= 0 || *count > max_seconds / unit) return std::nullopt;
-    return std::chrono::seconds{*count * unit};
 }
 
 std::string record_text(const Survey& survey, std::string_view station)
@@ -171,10 +129,10 @@ std::string record_text(const Survey& survey, std::string_view station)
     return out;
 }
 
-Result<Survey, toml::Faults> read_record(std::string_view content, const std::string& file,
-                                         std::string_view station)
+Result<Survey, input::Faults> read_record(std::string_view content, const std::string& file,
+                                          std::string_view station)
 {
-    toml::Faults faults;
+    input::Faults faults;
     const std::vector<Row> rows = read_csv(content, file, faults);
     Survey survey;
     if (!content.starts_with(kRecordHeader))
@@ -186,7 +144,7 @@ Result<Survey, toml::Faults> read_record(std::string_view content, const std::st
             faults.push_back({file, rows[i].line, 1,
                               "this is the record of station '" + std::string{rows[i].cells.back().text} +
                                   "', not of '" + std::string{station} +
-                                  "': name another table with --table."});
+                                  "': name another table with --output."});
         else if (read)
             survey.insert(*std::move(read));
         else

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tag_row.hpp"
 
-#include "dpslave/toml/wording.hpp"
+#include "dpslave/input/wording.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -15,14 +15,13 @@ using drive::Tag;
 using drive::TagType;
 using drive::WritableWhen;
 
-/// In column decimals: as many as the instrument's display has.
+/// In column decimals this word means: as many as the instrument's display has.
 constexpr std::string_view kFollowsDisplay = "display";
 
-/// The drive's last error, which the program itself asks for (EI-ASCII reference, section 4). Another case of
-/// the letters is a parameter: tag 518 of an AC drive has "ee" by its rule.
+/// The drive's last error (EI-ASCII reference, section 4). "ee" is a parameter: tag 518 of an AC drive.
 constexpr std::string_view kErrorMnemonic = "EE";
 
-/// A whole text as an unsigned number; nothing if it is anything else or above `max`.
+/// A complete text as an unsigned number; nullopt if it is anything else or above `max`.
 std::optional<std::uint32_t> number_of(std::string_view text, int base, std::uint32_t max)
 {
     std::uint32_t number = 0;
@@ -38,7 +37,7 @@ std::optional<std::uint32_t> word_of(std::string_view text)
     return number_of(text, 16, 0xFFFF);
 }
 
-/// "-327.68" with 2 decimals -> -32768. Nothing if it is no such number.
+/// Reads "-327.68" with 2 decimals as -32768; returns nullopt if it is no such number.
 std::optional<std::int32_t> counts_of(std::string_view text, std::size_t decimals)
 {
     const bool negative = text.starts_with('-');
@@ -58,7 +57,7 @@ std::optional<std::int32_t> counts_of(std::string_view text, std::size_t decimal
 
 class RowReader {
 public:
-    RowReader(const Row& row, const Columns& columns, const std::string& file, toml::Faults& faults)
+    RowReader(const Row& row, const Columns& columns, const std::string& file, input::Faults& faults)
         : row_(row), columns_(columns), file_(file), faults_(faults)
     {}
 
@@ -68,18 +67,20 @@ public:
         tag.number = static_cast<std::uint16_t>(number(kTag, 0xFFFF).value_or(0));
         if (!given(kTag)) fault(kTag, "the tag number is missing: every row needs one.");
         tag.name = text(kName);
-        if (toml::has_control_characters(tag.name))
+        if (input::has_control_characters(tag.name))
             fault(kName,
                   "the name contains a control character or a line break: write plain text on one line.");
         tag.section = text(kSection);
         tag.notes = text(kNotes);
         tag.type = type();
         tag.follows_display = text(kDecimals) == kFollowsDisplay;
-        tag.is_real =
-            text(kType) == "REAL" || tag.follows_display; // what the display shows in decimals is a single
+        tag.is_real = text(kType) == "REAL" || tag.follows_display; // its decimals are those of a single
         if (!tag.follows_display) tag.decimals = static_cast<std::uint8_t>(number(kDecimals, 4).value_or(0));
         tag.decimals_known = tag.type != TagType::number || (given(kDecimals) && !tag.follows_display);
-        tag.confirmed = confirmed();
+        tag.confirmed = yes_or_no(
+            kConfirmed, true,
+            "write yes, or no for a row that a survey made and that has not been compared with the drive's manual.");
+        tag.once = yes_or_no(kOnce, false, "write yes for a parameter of which each write counts, or no.");
         if ((tag.decimals > 0 || tag.follows_display) && tag.type != TagType::number)
             fault(kDecimals, "only INT and REAL have decimals: leave the cell empty, or change the type.");
         tag.access = access();
@@ -98,19 +99,24 @@ private:
 
     void fault(Column column, std::string what)
     {
-        const toml::Place at = columns_.place(row_, column);
+        const input::Place at = columns_.place(row_, column);
         faults_.push_back({file_, at.line, at.column, std::move(what)});
         good_ = false;
+    }
+
+    /// Adds `what` after the name of the column and the text of the cell.
+    void refuse(Column column, std::string_view what)
+    {
+        fault(column, std::string{kColumnNames[column]} + " " + input::in_quotes(text(column)) + ": " +
+                          std::string{what});
     }
 
     std::optional<std::uint32_t> number(Column column, std::uint32_t max)
     {
         if (!given(column)) return std::nullopt;
         const auto value = number_of(text(column), 10, max);
-        if (!value)
-            fault(column, std::string{kColumnNames[column]} + " " + toml::in_quotes(text(column)) +
-                              ": write a decimal number from 0 to " + std::to_string(max) +
-                              (column == kDecimals ? ", or display." : "."));
+        const char* const end = column == kDecimals ? ", or display." : ".";
+        if (!value) refuse(column, "write a decimal number from 0 to " + std::to_string(max) + end);
         return value;
     }
 
@@ -122,7 +128,7 @@ private:
         if (word == "BOOL") return TagType::boolean;
         if (word == "ENUM") return TagType::enumeration;
         if (word == "STRING") return TagType::string;
-        fault(kType, "type " + toml::in_quotes(word) + ": write INT, WORD, BOOL, ENUM, REAL or STRING.");
+        refuse(kType, "write INT, WORD, BOOL, ENUM, REAL or STRING.");
         return TagType::number;
     }
 
@@ -132,20 +138,16 @@ private:
         if (word == "ro") return Access::read_only;
         if (word == "rw") return Access::read_write;
         if (word == "wo") return Access::write_only;
-        if (!word.empty())
-            fault(kAccess, "access " + toml::in_quotes(word) +
-                               ": write ro, rw or wo, or leave it empty if not known.");
+        if (!word.empty()) refuse(kAccess, "write ro, rw or wo, or leave it empty if not known.");
         return Access::unknown;
     }
 
-    bool confirmed()
+    bool yes_or_no(Column column, bool if_empty, std::string_view advice)
     {
-        const std::string_view word = text(kConfirmed);
-        if (!word.empty() && word != "yes" && word != "no")
-            fault(kConfirmed, "confirmed " + toml::in_quotes(word) +
-                                  ": write yes, or no for a row that a survey made and that has not been "
-                                  "compared with the drive's manual.");
-        return word != "no";
+        const std::string_view word = text(column);
+        if (word.empty()) return if_empty;
+        if (word != "yes" && word != "no") refuse(column, advice);
+        return word == "yes";
     }
 
     WritableWhen when()
@@ -153,14 +155,11 @@ private:
         const std::string_view word = text(kWhen);
         for (const WritableWhen one : {WritableWhen::stopped, WritableWhen::configuration})
             if (word == drive::text(one)) return one;
-        if (!word.empty())
-            fault(kWhen, "when " + toml::in_quotes(word) +
-                             ": write stopped or configuration, or leave it empty if not known.");
+        if (!word.empty()) refuse(kWhen, "write stopped or configuration, or leave it empty if not known.");
         return WritableWhen::not_said;
     }
 
-    /// From 8000h on: the IEEE area, where a number is a single. A whole number lies in the first register
-    /// there, a time in both as milliseconds.
+    /// In the IEEE area a number is a single, a whole number is in the first register, a time in both as ms.
     void modbus_register(Tag& tag)
     {
         constexpr std::uint16_t ieee_area = 0x8000;
@@ -168,16 +167,16 @@ private:
         if (!reg) return;
         tag.modbus_register = static_cast<std::uint16_t>(*reg);
         if (*reg >= ieee_area && *reg % 2 != 0)
-            fault(kRegister, "register " + toml::in_quotes(text(kRegister)) +
-                                 " is odd: in the IEEE area (32768 and above) a tag has two registers and "
-                                 "begins at an even one, 32768 + 2 x tag.");
-        const bool has_ieee_form =
-            tag.type != TagType::string && (tag.type != TagType::number || tag.is_real);
-        if (*reg >= ieee_area && !has_ieee_form)
-            fault(kRegister,
-                  "register " + toml::in_quotes(text(kRegister)) +
-                      " is in the IEEE area (32768 and above), which has singles: write type REAL if "
-                      "this is one, otherwise the register of the normal area.");
+            fault(
+                kRegister,
+                "register " + input::in_quotes(text(kRegister)) +
+                    " is odd: in the IEEE area (32768 and above) a tag has two registers and begins at an even one, 32768 + 2 x tag.");
+        const bool is_whole = tag.type == TagType::number && !tag.is_real;
+        if (*reg >= ieee_area && (tag.type == TagType::string || is_whole))
+            fault(
+                kRegister,
+                "register " + input::in_quotes(text(kRegister)) +
+                    " is in the IEEE area (32768 and above), which has singles: write type REAL if this is one, otherwise the register of the normal area.");
     }
 
     std::string mnemonic()
@@ -186,11 +185,11 @@ private:
         const bool printable =
             std::all_of(word.begin(), word.end(), [](char c) { return c > ' ' && c < '\x7F'; });
         if (!word.empty() && (word.size() != 2 || !printable))
-            fault(kMnemonic, "mnemonic " + toml::in_quotes(word) +
-                                 ": write two printable characters, or none for the profile's rule.");
+            refuse(kMnemonic, "write two printable characters, or none for the profile's rule.");
         if (word == kErrorMnemonic)
-            fault(kMnemonic, "mnemonic \"EE\" is the drive's last error on an EI-ASCII line, no parameter: "
-                             "write the one of the tag, or leave it empty for the profile's rule.");
+            fault(
+                kMnemonic,
+                "mnemonic \"EE\" is the drive's last error on an EI-ASCII line, no parameter: write the one of the tag, or leave it empty for the profile's rule.");
         return std::string{word};
     }
 
@@ -228,7 +227,7 @@ private:
         if (!given(column)) return std::nullopt;
         const auto value = value_of(tag, text(column));
         if (!value)
-            fault(column, std::string{kColumnNames[column]} + " " + toml::in_quotes(text(column)) + ": " +
+            fault(column, std::string{kColumnNames[column]} + " " + input::in_quotes(text(column)) + ": " +
                               wanted(tag) + ".");
         return value;
     }
@@ -237,16 +236,16 @@ private:
     {
         for (const Column column : {kMin, kMax})
             if (tag.follows_display && given(column))
-                fault(column,
-                      std::string{kColumnNames[column]} + " " + toml::in_quotes(text(column)) +
-                          ": a value whose decimals follow the display has no fixed limits here, leave "
-                          "the cell empty.");
+                fault(
+                    column,
+                    std::string{kColumnNames[column]} + " " + input::in_quotes(text(column)) +
+                        ": a value whose decimals follow the display has no fixed limits here, leave the cell empty.");
         if (tag.follows_display) return;
         tag.min = limit(tag, kMin);
         tag.max = limit(tag, kMax);
         if (tag.min && tag.max && *tag.min > *tag.max)
-            fault(kMin, "min " + toml::in_quotes(text(kMin)) + " is above max " +
-                            toml::in_quotes(text(kMax)) + ": swap them.");
+            fault(kMin, "min " + input::in_quotes(text(kMin)) + " is above max " +
+                            input::in_quotes(text(kMax)) + ": swap them.");
         if (tag.type != TagType::number) return;
         tag.is_unsigned = tag.min && *tag.min >= 0 && tag.max && *tag.max > 32767;
         const std::int32_t lowest = tag.is_unsigned ? 0 : -32768;
@@ -255,9 +254,9 @@ private:
                                   " to " + std::to_string(highest) + " counts do" +
                                   (tag.is_unsigned ? "." : ", and up to 65535 only with a min of 0 or more.");
         if (tag.min && (*tag.min < lowest || *tag.min > highest))
-            fault(kMin, "min " + toml::in_quotes(text(kMin)) + range);
+            fault(kMin, "min " + input::in_quotes(text(kMin)) + range);
         if (tag.max && (*tag.max < lowest || *tag.max > highest))
-            fault(kMax, "max " + toml::in_quotes(text(kMax)) + range);
+            fault(kMax, "max " + input::in_quotes(text(kMax)) + range);
     }
 
     void labels(Tag& tag)
@@ -274,7 +273,7 @@ private:
                 return other.is_bit == label->is_bit && other.number == label->number;
             };
             if (std::any_of(tag.labels.begin(), tag.labels.end(), same)) {
-                fault(kValues, "values: " + toml::in_quotes(item) +
+                fault(kValues, "values: " + input::in_quotes(item) +
                                    " names the same value again: keep one of the two.");
                 return;
             }
@@ -294,7 +293,7 @@ private:
         const std::string_view right =
             equals == std::string_view::npos ? std::string_view{} : strip(item.substr(equals + 1));
         if (left.empty() || right.empty()) {
-            fault(kValues, "values: " + toml::in_quotes(item) +
+            fault(kValues, "values: " + input::in_quotes(item) +
                                ": write value=label or bitN=label, with ; between two.");
             return std::nullopt;
         }
@@ -304,7 +303,7 @@ private:
             const bool has_bits = tag.type == TagType::word || tag.type == TagType::number;
             if (!bit || !has_bits) {
                 fault(kValues,
-                      "values: " + toml::in_quotes(item) +
+                      "values: " + input::in_quotes(item) +
                           (has_bits ? ": bits go from bit0 to bit15." : ": only WORD and INT have bits."));
                 return std::nullopt;
             }
@@ -313,7 +312,7 @@ private:
         }
         const auto value = value_of(tag, left);
         if (!value || *value < -32768 || *value > 65535) {
-            fault(kValues, "values: " + toml::in_quotes(item) + ": before the = " + wanted(tag) + ".");
+            fault(kValues, "values: " + input::in_quotes(item) + ": before the = " + wanted(tag) + ".");
             return std::nullopt;
         }
         label.number = static_cast<std::uint16_t>(*value);
@@ -323,7 +322,7 @@ private:
     const Row& row_;
     const Columns& columns_;
     const std::string& file_;
-    toml::Faults& faults_;
+    input::Faults& faults_;
     bool good_ = true;
 };
 
@@ -350,7 +349,7 @@ std::string_view nearly_a_column(std::string_view name)
         const std::string_view stem{legal.data(), legal.size() - (legal.back() == 's' ? 1 : 0)};
         if (stem.size() >= 6 && letters.starts_with(stem)) return legal;
     }
-    return toml::nearest(letters, names, letters.size() > 5 ? 2 : letters.size() > 2 ? 1 : 0);
+    return input::nearest(letters, names, letters.size() > 5 ? 2 : letters.size() > 2 ? 1 : 0);
 }
 
 std::string_view Columns::text(const Row& row, Column column) const
@@ -359,23 +358,23 @@ std::string_view Columns::text(const Row& row, Column column) const
     return cell < row.cells.size() ? std::string_view{row.cells[cell].text} : std::string_view{};
 }
 
-toml::Place Columns::place(const Row& row, Column column) const
+input::Place Columns::place(const Row& row, Column column) const
 {
     const std::size_t cell = index[column];
-    return cell < row.cells.size() ? toml::Place{row.cells[cell].line, row.cells[cell].column}
-                                   : toml::Place{row.line, 0};
+    return cell < row.cells.size() ? input::Place{row.cells[cell].line, row.cells[cell].column}
+                                   : input::Place{row.line, 0};
 }
 
 std::optional<Tag> read_tag(const Row& row, const Columns& columns, const std::string& file,
-                            toml::Faults& faults)
+                            input::Faults& faults)
 {
     return RowReader{row, columns, file, faults}.read();
 }
 
 bool is_name_only(const Row& row, const Columns& columns)
 {
-    constexpr std::array says_more{kType, kDecimals, kMin,      kMax,    kAccess,
-                                   kWhen, kMnemonic, kRegister, kValues, kConfirmed};
+    constexpr std::array says_more{kType,     kDecimals, kMin,    kMax,       kAccess, kWhen,
+                                   kMnemonic, kRegister, kValues, kConfirmed, kOnce};
     return std::all_of(says_more.begin(), says_more.end(),
                        [&](Column column) { return columns.text(row, column).empty(); });
 }
@@ -388,6 +387,7 @@ std::optional<Column> contradiction(const Tag& known, const Tag& tag, const Row&
         return kDecimals;
     if (given(kMin) && known.min != tag.min) return kMin;
     if (given(kMax) && known.max != tag.max) return kMax;
+    if (given(kOnce) && known.once != tag.once) return kOnce;
     if (given(kConfirmed) && known.confirmed != tag.confirmed) return kConfirmed;
     if (given(kAccess) && known.access != tag.access) return kAccess;
     if (given(kWhen) && known.when != tag.when) return kWhen;

@@ -5,7 +5,7 @@
 #include "csv.hpp"
 
 #include "dpslave/drive/tag.hpp"
-#include "dpslave/toml/document.hpp"
+#include "dpslave/input/document.hpp"
 
 #include <array>
 #include <optional>
@@ -29,17 +29,18 @@ enum Column : std::size_t {
     kSection,
     kNotes,
     kConfirmed,
+    kOnce,
     kColumns,
 };
 constexpr std::array<std::string_view, kColumns> kColumnNames{
-    "tag",  "name",     "type",     "decimals", "min",     "max",   "access",
-    "when", "mnemonic", "register", "values",   "section", "notes", "confirmed"};
+    "tag",      "name",     "type",   "decimals", "min",   "max",       "access", "when",
+    "mnemonic", "register", "values", "section",  "notes", "confirmed", "once"};
 
 /// The column that `name` nearly is: other letters large or small, other signs between them, a letter wrong
-/// ("Decimals", "min.", "decimal"). Empty: it is one, or none is near.
+/// ("Decimals", "min.", "decimal"). It is empty if it is one, or none is near.
 std::string_view nearly_a_column(std::string_view name);
 
-/// Which cell of a row is which column.
+/// Says which cell of a row belongs to which column.
 struct Columns {
     static constexpr std::size_t kAbsent = static_cast<std::size_t>(-1);
     std::array<std::size_t, kColumns> index = absent();
@@ -47,7 +48,7 @@ struct Columns {
 
     /// Empty where the table has no such column.
     std::string_view text(const Row& row, Column column) const;
-    toml::Place place(const Row& row, Column column) const;
+    input::Place place(const Row& row, Column column) const;
 
 private:
     static constexpr std::array<std::size_t, kColumns> absent()
@@ -60,7 +61,7 @@ private:
 
 /// The row as a tag; nothing, and the reasons in `faults`, if a cell is wrong.
 std::optional<drive::Tag> read_tag(const Row& row, const Columns& columns, const std::string& file,
-                                   toml::Faults& faults);
+                                   input::Faults& faults);
 
 /// The row says nothing but a name of its tag.
 bool is_name_only(const Row& row, const Columns& columns);

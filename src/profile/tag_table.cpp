@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tag tables: CSV rows become drive::TagTable, whole or not at all.
+// Tag tables: CSV rows become drive::TagTable, completely or not at all.
 #include "csv.hpp"
 #include "tag_row.hpp"
 
 #include "dpslave/base/printable.hpp"
+#include "dpslave/input/text_source.hpp"
+#include "dpslave/input/wording.hpp"
 #include "dpslave/profile/profile.hpp"
-#include "dpslave/toml/text_source.hpp"
-#include "dpslave/toml/wording.hpp"
 
 #include <algorithm>
 #include <map>
@@ -24,7 +24,7 @@ class TableReader {
 public:
     explicit TableReader(std::string file) : file_(std::move(file)) {}
 
-    Result<drive::TagTable, toml::Faults> read(std::string_view content)
+    Result<drive::TagTable, input::Faults> read(std::string_view content)
     {
         const std::vector<Row> rows = read_csv(content, file_, faults_);
         if (rows.empty()) {
@@ -32,13 +32,13 @@ public:
             return Failure{faults_};
         }
         if (rows.front().good && header(rows.front())) {
-            for (std::size_t i = 1; i < rows.size() && faults_.size() <= toml::kMaxFaults; ++i)
+            for (std::size_t i = 1; i < rows.size() && faults_.size() <= input::kMaxFaults; ++i)
                 if (rows[i].good) add(rows[i]);
             refuse_shared_mnemonics();
         }
         if (!faults_.empty()) {
             std::stable_sort(
-                faults_.begin(), faults_.end(), [](const toml::Fault& left, const toml::Fault& right) {
+                faults_.begin(), faults_.end(), [](const input::Fault& left, const input::Fault& right) {
                     return std::pair{left.line, left.column} < std::pair{right.line, right.column};
                 });
             cap(faults_);
@@ -72,8 +72,8 @@ private:
             if (column == kColumnNames.end()) {
                 if (const auto meant = nearly_a_column(cell.text); !meant.empty())
                     fault(cell.line, cell.column,
-                          "column " + toml::in_quotes(cell.text) + " is nearly " + toml::in_quotes(meant) +
-                              " and would not be read: write " + toml::in_quotes(meant) +
+                          "column " + input::in_quotes(cell.text) + " is nearly " + input::in_quotes(meant) +
+                              " and would not be read: write " + input::in_quotes(meant) +
                               ", or give the column a name that is not so near.");
                 continue;
             }
@@ -82,14 +82,14 @@ private:
                 index = i;
             else
                 fault(cell.line, cell.column,
-                      "a second column " + toml::in_quotes(cell.text) + ": remove or rename one of them.");
+                      "a second column " + input::in_quotes(cell.text) + ": remove or rename one of them.");
         }
         if (columns_.index[kTag] != Columns::kAbsent) return true;
         std::string what = "no column tag: the first line must name the columns, tag at least";
         if (row.cells.size() == 1 && row.cells[0].text.find(';') != std::string::npos)
             what += "; separate them by commas, not by semicolons";
-        else if (const auto meant = toml::nearest("tag", names); !meant.empty())
-            what += "; is " + toml::in_quotes(meant) + " meant?";
+        else if (const auto meant = input::nearest("tag", names); !meant.empty())
+            what += "; is " + input::in_quotes(meant) + " meant?";
         fault(row.line, 1, what + (what.back() == '?' ? "" : "."));
         return false;
     }
@@ -136,7 +136,7 @@ private:
     {
         Tag& first = tags_[known.index];
         if (const auto column = contradiction(first, tag, row, columns_)) {
-            const toml::Place at = columns_.place(row, *column);
+            const input::Place at = columns_.place(row, *column);
             fault(at.line, at.column,
                   "tag " + std::to_string(tag.number) + " has another " + std::string{kColumnNames[*column]} +
                       " on line " + std::to_string(known.line) +
@@ -157,7 +157,7 @@ private:
             if (is_new) continue;
             fault(
                 firsts_.at(tag.number).line, 0,
-                "mnemonic " + toml::in_quotes(tag.mnemonic) + " of tag " + std::to_string(tag.number) +
+                "mnemonic " + input::in_quotes(tag.mnemonic) + " of tag " + std::to_string(tag.number) +
                     " is that of tag " + std::to_string(first->second->number) + " on line " +
                     std::to_string(firsts_.at(first->second->number).line) +
                     ": one of the two is wrong, correct it or leave its cell empty for the profile's rule.");
@@ -170,7 +170,7 @@ private:
     }
 
     std::string file_;
-    toml::Faults faults_;
+    input::Faults faults_;
     Columns columns_;
     std::vector<Tag> tags_;
     std::map<std::uint16_t, First> firsts_; ///< by tag
@@ -180,16 +180,16 @@ private:
 
 } // namespace
 
-Result<drive::TagTable, toml::Faults> load_tags(const toml::TextSource& source, const std::string& file)
+Result<drive::TagTable, input::Faults> load_tags(const input::TextSource& source, const std::string& file)
 {
-    auto content = toml::read_text(source, file);
-    if (!content) return Failure{toml::Faults{content.error()}};
+    auto content = input::read_text(source, file);
+    if (!content) return Failure{input::Faults{content.error()}};
     return read_tags(*content, file);
 }
 
-Result<drive::TagTable, toml::Faults> read_tags(std::string_view content, const std::string& file)
+Result<drive::TagTable, input::Faults> read_tags(std::string_view content, const std::string& file)
 {
-    if (content.starts_with(toml::kByteOrderMark)) content.remove_prefix(toml::kByteOrderMark.size());
+    if (content.starts_with(input::kByteOrderMark)) content.remove_prefix(input::kByteOrderMark.size());
     return TableReader{file}.read(utf8(content));
 }
 

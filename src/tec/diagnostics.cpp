@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the function block reports of bus and drive: NETWORK STATE and INT DIAGNOSTIC.
+/// Makes what the function block reports of bus and drive: NETWORK STATE and INT DIAGNOSTIC.
 #include "dpslave/tec/option_block.hpp"
 
 #include <algorithm>
@@ -43,14 +43,14 @@ constexpr std::uint16_t code_of(const dp::RefusalDetail& detail)
         case Refusal::cfg_identifier: return kCfgIdentifier;
         case Refusal::cfg_too_few: return kCfgTooFew;
         case Refusal::cfg_too_many: return kCfgTooMany;
-        // As many legal identifiers as are accepted, in other directions.
+        // It has as many valid identifiers as are accepted, in other directions.
         case Refusal::cfg_changed: return kCfgIdentifier;
     }
     return kNoError;
 }
 
-/// Access error of 300..329. For a drive that is silent or does not understand there is no code: those are no
-/// fault of the parameter.
+/// Returns the access error of 300..329. There is no code for a drive that is silent or does not understand:
+/// those are no fault of the parameter.
 constexpr std::uint16_t code_of(AccessError error)
 {
     switch (error) {
@@ -58,8 +58,10 @@ constexpr std::uint16_t code_of(AccessError error)
         case AccessError::no_answer:
         case AccessError::deferred:
         case AccessError::not_understood:
+        case AccessError::not_known:
         case AccessError::not_kept: return 0;
-        case AccessError::out_of_range: return 1;
+        case AccessError::out_of_range:
+        case AccessError::does_not_fit: return 1;
         case AccessError::read_only: return 2;
         case AccessError::not_stopped: return 3;
         case AccessError::not_config_mode: return 4;
@@ -72,14 +74,14 @@ constexpr std::uint16_t code_of(AccessError error)
     return 0;
 }
 
-/// What the next repetition mends is no failure: the lamp would flicker with each lost answer.
-bool fails(const drive::UnitSnapshot& drive, std::size_t parameter)
+/// An error that the next repetition corrects is no failure: the lamp would flicker with each lost answer.
+bool fails(const drive::DriveSnapshot& drive, std::size_t parameter)
 {
     const WordState state = drive.states[parameter];
     return state != WordState::untried && state != WordState::good && !drive.repeated[parameter];
 }
 
-bool parameter_fails(const dp::Snapshot& bus, const drive::UnitSnapshot& drive)
+bool parameter_fails(const dp::Snapshot& bus, const drive::DriveSnapshot& drive)
 {
     if (drive.known && !drive.answers) return true;
     if (drive.generation != bus.layout.generation) return false; // the drive side still has the layout before
@@ -91,7 +93,7 @@ bool parameter_fails(const dp::Snapshot& bus, const drive::UnitSnapshot& drive)
 } // namespace
 
 NetworkState network_state(OptionFault fault, const Hardware& hardware, const dp::Snapshot& bus,
-                           const drive::UnitSnapshot& drive)
+                           const drive::DriveSnapshot& drive)
 {
     if (fault != OptionFault::none) return NetworkState::disabled;
     if (hardware.baud_search) return NetworkState::baud_search;
@@ -100,20 +102,21 @@ NetworkState network_state(OptionFault fault, const Hardware& hardware, const dp
         case dp::State::wait_prm: return NetworkState::wait_param;
         case dp::State::wait_cfg: return NetworkState::wait_config;
         case dp::State::data_exch:
-            if (bus.holds) return NetworkState::wait_config; // the exchange has not begun
+            if (bus.hold != StartHold::none)
+                return NetworkState::wait_config; // the exchange has not begun
             return parameter_fails(bus, drive) ? NetworkState::data_ex_error : NetworkState::data_exchange;
     }
     return NetworkState::baud_search;
 }
 
-std::uint16_t int_diagnostic(std::int32_t select, const dp::Snapshot& bus, const drive::UnitSnapshot& drive)
+std::uint16_t int_diagnostic(std::int32_t select, const dp::Snapshot& bus, const drive::DriveSnapshot& drive)
 {
     if (select == 0) return code_of(bus.refusal); // dp forgets it once both telegrams are accepted (B-094)
     const std::int32_t group = select / 100;
     const std::size_t i = static_cast<std::size_t>(select < 0 ? 0 : select % 100);
     if (select < 0 || i >= kParametersShown || i >= bus.layout.count) return 0;
 
-    const Parameter& parameter = bus.layout.parameters[i];
+    const LayoutEntry& parameter = bus.layout.parameters[i];
     const bool drive_has_layout = drive.generation == bus.layout.generation;
     switch (group) {
         case 1: return parameter.tag;

@@ -5,14 +5,15 @@
 
 #include "shown_word.hpp"
 
+#include "dpslave/base/number.hpp"
+
 #include <algorithm>
-#include <charconv>
 #include <limits>
 
 namespace dpslave::tec {
 namespace {
 
-/// In the order of their numbers. Source: HA463561U002, "MMI Parameter Descriptions" (B-042).
+/// The types are in the order of their numbers. Source: HA463561U002, "MMI Parameter Descriptions" (B-042).
 constexpr std::array<std::string_view, 10> kTypes{"NONE",        "RS485",   "PROFIBUS DP", "LINK",
                                                   "DEVICENET",   "CANOPEN", "LONWORKS",    "CONTROLNET",
                                                   "MODBUS PLUS", "ETHERNET"};
@@ -29,13 +30,11 @@ struct Input {
     std::string_view range;
 };
 
-/// The manual's generic names are lost with its figures. TYPE has its own name in both views: it chooses
-/// between them. So have FAULT and VERSION, which mean the same for every TYPE [DEC, B-041].
+/// The manual's generic names were in its figures, which are missing in our copy. TYPE has its own name in
+/// both views: it chooses between them. FAULT and VERSION mean the same for every TYPE as well [DEC, B-041].
 constexpr std::array kInputs = std::to_array<Input>({
     {"TYPE", "TYPE", &Settings::type, 0, 9, Form::type,
-     "0 NONE, 1 RS485, 2 PROFIBUS DP, 3 LINK, 4 DEVICENET, 5 CANOPEN, 6 LONWORKS, 7 CONTROLNET, 8 MODBUS "
-     "PLUS, "
-     "9 ETHERNET"},
+     "0 NONE, 1 RS485, 2 PROFIBUS DP, 3 LINK, 4 DEVICENET, 5 CANOPEN, 6 LONWORKS, 7 CONTROLNET, 8 MODBUS PLUS, 9 ETHERNET"},
     {"ADDRESS", "INPUT 1", &Settings::address, 0, 125, Form::number, "0 to 125"},
     {"EXT DIAGNOSTIC", "INPUT 2", &Settings::ext_diagnostic, 0, 0xFFFF, Form::word, "0000 to FFFF"},
     {"INT DIAG SELECT", "INPUT 3", &Settings::int_diag_select, 0, 29999, Form::number, "0 to 29999"},
@@ -62,7 +61,7 @@ constexpr bool in_range(const Input& input, std::int32_t value)
     return value >= input.low && value <= input.high;
 }
 
-/// What is out of range is shown as the number that it is: >FFFF for -1 would hide the fault.
+/// A value out of range is shown as its number: >FFFF for -1 would hide the fault.
 std::string shown(const Input& input, std::int32_t value)
 {
     if (input.form == Form::seconds) return std::to_string(value) + " s";
@@ -88,7 +87,7 @@ std::string_view trimmed(std::string_view text)
     return text;
 }
 
-/// As it is typed in a shell: "ride_through" is RIDE THROUGH.
+/// Returns whether `typed` is this name as typed in a shell: "ride_through" is RIDE THROUGH.
 bool is_name(std::string_view typed, std::string_view name)
 {
     constexpr auto upper = [](char c) {
@@ -102,21 +101,11 @@ bool is_name(std::string_view typed, std::string_view name)
 std::optional<std::int32_t> number_of(std::string_view typed)
 {
     typed = trimmed(typed);
-    int base = 10;
-    if (typed.starts_with('>')) {
-        base = 16;
-        typed.remove_prefix(1);
-    } else if (typed.starts_with("0x") || typed.starts_with("0X")) {
-        base = 16;
-        typed.remove_prefix(2);
-    }
-    if (base == 16 && typed.starts_with('-')) return std::nullopt;
-    std::int32_t value = 0;
-    const auto [end, error] = std::from_chars(typed.data(), typed.data() + typed.size(), value, base);
-    const bool whole = error == std::errc{} && end == typed.data() + typed.size();
-    const bool fits = value >= std::numeric_limits<std::int16_t>::min() &&
-                      value <= std::numeric_limits<std::uint16_t>::max();
-    return whole && fits ? std::optional{value} : std::nullopt;
+    std::string text{typed};
+    if (typed.starts_with('>')) text.replace(0, 1, "0x");
+    const auto value = read_number(text, std::numeric_limits<std::int16_t>::min(),
+                                   std::numeric_limits<std::uint16_t>::max());
+    return value ? std::optional{static_cast<std::int32_t>(*value)} : std::nullopt;
 }
 
 std::optional<std::int32_t> type_of(std::string_view typed)
@@ -144,12 +133,12 @@ std::vector<std::string_view> inputs_out_of_range(const Settings& settings)
     return names;
 }
 
-/// What is wrong with the gateway goes before what is wrong with the settings: those can be mended only by
-/// a user who can see that they are not all. A setting that no operator station would take goes before a
-/// TYPE that is merely another one.
+/// A fault of the gateway goes before a fault of the settings: those can be corrected only by a user who can
+/// see that they are not all. A setting that no operator station would take goes before a TYPE that is merely
+/// another one.
 OptionFault fault(const Settings& settings, const Hardware& hardware)
 {
-    if (!hardware.ports_open) return OptionFault::hardware;
+    if (!hardware.bus_works || !hardware.has_power) return OptionFault::hardware;
     if (!hardware.self_test_passed) return OptionFault::self_test;
     if (!inputs_out_of_range(settings).empty()) return OptionFault::parameter;
     return settings.type == kProfibusDp ? OptionFault::none : OptionFault::type_mismatch;

@@ -6,7 +6,7 @@
 
 namespace dpslave::tec {
 
-/// ">6AB5": four digits behind the mark of a hexadecimal number.
+/// Returns ">6AB5": four digits after the mark of a hexadecimal number.
 std::string shown_word(std::uint16_t word);
 
 } // namespace dpslave::tec

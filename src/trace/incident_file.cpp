@@ -71,7 +71,7 @@ Result<IncidentFile, std::string> read_incident(Bytes file)
     const Bytes said = file.subspan(checked.size());
     const auto computed = checksum_octets(crc);
     if (!std::equal(said.begin(), said.end(), computed.begin()))
-        return Failure{std::string{"it is cut off or damaged: its check sum is wrong"}};
+        return Failure{std::string{"it is cut off or damaged: its checksum is wrong"}};
     Bytes rest = checked.subspan(begin);
     const IncidentFile read{.head = *head, .records = rest};
     while (take_record(rest)) {

@@ -41,7 +41,7 @@ Ring::Ring(std::size_t octets)
     words_ = std::make_unique_for_overwrite<std::uint64_t[]>(capacity_);
 }
 
-/// Released, so that who reads this word finds begin_ moved. On x86 this is a plain store.
+/// The store releases, so that who reads this word finds begin_ moved. On x86 this is a plain store.
 void Ring::write(std::uint64_t at, std::uint64_t value) noexcept
 {
     word(at).store(value, std::memory_order_release);
@@ -92,7 +92,8 @@ Ring::Reader::Reader(const Ring& ring, From from) : ring_(&ring)
     expected_ = count;
 }
 
-/// Copies what lies at at_. False: the writer has come to it meanwhile, and the copy is worth nothing.
+/// Copies the record at at_. It returns false if the writer has come to it meanwhile, and the copy is
+/// invalid.
 bool Ring::Reader::copy(Record& into) const
 {
     const auto read = [this](std::uint64_t at) { return ring_->word(at).load(std::memory_order_acquire); };

@@ -71,7 +71,7 @@ void put_layout(Ring& ring, std::uint32_t station, const Layout& layout, Instant
 {
     Octets octets = begun(kLayout, layout.count, {station, layout.generation});
     for (std::size_t i = 0; i < layout.count; ++i) {
-        const Parameter& one = layout.parameters[i];
+        const LayoutEntry& one = layout.parameters[i];
         octets.push16(one.tag);
         octets.push(static_cast<std::uint8_t>((one.reads ? kReads : 0) | (one.writes ? kWrites : 0)));
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpslave/trace/telegrams.hpp"
 
+#include "begin.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -14,11 +16,72 @@ std::chrono::nanoseconds wire_time(std::size_t characters, Baud baud)
 
 } // namespace
 
+/// Octets are held until it is known where they begin.
 void Telegrams::add(const Record& record)
+{
+    is_at_begin_ ? add_at_begin(record) : go_on(record);
+}
+
+void Telegrams::add_at_begin(const Record& record)
+{
+    if (record.head.kind == Kind::asked || record.head.kind == Kind::answered ||
+        record.head.kind == Kind::no_answer || record.head.kind == Kind::line)
+        return;
+    const bool is_more =
+        record.head.kind == Kind::heard && (held_.empty() || held_.front().head.rate == record.head.rate);
+    if (!is_more) {
+        begin(*cut_off(held_octets_, Behind::silence));
+        return go_on(record);
+    }
+    held_.push_back(record);
+    const Bytes octets = record.octets;
+    held_octets_.insert(held_octets_.end(), octets.begin(), octets.end());
+    if (const auto cut = cut_off(held_octets_, Behind::more)) begin(*cut);
+}
+
+/// The first `cut` octets of what is held are the end of a telegram. The octets after them are heard as ever.
+void Telegrams::begin(std::size_t cut)
+{
+    is_at_begin_ = false;
+    held_octets_.clear();
+    Entry entry;
+    for (Record& record : std::exchange(held_, {})) {
+        const std::size_t of_it = std::min(cut, record.octets.size());
+        if (of_it != 0) {
+            emit_cut(record, of_it, entry);
+            cut -= of_it;
+            if (cut == 0) done_.push_back(std::move(entry));
+            const Bytes rest = Bytes{record.octets}.subspan(of_it);
+            if (rest.empty()) continue;
+            record.octets.assign(std::vector<std::uint8_t>(rest.begin(), rest.end()));
+        }
+        go_on(record);
+    }
+}
+
+/// The first `count` octets of the record belong to `entry`, which goes on in it.
+void Telegrams::emit_cut(const Record& record, std::size_t count, Entry& entry)
+{
+    if (entry.octets.empty()) {
+        entry = simple(Entry::What::cut, {});
+        entry.baud = kBauds[std::min<std::size_t>(record.head.rate, kBauds.size() - 1)];
+    }
+    const std::size_t all = record.octets.size();
+    const Bytes of_it = Bytes{record.octets}.first(count);
+    entry.octets.insert(entry.octets.end(), of_it.begin(), of_it.end());
+    entry.at = record.head.at;
+    entry.last = record.head.at - wire_time(all - count, entry.baud);
+    const Instant begun = entry.last - wire_time(entry.octets.size(), entry.baud);
+    entry.first = entry.octets.size() == count ? begun : std::min(entry.first, begun);
+    entry.uncertainty = uncertainty_of(all, record.head.at);
+    read_before_ = count == all ? record.head.at : read_before_ + wire_time(count, entry.baud);
+}
+
+void Telegrams::go_on(const Record& record)
 {
     const Baud baud = kBauds[std::min<std::size_t>(record.head.rate, kBauds.size() - 1)];
     if (baud != baud_ || !knows_rate_) {
-        emit_rest();
+        emit_rest(Entry::What::piece);
         baud_ = baud;
         receiver_.restart(baud);
         knows_rate_ = true;
@@ -53,8 +116,10 @@ void Telegrams::add(const Record& record)
 
 void Telegrams::lost(std::uint64_t count, Instant at)
 {
-    emit_rest();
+    if (is_at_begin_) begin(*cut_off(held_octets_, Behind::gap));
+    emit_rest(flaw_ ? Entry::What::piece : Entry::What::cut);
     receiver_.restart(baud_);
+    is_at_begin_ = true;
     Entry entry = simple(Entry::What::lost, at);
     entry.count = count;
     done_.push_back(std::move(entry));
@@ -62,6 +127,10 @@ void Telegrams::lost(std::uint64_t count, Instant at)
 
 void Telegrams::pass_time(Instant now)
 {
+    if (is_at_begin_) {
+        if (held_.empty() || now - held_.back().head.at < fdl::silence_limit(Baud::k9_6)) return;
+        begin(*cut_off(held_octets_, Behind::silence));
+    }
     while (receiver_.on_time(now)) take_heard();
 }
 
@@ -73,7 +142,8 @@ std::optional<Entry> Telegrams::take()
     return next;
 }
 
-/// As Layer2 does it. When it looked at the time is a record of its own: a bus thread that read late has not.
+/// The octets are judged as Layer2 does it. A record of its own says when Layer2 looked at the time: a bus
+/// thread that read late has not looked.
 void Telegrams::hear(Bytes octets, bool is_bad, const Record& record)
 {
     if (octets.empty()) return;
@@ -130,11 +200,11 @@ void Telegrams::emit(Entry::What what, std::uint64_t end)
     done_.push_back(std::move(entry));
 }
 
-/// What no telegram can become of any more: another rate, a gap in the records, or a reply of ours.
-void Telegrams::emit_rest()
+/// Ends the octets that can become no telegram any more: because of another rate, or a gap in the records.
+void Telegrams::emit_rest(Entry::What what)
 {
     const std::uint64_t all = emitted_ + characters_.size();
-    emit(Entry::What::piece, all);
+    emit(what, all);
 }
 
 /// A read gives characters that came since the one before: no sooner than they fit on the line, and no longer

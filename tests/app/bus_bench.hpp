@@ -3,11 +3,11 @@
 /// for with a bound, never for a fixed time.
 #pragma once
 
-#include "allocations.hpp"
 #include "app/bus/bus_thread.hpp"
 #include "config/config_bench.hpp"
 #include "io/pty.hpp"
 #include "stand_in_uart.hpp"
+#include "support/allocations.hpp"
 #include "support/wire.hpp"
 
 #include "dpslave/io/clock.hpp"
@@ -114,7 +114,7 @@ protected:
     struct Options {
         std::optional<Baud> baud = Baud::k500;
         io::Direction direction = io::Direction::rts;
-        fdl::EchoMode echo = fdl::EchoMode::off;
+        EchoMode echo = EchoMode::off;
         bool listen = false;
     };
 

@@ -2,7 +2,7 @@
 /// A station as the main thread sees it, made by hand.
 #pragma once
 
-#include "app/main/device_state.hpp"
+#include "app/state/device_news.hpp"
 
 #include <initializer_list>
 #include <memory>
@@ -77,6 +77,12 @@ public:
             ++i;
         }
     }
+    /// What the device makes of it, and what is told of it.
+    void update(app::EmulatedDevice& device)
+    {
+        device.update(view, bus);
+        news.update(view, device, bus);
+    }
     void drive_is_lost()
     {
         view.drive.answers = false;
@@ -88,6 +94,7 @@ public:
     config::LineConfig line;
     app::Station view;
     app::BusSnapshot bus;
+    app::DeviceNews news;
 
 private:
     std::shared_ptr<profile::Profile> profile_ = std::make_shared<profile::Profile>();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which incidents are kept, on a simulated clock.
+// Tests which incidents are kept, on a simulated clock.
 #include "app/incident/book.hpp"
 
 #include <gmock/gmock.h>

@@ -304,27 +304,27 @@ TEST_F(IncidentFolder, IsReadInPiecesThatMakeTheFile)
 TEST(Burst, BeginsWithTenWithinASecond)
 {
     Burst burst;
-    EXPECT_FALSE(burst.look(1000, kAt)) << "what was counted before is no burst";
-    EXPECT_FALSE(burst.look(1009, kAt + milliseconds{900}));
-    EXPECT_TRUE(burst.look(1010, kAt + milliseconds{1000}));
+    EXPECT_FALSE(burst.count(1000, kAt)) << "what was counted before is no burst";
+    EXPECT_FALSE(burst.count(1009, kAt + milliseconds{900}));
+    EXPECT_TRUE(burst.count(1010, kAt + milliseconds{1000}));
 }
 
 TEST(Burst, IsNoneWhenTheyComeSlowly)
 {
     Burst burst;
     for (int second = 0; second < 1000; ++second)
-        EXPECT_FALSE(burst.look(static_cast<std::uint64_t>(second) * 8, kAt + seconds{second}));
+        EXPECT_FALSE(burst.count(static_cast<std::uint64_t>(second) * 8, kAt + seconds{second}));
 }
 
 TEST(Burst, LastsUntilASecondWithout)
 {
     Burst burst;
-    burst.look(0, kAt);
-    EXPECT_TRUE(burst.look(50, kAt + milliseconds{100}));
+    burst.count(0, kAt);
+    EXPECT_TRUE(burst.count(50, kAt + milliseconds{100}));
     for (int i = 2; i < 50; ++i)
-        EXPECT_FALSE(burst.look(static_cast<std::uint64_t>(i) * 50, kAt + milliseconds{100 * i}));
-    EXPECT_FALSE(burst.look(49 * 50, kAt + seconds{7}));
-    EXPECT_TRUE(burst.look(49 * 50 + 10, kAt + milliseconds{7100}));
+        EXPECT_FALSE(burst.count(static_cast<std::uint64_t>(i) * 50, kAt + milliseconds{100 * i}));
+    EXPECT_FALSE(burst.count(49 * 50, kAt + seconds{7}));
+    EXPECT_TRUE(burst.count(49 * 50 + 10, kAt + milliseconds{7100}));
 }
 
 // ---------------------------------------------------------------- the thread of the disk

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/drive/line_probe.hpp"
+// The search of `dpctl doctor --probe`. Its plan and its judgement: tests/drive/search.
+#include "app/line/line_probe.hpp"
+#include "app/links/probe_report.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <set>
+#include <gmock/gmock.h>
 
 namespace dpslave::app {
 namespace {
 
-using drive::UnitAddress;
+using drive::MnemonicRule;
+using drive::Sight;
+using testing::ElementsAre;
 
 config::LineConfig line(std::string_view protocol, std::uint32_t baud)
 {
@@ -20,34 +21,23 @@ config::LineConfig line(std::string_view protocol, std::uint32_t baud)
     return config;
 }
 
-bool asks(const ProbeTry& one, UnitAddress unit)
+config::StationConfig station(std::vector<drive::Tag> rows)
 {
-    return std::find(one.units.begin(), one.units.end(), unit) != one.units.end();
+    config::StationConfig config;
+    config.unit = {.group = 0, .unit = 5};
+    config.tags = std::make_shared<drive::TagTable>(std::move(rows));
+    return config;
 }
 
-TEST(LineProbe, AsksEveryUsualUnitAtTheLinesOwnSettingsFirst)
-{
-    const auto plan = probe_plan(line(config::kEiAscii, 19200), {.group = 2, .unit = 3});
-
-    EXPECT_EQ(plan[0].baud, 19200U);
-    EXPECT_EQ(plan[0].format, (config::LineFormat{7, 'E', 1}));
-    EXPECT_EQ(plan[0].units.front(), (UnitAddress{.group = 2, .unit = 3}));
-    EXPECT_TRUE(asks(plan[0], {.group = 0, .unit = 0}));
-    EXPECT_TRUE(asks(plan[0], {.group = 7, .unit = 15}));
-}
-
-TEST(LineProbe, AsksEachOtherPairOfRateAndFormatOnceWithThisUnitAndTheFirst)
+TEST(LineProbe, BeginsWithTheSettingsOfTheLineAndTheUnitOfTheStation)
 {
     for (const std::string_view protocol : {config::kEiAscii, config::kModbusRtu}) {
-        const auto plan = probe_plan(line(protocol, 9600), {.group = 0, .unit = 5});
-        std::set<std::pair<std::uint32_t, char>> seen;
-        for (const ProbeTry& one : plan) {
-            const char format = static_cast<char>(one.format.data_bits * 16 + one.format.parity % 16);
-            EXPECT_TRUE(seen.emplace(one.baud, format).second) << protocol << one.baud;
-            EXPECT_TRUE(asks(one, {.group = 0, .unit = 5}));
-        }
-        EXPECT_GE(plan.size(), 24U);
-        EXPECT_EQ(plan[1].units.size(), 2U);
+        const auto first = probe_search(line(protocol, 19200), station({}), {}).next();
+
+        ASSERT_TRUE(first);
+        EXPECT_EQ(drive::name(first->setting.protocol), protocol);
+        EXPECT_EQ(first->setting.baud, 19200U);
+        EXPECT_EQ(first->unit, (drive::UnitAddress{.group = 0, .unit = 5}));
     }
 }
 
@@ -60,25 +50,36 @@ TEST(LineProbe, WaitsNoLongerForAnAnswerThanTheLineAndNeverForLong)
     EXPECT_EQ(probe_timeout(config), std::chrono::milliseconds{100});
 }
 
-TEST(LineProbe, SaysHowLongItTakesAtMost)
+TEST(LineProbe, TakesAFewMinutesAtMost)
 {
-    config::LineConfig config = line(config::kModbusRtu, 9600);
-    config.timeout = std::chrono::milliseconds{200};
-    const std::vector<ProbeTry> plan{
-        {9600, config.format, {{.group = 0, .unit = 1}, {.group = 0, .unit = 2}}},
-        {1200, config.format, {{.group = 0, .unit = 1}}}};
-    const ProbeLength length = length_of(plan, config);
-    EXPECT_EQ(length.questions, 3U);
-    EXPECT_GE(length.longest, std::chrono::seconds{1}) << "3 times 200 ms, and characters at 1200 bit/s";
-    EXPECT_LE(length.longest, std::chrono::seconds{2});
-    EXPECT_LE(length_of(probe_plan(config, {.group = 0, .unit = 5}), config).longest,
-              std::chrono::seconds{60});
+    for (const std::string_view protocol : {config::kEiAscii, config::kModbusRtu})
+        EXPECT_LE(probe_search(line(protocol, 9600), station({}), {}).longest(), std::chrono::minutes{4});
 }
 
-TEST(LineProbe, NamesAUnitAsTheConfigurationDoes)
+TEST(LineProbe, ReportsUnderWhichRuleTheTagsOfTheStationAnswer)
 {
-    EXPECT_EQ(unit_text(line(config::kEiAscii, 9600), {.group = 1, .unit = 10}), "1A");
-    EXPECT_EQ(unit_text(line(config::kModbusRtu, 9600), {.group = 0, .unit = 10}), "10");
+    drive::LineSearch search = probe_search(line(config::kEiAscii, 9600),
+                                            station({drive::unlisted_tag(55), drive::unlisted_tag(56)}), {});
+    // The drive follows the rule of the AC drives: 55 is 1j, 56 is 1k.
+    while (const auto question = search.next()) {
+        const std::string mnemonic{question->look.mnemonic.begin(), question->look.mnemonic.end()};
+        const bool is_this = question->unit.unit == 5 && question->unit.group == 0;
+        if (is_this && (mnemonic == "II" || mnemonic == "1j" || mnemonic == "1k"))
+            search.take({Sight::Kind::value, ">2650"});
+        else
+            search.take({is_this ? Sight::Kind::denied : Sight::Kind::silence, {}});
+    }
+    ProbeReport report;
+    put_found(search, report);
+
+    ASSERT_EQ(report.count, 1U);
+    const drive::FoundUnit found = found_of(report.answers[0]);
+    EXPECT_EQ(found.identity, ">2650");
+    EXPECT_EQ(found.version, std::nullopt);
+    EXPECT_THAT(drive::best_rules(found.rules), ElementsAre(MnemonicRule::ac));
+    ASSERT_EQ(found.rules.size(), 3U);
+    EXPECT_THAT(found.rules[0].denied, ElementsAre(55, 56));
+    EXPECT_THAT(found.rules[1].answering, ElementsAre(55, 56));
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a new configuration means for a program that runs.
-#include "app/main/reload_plan.hpp"
+// Tests what a new configuration means for a program that runs.
+#include "app/reload/reload_plan.hpp"
 #include "config/config_bench.hpp"
 
 namespace dpslave {

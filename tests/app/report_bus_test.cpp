@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Who is on the bus, as the control interface reports it.
-#include "app/main/report.hpp"
+#include "app/state/report.hpp"
 #include "control/interface.hpp"
 
 #include <gtest/gtest.h>

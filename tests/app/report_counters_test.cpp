@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The counters, as the control interface reports them.
-#include "app/main/report.hpp"
+#include "app/state/report.hpp"
 #include "control/interface.hpp"
 
 #include <gtest/gtest.h>

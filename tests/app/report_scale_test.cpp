@@ -35,12 +35,16 @@ protected:
         bench.view.drive.answer_texts[0] = {};
         answer.copy(bench.view.drive.answer_texts[0].data(), answer.size());
     }
-    void exchange_runs() { bench.view.bus.stat_diag = bench.view.bus.holds = false; }
+    void exchange_runs()
+    {
+        bench.view.bus.stat_diag = false;
+        bench.view.bus.hold = StartHold::none;
+    }
     std::vector<std::string> news()
     {
-        device.look(bench.view, bench.bus);
+        bench.update(device);
         std::vector<std::string> texts;
-        for (const app::Sentence& one : device.take_news()) texts.push_back(one.text);
+        for (const app::Sentence& one : bench.news.take()) texts.push_back(one.text);
         return texts;
     }
     void has_row(bool confirmed, bool decimals_known)
@@ -53,12 +57,12 @@ protected:
     }
 
     test::DeviceBench bench;
-    app::DeviceState device{bench.station};
+    app::EmulatedDevice device{bench.station};
 };
 
 TEST_F(UnknownScale, ThatHoldsTheStartIsReportedWithTagAnswerAndWhatToDo)
 {
-    bench.view.bus.holds = true;
+    bench.view.bus.hold = StartHold::unscaled;
     EXPECT_THAT(
         app::scale_words(bench.view).value_or(""),
         AllOf(HasSubstr("Data exchange does not start: the scale of tag 55 (answers '12.5') is not known"),
@@ -69,7 +73,7 @@ TEST_F(UnknownScale, ThatHoldsTheStartIsReportedWithTagAnswerAndWhatToDo)
 TEST_F(UnknownScale, IsReportedOnceAndAsAHoldAlsoInTheMomentBeforeTheBusSideHasIt)
 {
     EXPECT_THAT(news(), ElementsAre(HasSubstr("Data exchange does not start")));
-    bench.view.bus.holds = true;
+    bench.view.bus.hold = StartHold::unscaled;
     EXPECT_THAT(news(), IsEmpty());
 }
 
@@ -77,14 +81,14 @@ TEST_F(UnknownScale, OfAStationThatGoesOnWithoutReadsZero)
 {
     bench.station.unscaled_holds = false;
     EXPECT_THAT(app::scale_words(bench.view).value_or(""),
-                HasSubstr("Inputs read 0 and outputs are not written"));
+                HasSubstr("Inputs are held (0 if never read) and outputs are not written"));
 }
 
-TEST_F(UnknownScale, FoundOutLaterReadsZero)
+TEST_F(UnknownScale, FoundOutLaterIsHeld)
 {
     exchange_runs();
     EXPECT_THAT(app::scale_words(bench.view).value_or(""),
-                HasSubstr("Inputs read 0 and outputs are not written"));
+                HasSubstr("Inputs are held (0 if never read) and outputs are not written"));
 }
 
 TEST_F(UnknownScale, OfARowThatAnAnswerContradictsStaysRefusedUntilTheRowIsCorrected)
@@ -103,7 +107,8 @@ TEST_F(UnknownScale, IsOverWhenTheTagHasOne)
     found(AccessError::none, "");
     EXPECT_THAT(news(), IsEmpty()) << "not before the exchange has begun";
     exchange_runs();
-    EXPECT_THAT(news(), ElementsAre(HasSubstr("every tag that the master has chosen has a scale")));
+    EXPECT_THAT(news(), ElementsAre(HasSubstr(
+                            "the drive has every tag that the master has chosen, and its scale is known")));
 }
 
 TEST_F(UnknownScale, IsNotOverBecauseTheMasterHasLeft)
@@ -150,6 +155,57 @@ TEST_F(UnknownScale, OfTripsIsReportedInTheDiagnosisOfABox)
     EXPECT_THAT(trouble(), Not(says_so));
     bench.station.tec->trip.bit.tag = 0;
     EXPECT_THAT(trouble(), says_so);
+}
+
+/// The master has chosen the tags 55 and 56, and the drive denies 55.
+class DeniedTags : public testing::Test {
+protected:
+    DeniedTags()
+    {
+        bench.view.bus.state = dp::State::data_exch;
+        bench.view.bus.stat_diag = true;
+        bench.view.bus.hold = StartHold::denied;
+        bench.view.bus.layout.generation = bench.view.drive.generation = 3;
+        bench.view.bus.layout.count = 2;
+        bench.view.bus.layout.parameters[0] = {.tag = 55, .reads = true, .writes = false};
+        bench.view.bus.layout.parameters[1] = {.tag = 56, .reads = false, .writes = true};
+        bench.view.drive.known = bench.view.drive.answers = true;
+        bench.view.drive.states[0] = WordState::invalid_tag;
+        std::string_view{"EE >01C7"}.copy(bench.view.drive.answer_texts[0].data(), 8);
+        bench.profile().mnemonics = drive::MnemonicRule::dc_590plus;
+        bench.profile().mnemonics_assumed = true;
+    }
+
+    test::DeviceBench bench;
+    app::EmulatedDevice device{bench.station};
+};
+
+TEST_F(DeniedTags, ThatHoldTheStartAreReportedWithWhatTheDriveSaidAndWhatToCheck)
+{
+    EXPECT_THAT(app::denied_words(bench.view).value_or(""),
+                AllOf(HasSubstr("Data exchange does not start: the drive denies tag 55 (says 'EE >01C7')"),
+                      HasSubstr("mnemonic rule 590plus (assumed), profile "),
+                      HasSubstr("or set denied_tags = \"zero\""), HasSubstr("dpctl reload")));
+    EXPECT_EQ(json_of(app::station_report(bench.view, Instant{})).at("held_because"),
+              "the drive denies a tag");
+    bench.update(device);
+    const auto news = bench.news.take();
+    ASSERT_EQ(news.size(), 1U);
+    EXPECT_THAT(news[0].text, HasSubstr("the drive denies tag 55"));
+}
+
+TEST_F(DeniedTags, WhereAllAreDeniedTheyAreNamedWithoutAHoldToo)
+{
+    bench.view.bus.stat_diag = false;
+    bench.view.bus.hold = StartHold::none;
+    EXPECT_FALSE(app::denied_words(bench.view)) << "one of two: the list of refused tags names it";
+    bench.view.drive.states[1] = WordState::invalid_tag;
+
+    EXPECT_THAT(app::denied_words(bench.view).value_or(""),
+                AllOf(HasSubstr("the drive denies every chosen tag: tag 55"), HasSubstr("unit ")));
+    EXPECT_EQ(json_of(app::denied_report(bench.view)),
+              json::parse(R"([{"tag":55,"direction":"in","answer":"EE >01C7"},
+                              {"tag":56,"direction":"out","answer":""}])"));
 }
 
 } // namespace

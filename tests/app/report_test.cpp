@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the control socket shows of the device types.
+// Tests what the control socket shows of the device types.
 #include "control/interface.hpp"
 #include "device_bench.hpp"
 
@@ -168,6 +168,19 @@ TEST_F(Report, OfInfoNamesTheSoftwareOfTheOptionAndTheAddressInForce)
     EXPECT_EQ(json_of(app::station_report(bench.view, Instant{})).at("address"), 7);
 }
 
+TEST_F(Report, OfInfoSaysWhereTheMnemonicsComeFrom)
+{
+    EXPECT_TRUE(json_of(app::info_report(bench.view, std::nullopt, {})).at("mnemonic_rule").is_null());
+
+    bench.profile().mnemonics = drive::MnemonicRule::dc_590plus;
+    bench.profile().mnemonic_source = "590+ formula";
+    bench.profile().mnemonics_assumed = true;
+    const json info = json_of(app::info_report(bench.view, std::nullopt, {}));
+    EXPECT_EQ(info.at("mnemonic_rule"), "590plus");
+    EXPECT_EQ(info.at("mnemonic_source"), "590+ formula");
+    EXPECT_EQ(info.at("mnemonics_assumed"), true);
+}
+
 TEST_F(Report, OfInfoCountsNoMoreOctetsThanTheWordsOfTheDevice)
 {
     bench.personality().max_parameters = 117;
@@ -180,7 +193,7 @@ TEST_F(Report, OfInfoRepeatsWhatTheFunctionBlockWarnsOf)
 {
     bench.is_a_box();
     bench.station.tec->start.ride_through = 5;
-    const app::DeviceState device{bench.station};
+    const app::EmulatedDevice device{bench.station};
 
     const json info = json_of(app::info_report(bench.view, std::nullopt, device.notes()));
     EXPECT_EQ(control::reply_mismatch("GetInfo", {{"stations", json::array({info})}}), std::nullopt);
@@ -209,8 +222,8 @@ TEST_F(Report, OfLampsDistinguishesTheThreeFlashesOfABox)
 TEST_F(Report, OfTheFunctionBlockIsAsTheInterfaceDescribesIt)
 {
     bench.is_a_box();
-    app::DeviceState device{bench.station};
-    device.look(bench.view, bench.bus);
+    app::EmulatedDevice device{bench.station};
+    bench.update(device);
 
     const json tec = json_of(app::tec_report("unwinder", device));
     EXPECT_EQ(control::reply_mismatch("GetTec", {{"stations", json::array({tec})}}), std::nullopt);
@@ -222,19 +235,19 @@ TEST_F(Report, OfTheFunctionBlockIsAsTheInterfaceDescribesIt)
     EXPECT_EQ(tec.at("rows")[0].at("shown"), "PROFIBUS DP");
 
     bench.drive_reads({1, 0});
-    device.look(bench.view, bench.bus);
+    bench.update(device);
     EXPECT_EQ(json_of(app::tec_report("unwinder", device)).at("trip"), "1: LINK OVERVOLTS");
     EXPECT_EQ(json_of(app::tec_report("unwinder", device)).at("tripped"), true);
 
-    ASSERT_FALSE(device.set("TYPE", "1"));
+    ASSERT_FALSE(device.tec()->set("TYPE", "1"));
     EXPECT_EQ(json_of(app::tec_report("unwinder", device)).at("view"), "generic");
 }
 
 TEST_F(Report, OfTheFunctionBlockHasTheNonSpecificNameOfEachRowWhateverTypeIs)
 {
     bench.is_a_box();
-    app::DeviceState device{bench.station};
-    device.look(bench.view, bench.bus);
+    app::EmulatedDevice device{bench.station};
+    bench.update(device);
     const auto generic_names = [&] {
         std::vector<std::string> names;
         const json tec = json_of(app::tec_report("unwinder", device));
@@ -245,7 +258,7 @@ TEST_F(Report, OfTheFunctionBlockHasTheNonSpecificNameOfEachRowWhateverTypeIs)
                                    "VERSION", "OUTPUT 1", "OUTPUT 2");
 
     EXPECT_THAT(generic_names(), names) << "TYPE is PROFIBUS DP";
-    ASSERT_FALSE(device.set("TYPE", "1"));
+    ASSERT_FALSE(device.tec()->set("TYPE", "1"));
     EXPECT_THAT(generic_names(), names);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The samples of a drive line: which moments a drive thread keeps, and what GetSamples makes of them.
-#include "app/drive/sampler.hpp"
-#include "app/watch/samples.hpp"
+#include "app/calls/samples.hpp"
+#include "app/line/sampler.hpp"
 #include "control/interface.hpp"
 
 #include <gmock/gmock.h>
@@ -16,11 +16,11 @@ using testing::IsEmpty;
 constexpr Instant kFirst{1000s};
 constexpr std::chrono::nanoseconds kUnixStart = 1'700'000'000s; ///< the same moment
 
-Layout layout_of(Generation generation, std::initializer_list<Parameter> parameters)
+Layout layout_of(Generation generation, std::initializer_list<LayoutEntry> parameters)
 {
     Layout layout;
     layout.generation = generation;
-    for (const Parameter& one : parameters) layout.parameters[layout.count++] = one;
+    for (const LayoutEntry& one : parameters) layout.parameters[layout.count++] = one;
     return layout;
 }
 
@@ -59,7 +59,7 @@ protected:
     void now_is(Instant at)
     {
         now = at;
-        sampler.look(station.number, drive, ended, ring, now);
+        sampler.sample(station.number, drive, ended, ring, now);
     }
     /// A round over the parameters is over, and these words are known.
     void refreshed(std::uint16_t speed, std::uint16_t demand = 0)
@@ -85,7 +85,7 @@ protected:
 
     trace::Ring ring{64 * 1024};
     Sampler sampler;
-    drive::UnitSnapshot drive;
+    drive::DriveSnapshot drive;
     Generation ended = 0;
     Station station;
     Instant now = kFirst;
@@ -215,13 +215,13 @@ TEST_F(SamplesOfALine, ComeInPartsThatMakeTheWhole)
     trace::Ring large{1024 * 1024};
     Sampler other;
     other.set_layout(station.bus.layout);
-    other.look(station.number, drive, ended, large, now);
+    other.sample(station.number, drive, ended, large, now);
     constexpr int kAll = 4500;
     for (int i = 0; i < kAll; ++i) {
         drive.words[0] = static_cast<std::uint16_t>(i);
         drive.refresh_ms.add(1);
         now += 1ms;
-        other.look(station.number, drive, ended, large, now);
+        other.sample(station.number, drive, ended, large, now);
     }
     int expected = 0, parts = 0;
     SampleQuestion question{.tag = 55};

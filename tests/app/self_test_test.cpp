@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the program tests of itself at the start (B-006).
+/// Tests what the program tests of itself at the start (B-006).
 #include "app/main/self_test.hpp"
 
 #include <gmock/gmock.h>

@@ -21,6 +21,7 @@ namespace {
 std::atomic<bool> active{false};
 std::atomic<bool> refusing{false};
 std::atomic<Shift> shift{Shift::unknown};
+std::atomic<Instant> busy_until{kNever};
 std::atomic<int> held_back{0};
 std::atomic<Instant> held_until{kNever};
 std::atomic<unsigned> flushed{0};
@@ -48,7 +49,8 @@ int line_status(unsigned* into)
         errno = ENOTTY;
         return -1;
     }
-    *into = shift == Shift::empty ? unsigned{TIOCSER_TEMT} : 0U;
+    const bool is_empty = shift == Shift::empty || io::monotonic_now() >= busy_until.load();
+    *into = is_empty ? unsigned{TIOCSER_TEMT} : 0U;
     return 0;
 }
 
@@ -66,8 +68,9 @@ void refuse_edges(bool refuse)
 {
     refusing = refuse;
 }
-void shift_register(Shift says)
+void shift_register(Shift says, Instant until)
 {
+    busy_until = until;
     shift = says;
 }
 void hold_back(int octets, Instant until)

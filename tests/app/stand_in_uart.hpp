@@ -20,7 +20,8 @@ enum class Shift { unknown, empty, busy }; ///< what TIOCSERGETLSR says; unknown
 /// Inactive, no edge yet, the shift register unknown, nothing refused.
 void reset();
 void refuse_edges(bool refuse); ///< EIO, as of a device that has gone
-void shift_register(Shift says);
+/// busy: until then, from there on empty.
+void shift_register(Shift says, Instant until = kNever);
 /// TIOCOUTQ says so until they are flushed, or gone by `until`; 0: as the pty.
 void hold_back(int octets, Instant until = kNever);
 unsigned flushes(); ///< of what was held back

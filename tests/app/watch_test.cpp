@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the commands that watch ask the daemon: events, names of tags, the level of the log.
-#include "app/watch/drive_news.hpp"
-#include "app/watch/event_history.hpp"
-#include "app/watch/event_streams.hpp"
-#include "app/watch/log_level.hpp"
-#include "app/watch/tag_names.hpp"
+// Tests what the commands that watch ask the daemon: events, names of tags, the level of the log.
+#include "app/calls/event_streams.hpp"
+#include "app/calls/tag_names.hpp"
+#include "app/log/log_level.hpp"
+#include "app/state/recent_events.hpp"
 #include "control/interface.hpp"
 
 #include <gmock/gmock.h>
@@ -22,16 +21,16 @@ constexpr Instant kStart{seconds{1000}};
 
 // ---------------------------------------------------------------- events
 
-std::vector<std::string> texts(const EventHistory& history)
+std::vector<std::string> texts(const RecentEvents& history)
 {
     std::vector<std::string> all;
     for (const auto& one : history.events()) all.push_back(one.text);
     return all;
 }
 
-TEST(EventHistory, HasTheNewestLastWithNumbersFrom1)
+TEST(RecentEvents, HasTheNewestLastWithNumbersFrom1)
 {
-    EventHistory history;
+    RecentEvents history;
     history.add(Happened::state, "unwinder", "first", kStart);
     history.add(Happened::port, {}, "second", kStart + seconds{1});
 
@@ -41,9 +40,9 @@ TEST(EventHistory, HasTheNewestLastWithNumbersFrom1)
     EXPECT_EQ(history.newest(), 2u);
 }
 
-TEST(EventHistory, KeepsTheLastThousand)
+TEST(RecentEvents, KeepsTheLastThousand)
 {
-    EventHistory history;
+    RecentEvents history;
     for (int i = 1; i <= 1003; ++i) history.add(Happened::write, {}, std::to_string(i), kStart);
 
     EXPECT_EQ(history.events().size(), 1000u);
@@ -51,9 +50,9 @@ TEST(EventHistory, KeepsTheLastThousand)
     EXPECT_EQ(history.events().back().text, "1003");
 }
 
-TEST(EventHistory, CountsEqualOnesWithinTenSecondsOfTheFirst)
+TEST(RecentEvents, CountsEqualOnesWithinTenSecondsOfTheFirst)
 {
-    EventHistory history;
+    RecentEvents history;
     for (int i = 0; i < 11; ++i) {
         history.add(Happened::refused, "unwinder", "got " + std::to_string(i), "cause", kStart + seconds{i});
         history.add(Happened::refused, "rewinder", "other station", "cause", kStart + seconds{i});
@@ -66,9 +65,9 @@ TEST(EventHistory, CountsEqualOnesWithinTenSecondsOfTheFirst)
     EXPECT_EQ(history.events()[2].count, 1u) << "ten seconds later it is another one";
 }
 
-TEST(EventHistory, HasWhatGoesAndComesBackInItsOrder)
+TEST(RecentEvents, HasWhatGoesAndComesBackInItsOrder)
 {
-    EventHistory history;
+    RecentEvents history;
     for (const char* text : {"answers", "silent", "answers", "answers"})
         history.add(Happened::drive, "unwinder", text, kStart);
     history.add(Happened::state, "unwinder", "other kind", kStart);
@@ -78,9 +77,9 @@ TEST(EventHistory, HasWhatGoesAndComesBackInItsOrder)
     EXPECT_EQ(history.events()[2].count, 3u);
 }
 
-TEST(EventHistory, OfWhatGoesBackAndForthWithoutEndHasAFewInTenSeconds)
+TEST(RecentEvents, OfWhatGoesBackAndForthWithoutEndHasAFewInTenSeconds)
 {
-    EventHistory history;
+    RecentEvents history;
     for (int i = 0; i < 1000; ++i)
         history.add(Happened::state, "unwinder", i % 2 == 0 ? "Sync" : "Unsync", kStart + milliseconds{i});
 
@@ -88,9 +87,9 @@ TEST(EventHistory, OfWhatGoesBackAndForthWithoutEndHasAFewInTenSeconds)
     EXPECT_EQ(history.events()[6].count + history.events()[7].count, 994u);
 }
 
-TEST(EventHistory, CutsATextAndShowsNoControlCharacter)
+TEST(RecentEvents, CutsATextAndShowsNoControlCharacter)
 {
-    EventHistory history;
+    RecentEvents history;
     std::string longer;
     for (int i = 0; i < 300; ++i) longer += "\u00FC";
     history.add(Happened::device, {}, longer, kStart);
@@ -100,7 +99,7 @@ TEST(EventHistory, CutsATextAndShowsNoControlCharacter)
     EXPECT_EQ(history.events()[1].text, "a\\x0Ab");
 }
 
-TEST(EventHistory, HasAWordOfItsOwnForEachKind)
+TEST(RecentEvents, HasAWordOfItsOwnForEachKind)
 {
     std::set<std::string_view> codes;
     for (const Happened kind :
@@ -114,7 +113,7 @@ TEST(EventHistory, HasAWordOfItsOwnForEachKind)
 
 TEST(EventsReport, HasThoseBehindANumberAndOfOneStation)
 {
-    EventHistory history;
+    RecentEvents history;
     history.add(Happened::state, "unwinder", "one", kStart);
     history.add(Happened::state, "rewinder", "two", kStart);
     history.add(Happened::reload, {}, "three", kStart + seconds{2});
@@ -137,61 +136,14 @@ TEST(EventsReport, HasThoseBehindANumberAndOfOneStation)
 
 TEST(EventsReport, SaysHowManyTheListHasNoLonger)
 {
-    EventHistory history;
+    RecentEvents history;
     for (int i = 1; i <= 1010; ++i) history.add(Happened::write, {}, std::to_string(i), kStart);
 
     EXPECT_EQ(events_report(history, 0, {}, kStart).lost, 10);
     EXPECT_EQ(events_report(history, 4, {}, kStart).lost, 6);
     EXPECT_EQ(events_report(history, 10, {}, kStart).lost, 0);
     EXPECT_EQ(events_report(history, 2000, {}, kStart).lost, 0);
-    EXPECT_EQ(events_report(EventHistory{}, 0, {}, kStart).lost, 0);
-}
-
-// ---------------------------------------------------------------- drives
-
-class DriveNewsOfOne : public testing::Test {
-protected:
-    DriveNewsOfOne()
-    {
-        config::StationConfig config;
-        config.name = "unwinder";
-        line.port = "/dev/ttyS2";
-        station.config = std::make_shared<const config::StationConfig>(config);
-        station.line = &line;
-    }
-    /// What was added for this state of the drive.
-    std::vector<std::string> news(bool port_open, bool known, bool answers)
-    {
-        station.line_open = port_open;
-        station.drive.known = known;
-        station.drive.answers = answers;
-        EventHistory history;
-        looks.look({&station, 1}, history, kStart);
-        return texts(history);
-    }
-    config::LineConfig line;
-    Station station{};
-    DriveNews looks;
-};
-
-TEST_F(DriveNewsOfOne, AreThatItAnswersIsLostAndAnswersAgain)
-{
-    EXPECT_THAT(news(false, false, false), ElementsAre()) << "not open yet";
-    EXPECT_THAT(news(true, false, false), ElementsAre()) << "not asked yet";
-    EXPECT_THAT(news(true, true, true), ElementsAre("unwinder: the drive answers"));
-    EXPECT_THAT(news(true, true, true), ElementsAre());
-    EXPECT_THAT(news(true, true, false), ElementsAre("unwinder: the drive does not answer"));
-    EXPECT_THAT(news(true, true, true), ElementsAre("unwinder: the drive answers"));
-}
-
-TEST_F(DriveNewsOfOne, AreThatThePortOfItsLineIsGone)
-{
-    news(true, true, true);
-
-    EXPECT_THAT(news(false, true, true),
-                ElementsAre("unwinder: the port of the drive line, /dev/ttyS2, is gone or not open"));
-    EXPECT_THAT(news(false, true, false), ElementsAre());
-    EXPECT_THAT(news(true, true, false), ElementsAre("unwinder: the drive does not answer"));
+    EXPECT_EQ(events_report(RecentEvents{}, 0, {}, kStart).lost, 0);
 }
 
 // ---------------------------------------------------------------- names of tags

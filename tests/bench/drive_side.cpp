@@ -42,9 +42,9 @@ DriveSide::DriveSide(drive::Backend& backend, Instant& clock, bool compares)
       poller_(settings(compares), backend.block_rule())
 {}
 
-std::vector<drive::UnitSettings> DriveSide::settings(bool compares) const
+std::vector<drive::DriveSettings> DriveSide::settings(bool compares) const
 {
-    drive::UnitSettings unit;
+    drive::DriveSettings unit;
     unit.tags = &table_;
     unit.output_refresh = std::chrono::nanoseconds{0}; // every parameter in every cycle
     unit.compare_outputs = compares;
@@ -75,7 +75,7 @@ AccessError DriveSide::carry_out(const drive::Transaction& transaction)
         case Kind::write: return backend_.write(kUnit, *transaction.tag, transaction.words);
         case Kind::probe: break;
     }
-    return backend_.probe(kUnit) ? AccessError::none : AccessError::no_answer;
+    return backend_.probe(kUnit);
 }
 
 } // namespace dpslave::bench

@@ -40,7 +40,7 @@ struct EiAsciiDrive {
 /// The poller of one drive behind a back-end whose clock is `clock`.
 class DriveSide {
 public:
-    /// `compares`: UnitSettings::compare_outputs.
+    /// `compares`: DriveSettings::compare_outputs.
     DriveSide(drive::Backend& backend, Instant& clock, bool compares);
 
     drive::Poller& poller() { return poller_; }
@@ -50,7 +50,7 @@ public:
     std::chrono::nanoseconds cycle() const { return poller_.snapshot(0).cycle; }
 
 private:
-    std::vector<drive::UnitSettings> settings(bool compares) const;
+    std::vector<drive::DriveSettings> settings(bool compares) const;
     AccessError carry_out(const drive::Transaction& transaction);
 
     const drive::TagTable table_;

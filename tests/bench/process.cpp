@@ -123,7 +123,7 @@ std::vector<std::string> daemon_command(const Options& options, const Pty& bus, 
     for (std::size_t i = 0; i < lines.size(); ++i)
         out << fmt::format("[[line]]\nname = \"{0}\"\nport = \"{1}\"\nprotocol = \"ei-ascii\"\nbaud = 19200\n"
                            "[[station]]\nname = \"s{0}\"\naddress = {2}\nprofile = \"590\"\nline = \"{0}\"\n"
-                           "unit = \"00\"\n",
+                           "unit = \"00\"\nwhen_drive_lost = \"hold\"\n",
                            i, lines[i].name, kFirstStation + i);
     if (!out.flush()) throw std::runtime_error{file.string() + " cannot be written"};
     return {options.daemon, "--config", file, "--profiles", options.profiles};

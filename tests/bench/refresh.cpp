@@ -22,7 +22,7 @@ constexpr std::uint32_t kParityBits = 11; ///< of a Modbus character: 8E1
 
 /// A Modbus slave and its line. It answers when it has seen 3.5 characters of silence behind the request,
 /// which is how a frame ends (MODBUS over Serial Line V1.02, 2.5.1.1), and its turnaround is over.
-class ModbusLine final : public modbus::FrameLine {
+class ModbusLine final : public modbus::ModbusPort {
 public:
     explicit ModbusLine(std::uint32_t baud)
         : character_(std::int64_t{kParityBits} * std::nano::den / baud), words_{}
@@ -77,7 +77,7 @@ public:
 private:
     nanoseconds character_;
     std::array<std::uint16_t, kDemandTag + 1> words_; ///< by tag
-    std::vector<std::uint8_t> answer_;                ///< unit first, without check sum
+    std::vector<std::uint8_t> answer_;                ///< unit first, without checksum
     std::optional<Instant> answered_;
 };
 

@@ -55,7 +55,8 @@ void write_config(const DaemonSetup& setup, const fs::path& file)
         << "\"\nprotocol = \"ei-ascii\"\nbaud = 9600\n";
     for (std::size_t i = 0; i < setup.stations; ++i)
         out << "[[station]]\nname = \"bench" << i << "\"\naddress = " << kSlave + i
-            << "\nprofile = \"590\"\nline = \"p3\"\nunit = \"" << i / 10 << i % 10 << "\"\n";
+            << "\nprofile = \"590\"\nline = \"p3\"\nunit = \"" << i / 10 << i % 10
+            << "\"\nwhen_drive_lost = \"hold\"\n"; // there is none
     out << setup.keys;
     if (!out.flush()) throw std::runtime_error{file.string() + " cannot be written"};
 }
@@ -199,19 +200,6 @@ int reserve_cpu()
     CPU_CLR(last, &mine);
     if (::sched_setaffinity(0, sizeof mine, &mine) != 0) return -1;
     return static_cast<int>(last);
-}
-
-Folder::Folder()
-{
-    std::string name = (fs::temp_directory_path() / "dpslave-bench-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error{"no temporary folder"};
-    path_ = name;
-}
-
-Folder::~Folder()
-{
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
 }
 
 fs::path control_socket(const fs::path& folder)

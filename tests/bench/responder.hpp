@@ -2,6 +2,7 @@
 /// Who answers at the other end of a cable: the real daemon, or the least that can answer at all.
 #pragma once
 
+#include "support/folder.hpp"
 #include "wire.hpp"
 
 #include <sys/types.h>
@@ -52,18 +53,7 @@ int reserve_cpu();
 /// The line that switches the transceiver, of a chip that the stand-in of libgpiod plays.
 inline constexpr unsigned kDriverLine = 5;
 
-/// A folder that goes with its contents.
-class Folder {
-public:
-    Folder();
-    ~Folder();
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
+using ::dpslave::test::Folder;
 
 /// Starts the daemon with stations of profile 590, from address 5 on, on `bus` at 1.5 Mbit/s and a drive line
 /// on `drive`. It gives each reply as much time as a master can grant: a pause of the machine is a long

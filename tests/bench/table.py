@@ -1,22 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Joins what the programs of tools/bench have found into one table, judges it, and renews the page of the figures.
+"""Joins what the programs of tools/bench have found into one table, and judges it.
 
 Each FILE is what one program wrote: {"rows": [{"id", "metric", "blocks", "ratio", "aa", "aa_ratio", "aa_limits", "blocks_needed",
 "limit", "direction"}], "curves": {}}. Exit status: 0 every row is kept, 1 a row is broken or missing, 77 the machine was too noisy.
 """
 
 import argparse
-import datetime
 import json
 import pathlib
 import sys
 
-import pictures
-
 HERE = pathlib.Path(__file__).resolve().parent
-PAGE = HERE.parent.parent / "docs/internals/performance.md"
-OF_ANOTHER_COMMAND = "paced line"  # of tools/bench-refresh, which takes half a minute that the tests do not have
-BEGIN, END = "<!-- written by tools/bench --docs -->", "<!-- end -->"
+OF_ANOTHER_COMMAND = "paced line"  # of tools/run refresh, which takes half a minute that the tests do not have
 
 
 def known_rows() -> list[tuple[str, str]]:
@@ -68,25 +63,11 @@ def print_table(rows: list[dict]) -> None:
         print(f"{id:<4} {metric:<68} {ratio:>8} {error:>8} {limit:>8}  {judged}")
 
 
-def renew_page(rows: list[dict], curves: dict, machine: str) -> None:
-    text = PAGE.read_text(encoding="utf-8")
-    head, rest = text.split(BEGIN, 1)
-    tail = rest.split(END, 1)[1]
-    names = pictures.write(curves, PAGE.parent / "pictures")
-    lines = [f"![{words}](pictures/{name})\n" for name, words in names]
-    lines += [f"`tools/bench --docs` on {datetime.date.today().isoformat()}, {machine}:\n"]
-    lines += ["| | what | ratio | A/A | limit | |", "|---|---|---|---|---|---|"]
-    lines += [f"| {' | '.join(cells(row))} |" for row in rows]
-    PAGE.write_text(head + BEGIN + "\n" + "\n".join(lines) + "\n" + END + tail, encoding="utf-8")
-
-
 def main() -> int:
     parser = argparse.ArgumentParser(prog="tools/bench", description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("file", nargs="+", type=pathlib.Path)
     parser.add_argument("--json", type=pathlib.Path, help="one file with all rows and curves")
-    parser.add_argument("--docs", action="store_true", help="writes the table and the pictures into the page")
-    parser.add_argument("--machine", default="", help="for the page")
-    parser.add_argument("--names", action="store_true", help="compares the names of the rows only, without those of tools/bench-refresh")
+    parser.add_argument("--names", action="store_true", help="compares the names of the rows only, without those of tools/run refresh")
     words = parser.parse_args()
 
     found = [json.loads(file.read_text(encoding="utf-8")) for file in words.file]
@@ -100,8 +81,6 @@ def main() -> int:
     print("\n".join(faults))
     if words.json:
         words.json.write_text(json.dumps({"rows": rows, "curves": curves}, indent=1) + "\n", encoding="utf-8")
-    if words.docs:
-        renew_page(rows, curves, words.machine)
     judged = [verdict(row) for row in rows]
     if faults or "BROKEN" in judged:
         return 1

@@ -61,7 +61,7 @@ Octets slave_diag(std::uint8_t address, std::uint8_t fc)
 
 Octets set_prm(std::uint8_t address, std::uint8_t fc)
 {
-    Octets data{0x88, 100, 10, 11, 0x05, 0x33, 0x00};
+    Octets data{0x88, 100, 100, 11, 0x05, 0x33, 0x00}; // 100 s: each of 32 drives is found silent first
     for (std::uint8_t tag = 1; tag <= kParameters; ++tag) data.insert(data.end(), {0x00, tag});
     return with_saps(address, fc, 61, data);
 }

@@ -128,8 +128,9 @@ std::optional<Frame> DriveOfACapture::next_answer(std::size_t step, bool (*is_it
 std::size_t DriveOfACapture::input_octets() const
 {
     const auto* const begin = layout_.parameters.begin();
-    return 2 * static_cast<std::size_t>(std::count_if(
-                   begin, begin + layout_.count, [](const Parameter& parameter) { return parameter.reads; }));
+    return 2 *
+           static_cast<std::size_t>(std::count_if(
+               begin, begin + layout_.count, [](const LayoutEntry& parameter) { return parameter.reads; }));
 }
 
 } // namespace captures

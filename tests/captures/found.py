@@ -47,9 +47,10 @@ def stump():
 
 
 def sync_first():
-    """The drive is asked for nothing: no write is in the file."""
+    """The drive is asked whether it has the tag, and no more: no write is in the file."""
     c = example("sync-first", "under Sync the drive gets no 0 that no master has sent", "a9acc4d")
     example_starts(c, tags=(2,), identifiers="21", status="B8")
+    c.reads("o1", ">0000")
     owner, other = Master(c, 5, 2, 0x4711), Master(c, 5, 9, 0x4711)
     owner.fc = 0x7D
     owner.control(0x20)  # Sync, all
@@ -68,6 +69,7 @@ def never_written():
     """Set_Prm, Chk_Cfg and no Data_Exchange: no write is in the file."""
     c = example("never-written", "outputs that a master never sent are not set to 0 when it leaves", "f336f77")
     example_starts(c, tags=(2,), identifiers="21")
+    c.reads("o1", ">0000")
     owner = Master(c, 5, 2, 0x4711)
     owner.fc = 0x7D
     c.pause(300)
@@ -141,7 +143,7 @@ def exception_0():
 
 
 def refused_block():
-    """101, 102 and 104 are inputs, 103 is an output, which is not read before the first Data_Exchange: it is the middle, at which
+    """101, 102 and 104 are inputs, 103 is an output, which is read alone before the first Data_Exchange: it is the middle, at which
     the cut was made. The controller refuses to give 101 to 104 in one block."""
     c, master = controller("refused-block", "a refused block is cut where something is read", "")
     c.source = "9f07c50"
@@ -150,6 +152,7 @@ def refused_block():
         for function in (3, 4):
             c.drive(wire.rtu(1, function, *words(101, 4)), wire.rtu(1, 0x80 | function, 2))
         c.registers(101, 1111, 2222)
+        c.registers(103, 0)
         c.registers(104, 4444)
         c.registers(403, 0)
 

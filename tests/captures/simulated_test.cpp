@@ -56,7 +56,7 @@ private:
     static dp::Personality personality_of(const Station& station)
     {
         const auto profile = profile::load_profile(io::read_regular_file, station.profiles, station.profile);
-        if (!profile) throw std::runtime_error{toml::to_string(profile.error().at(0))};
+        if (!profile) throw std::runtime_error{input::to_string(profile.error().at(0))};
         dp::Personality personality = profile->personality;
         personality.ident = station.ident;
         return personality;

@@ -93,7 +93,7 @@ TEST(Wireshark, CallsEachTelegramOfACaptureAsDpctlTraceDoesAndFindsNoneMalformed
 
     for (const std::string link_type : {"profibus", "user0"}) {
         const std::string capture = gateway.folder(link_type + ".pcapng").string();
-        ASSERT_EQ(gateway.dpctl({"trace", "--write", capture, "--linktype", link_type}).status, 0);
+        ASSERT_EQ(gateway.dpctl({"trace", "--output", capture, "--linktype", link_type}).status, 0);
 
         expect_services(tshark(gateway, capture,
                                {"-Y", "frame.interface_name == \"bus\"", "-T", "fields", "-E", "separator=/t",
@@ -111,7 +111,7 @@ TEST(Wireshark, CallsEachTelegramOfACaptureAsDpctlTraceDoesAndFindsNoneMalformed
 void expect_frames(const Gateway& gateway, const std::string& field, const Arguments& words)
 {
     const std::string capture = gateway.folder("drive.pcapng").string();
-    ASSERT_EQ(gateway.dpctl({"trace", "--drive", "p3", "--write", capture}).status, 0);
+    ASSERT_EQ(gateway.dpctl({"trace", "--line", "p3", "--output", capture}).status, 0);
     const Outcome shown = tshark(gateway, capture,
                                  {"-T", "fields", "-E", "separator=/t", "-e", "frame.interface_name", "-e",
                                   "frame.packet_flags_direction", "-e", field, "-e", "frame.comment"});
@@ -131,7 +131,7 @@ TEST(Wireshark, CallsTheFramesOfAnEiAsciiLineAsTheyAreWithTheirJudgement)
     Master master{gateway, {"--tags", "55,56w"}};
     ASSERT_TRUE(master.does("start 30s"));
     ASSERT_TRUE(eventually([&] {
-        return gateway.dpctl({"trace", "--drive", "p3", "--bad"}).out.find("no answer") != std::string::npos;
+        return gateway.dpctl({"trace", "--line", "p3", "--bad"}).out.find("no answer") != std::string::npos;
     }));
 
     expect_frames(

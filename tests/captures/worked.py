@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The worked examples. Telegrams of the wire reference stand here as it prints them, with their check sums; those of the manuals
+"""The worked examples. Telegrams of the wire reference stand here as it prints them, with their checksums; those of the manuals
 are made of the data units that the manuals print. W: the wire reference, with its section."""
 import wire
 from wire import Capture, Master, octets, words

@@ -99,6 +99,7 @@ name = "p3"
 port = "drive-gateway"
 protocol = "ei-ascii"
 baud = 9600
+wire_time = "yes"
 [[station]]
 name = "unwinder"
 address = 5
@@ -120,7 +121,7 @@ tags = "empty.csv"
         self.start_daemon()
         (self.folder / "script").write_text("start 30s\nout 1 = 500\nrun 600s\n")
         self.master = self.dpsim("master", "master", "--port", "bus-plc", "--baud", 19200, "--slave", 5, "--tags",
-                                 "55,56w,288", "--watchdog", 20000, "--script", "script")
+                                 "55,56w,288", "--watchdog", "20s", "--script", "script")
         self.exchanges()
 
     def start_daemon(self):
@@ -129,7 +130,7 @@ tags = "empty.csv"
         wait_for((self.folder / "control.sock").exists, "the daemon")
 
     def exchanges(self):
-        wait_for(lambda: subprocess.run([self.programs / "dpctl", "status", "unwinder", "--wait", "0", "--quiet", "--drive"],
+        wait_for(lambda: subprocess.run([self.programs / "dpctl", "status", "unwinder", "--wait", "0", "--quiet", "--with-drive"],
                                         check=False).returncode == 0, "data exchange")
 
     def causes(self):

@@ -53,13 +53,13 @@ protected:
     ConfigFile()
     {
         for (const auto& file : std::filesystem::directory_iterator{kSource / "config/profiles"})
-            folder_.write("profiles/" + file.path().filename().string(), content_of(file.path()));
+            folder_.write("profiles/" + file.path().filename().string(), without_assumption(file.path()));
         for (const auto& file : std::filesystem::directory_iterator{kSource / "config/tags"})
             folder_.write("tags/" + file.path().filename().string(), content_of(file.path()));
         folder_.write("tags/empty.csv", "tag,name,type,decimals\n55,SPEED,INT,0\n1200,MOTTO,STRING,\n");
     }
 
-    Result<config::Config, toml::Faults> load(std::string_view content) const
+    Result<config::Config, input::Faults> load(std::string_view content) const
     {
         return config::load_config(folder_.write("etc/dpslaved.toml", content), folder_.path() / "profiles");
     }
@@ -72,18 +72,31 @@ protected:
         return {};
     }
 
-    toml::Faults bad(std::string_view content) const
+    input::Faults bad(std::string_view content) const
     {
         const auto config = load(content);
         EXPECT_FALSE(config);
-        return config ? toml::Faults{} : config.error();
+        return config ? input::Faults{} : config.error();
     }
 
     /// Copies the profile 590 under another name, with one change.
     void change_profile(const std::string& name, std::string_view from, std::string_view to) const
     {
-        folder_.write("profiles/" + name + ".toml",
-                      with(content_of(kSource / "config/profiles/590.toml"), from, to));
+        std::string text = with(without_assumption(kSource / "config/profiles/590.toml"), from, to);
+        if (to.find("\"none\"") != std::string_view::npos) { // then nothing has a source
+            text = with(text, "\nmnemonic_source  = \"590+ formula; no source for the 590\"", "");
+            text = with(text, "\nmnemonic_assumed = false", "");
+        }
+        folder_.write("profiles/" + name + ".toml", text);
+    }
+
+    /// Every station whose mnemonic rule is assumed is warned of; these tests are about other things.
+    static std::string without_assumption(const std::filesystem::path& profile)
+    {
+        const std::string text = content_of(profile);
+        const std::string assumed = "\nmnemonic_assumed = true";
+        return text.find(assumed) == std::string::npos ? text
+                                                       : with(text, assumed, "\nmnemonic_assumed = false");
     }
 
     Folder folder_;

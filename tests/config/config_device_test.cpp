@@ -7,6 +7,7 @@ namespace {
 
 using config::Config;
 using config::StationConfig;
+using input::Faults;
 using test::BadChange;
 using test::kGood;
 using test::short_forms;
@@ -16,7 +17,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
-using toml::Faults;
 
 /// A 605 on EI-ASCII at address 5: the lines are those of kGood.
 const std::string kBox = with(kGood, "\"590\"", "\"605\"");
@@ -421,6 +421,21 @@ TEST_F(Resolution, integer_reads_numbers_from_the_ieee_area_without_decimals)
     EXPECT_EQ(table->find(3)->max, 100) << "100.5 would be above the limit as a whole number";
     EXPECT_EQ(table->find(20)->modbus_register, 32776) << "it exists already";
     EXPECT_EQ(table->find(20)->decimals, 0);
+}
+
+TEST_F(Resolution, full_has_a_number_without_decimals_in_counts_and_integer_in_its_unit)
+{
+    const auto full = good(kController).stations.at(0).tags;
+    EXPECT_EQ(drive::displayed(*full->find(3), 50), "50 counts") << "Output power %: nobody says 5.0 or 50";
+    EXPECT_EQ(drive::displayed(*full->find(1), 50), "50 counts") << "nobody says the decimals of the display";
+    EXPECT_EQ(drive::displayed(*full->find(22), 50), "50") << "a whole number";
+
+    const auto integer = good(kController + "resolution = \"integer\"\n").stations.at(0).tags;
+    EXPECT_EQ(drive::displayed(*integer->find(3), 50), "50");
+
+    const auto display = good(kController + "display_decimals = 0\n").stations.at(0).tags;
+    EXPECT_EQ(drive::displayed(*display->find(1), 50), "50");
+    EXPECT_EQ(drive::displayed(*tags("")->find(3), 50), "5.0") << "an own table that gives decimals";
 }
 
 TEST_F(Resolution, integer_leaves_words_names_and_what_is_not_in_the_ieee_area)

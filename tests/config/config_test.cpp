@@ -6,6 +6,7 @@ namespace {
 
 using config::Config;
 using config::load_config;
+using input::Faults;
 using test::short_forms;
 using test::with;
 using testing::AllOf;
@@ -16,7 +17,6 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
-using toml::Faults;
 
 using BadChange = test::BadChange;
 using test::ConfigFile;
@@ -37,7 +37,7 @@ TEST_F(ConfigFile, with_the_required_keys_only_has_the_defaults_of_the_sample)
                                                                   .gpio_chip = "/dev/gpiochip0",
                                                                   .gpio_line = 17,
                                                                   .active_low = false}));
-    EXPECT_EQ(config.bus.echo, fdl::EchoMode::off);
+    EXPECT_EQ(config.bus.echo, EchoMode::off);
     EXPECT_EQ(config.bus.max_tsdr, 0U);
     EXPECT_EQ(config.realtime.priority, 80);
     EXPECT_EQ(config.realtime.cpu, -1);
@@ -140,7 +140,7 @@ green = "led:dpslaved-green"
                                                                   .gpio_chip = "/dev/gpiochip1",
                                                                   .gpio_line = 23,
                                                                   .active_low = true}));
-    EXPECT_EQ(config.bus.echo, fdl::EchoMode::automatic);
+    EXPECT_EQ(config.bus.echo, EchoMode::automatic);
     EXPECT_EQ(config.realtime.priority, 0);
     EXPECT_EQ(config.realtime.cpu, 1);
     EXPECT_FALSE(config.realtime.lock_memory);
@@ -266,9 +266,22 @@ TEST_F(ConfigFile, keys_of_another_direction_are_a_warning_and_have_no_effect)
 
 TEST_F(ConfigFile, echo_is_off_on_or_found_out)
 {
-    for (const auto& [name, mode] : {std::pair{"off", fdl::EchoMode::off}, std::pair{"on", fdl::EchoMode::on},
-                                     std::pair{"auto", fdl::EchoMode::automatic}})
+    for (const auto& [name, mode] : {std::pair{"off", EchoMode::off}, std::pair{"on", EchoMode::on},
+                                     std::pair{"auto", EchoMode::automatic}})
         EXPECT_EQ(good(with(kGood, "\"none\"", "\"none\"\necho = \"" + std::string{name} + '"')).bus.echo,
+                  mode);
+}
+
+TEST_F(ConfigFile, says_whether_characters_take_time_on_a_drive_line)
+{
+    using drive::WireTime;
+    EXPECT_EQ(good(kGood).lines.front().wire_time, WireTime::automatic);
+    for (const auto& [name, mode] : {std::pair{"auto", WireTime::automatic}, std::pair{"yes", WireTime::yes},
+                                     std::pair{"no", WireTime::no}})
+        EXPECT_EQ(good(with(kGood, "protocol = \"ei-ascii\"",
+                            "protocol = \"ei-ascii\"\nwire_time = \"" + std::string{name} + '"'))
+                      .lines.front()
+                      .wire_time,
                   mode);
 }
 
@@ -394,7 +407,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadChange{"protocol = \"ei-ascii\"", "protocol = \"ei-ascii\"\nsettle_ms = 199",
                   "13:13: ", "shorter than timeout_ms (200)"},
         BadChange{"protocol = \"ei-ascii\"", "protocol = \"ei-ascii\"\nsettle_ms = 400\ntimeout_ms = 500",
-                  "13:13: ", "or 0 for ten time-outs"},
+                  "13:13: ", "or 0 for ten timeouts"},
         BadChange{"protocol = \"ei-ascii\"", "protocol = \"ei-ascii\"\nretries = -1",
                   "13:11: ", "from 0 to 10"},
         BadChange{"protocol = \"ei-ascii\"", "protocol = \"ei-ascii\"\nretires = 1",
@@ -533,9 +546,9 @@ TEST_F(ConfigFile, that_only_listens_keeps_the_driver_enable_inactive_that_it_na
 TEST_F(ConfigFile, that_only_listens_with_a_station_or_a_line_is_a_fault_that_names_both_places)
 {
     EXPECT_THAT(short_forms(bad(with(kGood, "direction = \"none\"", "listen = true"))),
-                ElementsAre(AllOf(StartsWith("9:1: [[line]] cannot stand beside listen = true on line 4"),
+                ElementsAre(AllOf(StartsWith("9:1: [[line]] is not allowed with listen = true on line 4"),
                                   HasSubstr("Remove each [[line]] and [[station]], or remove 'listen'")),
-                            StartsWith("14:1: [[station]] cannot stand beside listen = true on line 4")));
+                            StartsWith("14:1: [[station]] is not allowed with listen = true on line 4")));
 }
 
 TEST_F(ConfigFile, that_only_listens_has_no_use_for_keys_about_answers)
@@ -546,7 +559,7 @@ TEST_F(ConfigFile, that_only_listens_has_no_use_for_keys_about_answers)
     EXPECT_THAT(short_forms(config.warnings),
                 ElementsAre(StartsWith("4:12: 'max_tsdr' means nothing with listen = true"),
                             StartsWith("5:8: 'echo' means nothing with listen = true")));
-    EXPECT_EQ(config.bus.echo, fdl::EchoMode::off);
+    EXPECT_EQ(config.bus.echo, EchoMode::off);
     EXPECT_EQ(config.bus.max_tsdr, 0U);
 }
 
@@ -680,7 +693,45 @@ TEST_F(ConfigFile, a_table_of_two_profiles_reports_its_faults_once)
     EXPECT_THAT(short_forms(bad(std::string{kGood} + kSecondStation)), ElementsAre(StartsWith("2:1: ")));
 }
 
-class ConfigWarning : public ConfigFile {};
+class ConfigWarning : public ConfigFile {
+protected:
+    /// What the profile 590 says of its mnemonics.
+    const std::string kRule = R"(mnemonic_rule = "590plus")";
+    void take_profile_as_shipped(const std::string& name)
+    {
+        folder_.write("profiles/" + name + ".toml",
+                      test::content_of(kSource / "config/profiles" / (name + ".toml")));
+    }
+};
+
+TEST_F(ConfigWarning, a_mnemonic_rule_that_is_assumed_is_named_with_its_source_for_each_station)
+{
+    for (const char* const name : {"584s", "590", "620"}) {
+        take_profile_as_shipped(name);
+        EXPECT_THAT(short_forms(good(with(kGood, "\"590\"", '"' + std::string{name} + '"')).warnings),
+                    ElementsAre(AllOf(StartsWith("14:1: the mnemonic rule of profile"),
+                                      HasSubstr("is assumed (590+ formula; no source for the"),
+                                      HasSubstr("station \"unwinder\""))));
+    }
+}
+
+TEST_F(ConfigWarning, a_mnemonic_rule_without_a_source_is_assumed)
+{
+    change_profile("plain", R"(mnemonic_source  = "590+ formula; no source for the 590"
+mnemonic_assumed = false)",
+                   "");
+
+    EXPECT_THAT(short_forms(good(with(kGood, "\"590\"", "\"plain\"")).warnings),
+                ElementsAre(HasSubstr("the mnemonic rule of profile \"plain\" is assumed: if the drive")));
+}
+
+TEST_F(ConfigWarning, an_assumed_rule_that_no_row_of_the_table_needs_is_not_warned_of)
+{
+    take_profile_as_shipped("590");
+    folder_.write("tags/empty.csv", "tag,type,decimals,mnemonic\n1,INT,0,aa\n3,STRING,,\n");
+
+    EXPECT_THAT(good(kGood).warnings, IsEmpty());
+}
 
 TEST_F(ConfigWarning, an_operator_group_that_the_system_has_not_leaves_root_alone)
 {
@@ -720,7 +771,7 @@ TEST_F(ConfigWarning, a_max_tsdr_above_1000_is_more_than_many_masters_wait)
 
 TEST_F(ConfigWarning, tags_without_mnemonic_are_named_once_a_table)
 {
-    change_profile("plain", R"(mnemonic_rule = "590plus")", R"(mnemonic_rule = "none")");
+    change_profile("plain", kRule, R"(mnemonic_rule = "none")");
     folder_.write("tags/empty.csv",
                   "tag,type,decimals,mnemonic\n1,INT,0,aa\n2,INT,0,\n3,STRING,,\n4,WORD,,\n");
     const std::string second = with(kSecondStation, "\"620\"", "\"plain\"");
@@ -734,7 +785,7 @@ TEST_F(ConfigWarning, tags_without_mnemonic_are_named_once_a_table)
 
 TEST_F(ConfigWarning, of_many_tags_without_mnemonic_the_first_sixteen_are_named)
 {
-    change_profile("plain", R"(mnemonic_rule = "590plus")", R"(mnemonic_rule = "none")");
+    change_profile("plain", kRule, R"(mnemonic_rule = "none")");
     std::string table = "tag,decimals\n";
     for (int tag = 1; tag <= 19; ++tag) table += std::to_string(tag) + ",0\n";
     folder_.write("tags/empty.csv", table);
@@ -789,6 +840,34 @@ TEST_F(ConfigWarning, a_station_without_a_tag_table_is_named)
                                   HasSubstr("data exchange does not start"))));
     EXPECT_THAT(short_forms(good(std::string{kGood} + "unlisted_decimals = 2\n").warnings),
                 ElementsAre(HasSubstr("taken with 2 decimals")));
+}
+
+TEST_F(ConfigFile, what_becomes_of_denied_tags_is_that_of_the_profile_unless_the_station_says_it)
+{
+    using drive::DeniedHold;
+    for (const char* const name : {"584s", "590", "620"}) {
+        const std::string text = with(kGood, "\"590\"", '"' + std::string{name} + '"');
+        EXPECT_EQ(good(text).stations[0].denied_holds, DeniedHold::where_one) << name;
+        EXPECT_EQ(good(text + "denied_tags = \"zero\"\n").stations[0].denied_holds, DeniedHold::where_all);
+        EXPECT_TRUE(good(text).stations[0].personality->tries_outputs);
+    }
+    for (const char* const name : {"2408f", "2404f"}) {
+        std::string text = with(kGood, "\"590\"", '"' + std::string{name} + "\"\nident = 0x2400");
+        text = with(with(text, "\"ei-ascii\"", "\"modbus-rtu\""), "unit = \"00\"", "unit = \"1\"");
+        EXPECT_EQ(good(text).stations[0].denied_holds, DeniedHold::where_all) << name;
+        EXPECT_EQ(good(text + "denied_tags = \"refuse\"\n").stations[0].denied_holds, DeniedHold::where_one);
+        EXPECT_TRUE(good(text).stations[0].personality->tries_outputs);
+    }
+}
+
+TEST_F(ConfigFile, a_technology_box_takes_denied_tags_zero_only)
+{
+    const std::string box = with(kGood, "\"590\"", "\"605\"");
+
+    EXPECT_EQ(good(box).stations[0].denied_holds, drive::DeniedHold::never);
+    EXPECT_EQ(good(box + "denied_tags = \"zero\"\n").stations[0].denied_holds, drive::DeniedHold::never);
+    EXPECT_THAT(short_forms(bad(box + "denied_tags = \"refuse\"\n")),
+                ElementsAre(StartsWith("20:15: a technology box (profile \"605\") exchanges data also")));
 }
 
 TEST_F(ConfigFile, what_becomes_of_tags_without_a_scale_is_read)

@@ -178,6 +178,33 @@ TEST(ConfiguratorCall, ShowsTheMapOfAFile)
     EXPECT_EQ(reply["chk_cfg"], json({0x50, 0x60}));
 }
 
+TEST(ConfiguratorCall, NamesTheTagsByTheFilesOwnCommentsWhereNoTableHasThem)
+{
+    const std::string table = "tag,name,type\n7,Dancer position,INT\n8,Line speed,INT\n";
+    const auto made = [&](const char* entry) {
+        return ask({{"do", "make"},
+                    {"mapping", {{"profile", "605"}, {"list", {entry}}}},
+                    {"table", table}})["octets"];
+    };
+    const json shown = ask({{"do", "show"}, {"file", made("in:7")}});
+    const json compared = ask({{"do", "diff"}, {"file", made("in:7")}, {"other", made("in:8")}});
+
+    EXPECT_EQ(shown["map"]["inputs"][0]["what"], "Dancer position");
+    EXPECT_THAT(compared["meaning"].dump(),
+                testing::AllOf(HasSubstr("tag 7 Dancer position"), HasSubstr("tag 8 Line speed")));
+}
+
+TEST(ConfiguratorCall, GivesMaxTsdrOfTheFileByRate)
+{
+    const json plain = ask({{"do", "preview"}, {"mapping", {{"profile", "590"}, {"list", {"in:1"}}}}});
+    const json longer =
+        ask({{"do", "preview"}, {"mapping", {{"profile", "590"}, {"list", {"in:1"}}, {"max_tsdr", 80}}}});
+
+    EXPECT_EQ(plain["max_tsdr"][0], (json{{"baud", 9600}, {"bits", 60}}));
+    EXPECT_EQ(longer["max_tsdr"][0], (json{{"baud", 9600}, {"bits", 80}}));
+    EXPECT_EQ(longer["max_tsdr"].back(), plain["max_tsdr"].back()) << "150 at 1.5 Mbit/s is more than 80";
+}
+
 TEST(ConfiguratorCall, WritesAMappingAsAFileAndReadsItAgain)
 {
     const json mapping{{"profile", "2408f"}, {"list", {"out:24", "in:1"}},

@@ -15,7 +15,7 @@ using testing::Not;
 
 const std::string kTable = "tag,name,type,decimals,access,notes\n"
                            "7,Dancer position,INT,2,rw,\n"
-                           "8,\"Torque, \"\"net\"\"\",INT,1,ro,\"C:\\new\"\n"
+                           "8,\"Torque, \"\"net\"\"\",INT,1,rw,\"C:\\new\"\n"
                            "9,\"Z\xC3\xBCge \\ \"\"\"\"#'''[x]\",INT,0,rw,\"two\nlines,\ttab\"\n";
 
 json mapping_with(const json& list)

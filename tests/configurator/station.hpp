@@ -14,7 +14,7 @@ namespace dpslave::test {
 /// A 620 that was never asked, at 187.5 kbit/s.
 inline configurator::RunningStation unwinder()
 {
-    configurator::RunningStation station{"unwinder", "620", "ei-ascii", 0x0533, 187'500};
+    configurator::RunningStation station{"unwinder", "620", "ei-ascii", {.ident = 0x0533}, 187'500};
     for (const auto& [baud, bits] : {std::pair{9600U, 60U},
                                      {19'200U, 60U},
                                      {93'750U, 60U},
@@ -29,7 +29,7 @@ inline configurator::RunningStation unwinder()
 inline json judge(const std::string& file, const configurator::RunningStation& station,
                   const std::string& table = "")
 {
-    const toml::TextSource source = [](const std::string& name) -> Result<std::string, Unreadable> {
+    const input::TextSource source = [](const std::string& name) -> Result<std::string, Unreadable> {
         if (name == "mine.csv")
             return std::string{"tag,name,type,decimals,access\n55,Speed,INT,2,ro\n57,Torque,INT,,rw\n"
                                "58,Mode,WORD,,rw\n"};

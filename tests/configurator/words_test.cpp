@@ -121,7 +121,7 @@ TEST(Words, NameNoOptionWhereTheProfileOrTheTableIsWrong)
                          {"profile", "590"},
                          {"mapping", {{"profile", "590"}}},
                          {"table", "rubbish"}}));
-    const toml::TextSource nothing = [](const std::string&) -> Result<std::string, Unreadable> {
+    const input::TextSource nothing = [](const std::string&) -> Result<std::string, Unreadable> {
         return Failure{Unreadable{"it is not there"}};
     };
     answers.add(json::parse(configurator::reply_of(
@@ -165,6 +165,12 @@ std::vector<std::pair<Profile, Selection>> refused_selections()
             {load("590"), {.in = tags(1, 13)}},
             {load("605"), {.in = tags(1, 130)}},
             {with_text, {.in = {7}}},
+            {load("590"), {.in = {1}, .tags = std::vector<std::uint16_t>{2}}},
+            {load("590"),
+             {.list = std::vector<profile::GsdParameter>{{profile::Direction::in, 1}},
+              .modules = {{.name = "a", .identifiers = {0x50}, .preset = true},
+                          {.name = "b", .identifiers = {0x60}}}}},
+            {controller, {.in = {1}, .ident = 1, .identifiers = {*profile::read_identifier("52")}}},
             {controller, {.out = {5, 199}}},
             {controller, {.in = tags(500, 60), .out = tags(20, 58), .demand = true}}};
 }
@@ -184,7 +190,7 @@ TEST(Words, NameNoOptionForAnyFindingOfAMapping)
 TEST(Words, NameNoOptionForAnyFindingOfARunningStation)
 {
     configurator::RunningStation station = unwinder();
-    station.ident = 0x1234;
+    station.keys.ident = 0x1234;
     station.usual_reply = 61;
     station.rates[3].second = 120;
     station.rates.pop_back();
@@ -195,6 +201,8 @@ TEST(Words, NameNoOptionForAnyFindingOfARunningStation)
     answers.add(judge(file, station, "mine.csv"));
     answers.add(judge(with(file, "187.5_supp", "3M_supp"), station, "mine.csv"));
     answers.add(judge(file_of({"in-out:9"}, "605"), station));
+    station.keys.ident = 0x0533;
+    answers.add(judge(file, station, "mine.csv"));
     station.usual_reply.reset();
     station.slowest_reply = 61;
     station.unscaled = {57};

@@ -60,6 +60,7 @@ std::string table()
     row(kStatusTag, "ro", 0);
     for (std::size_t i = 0; i < kInputTags.size(); ++i) row(kInputTags[i], "ro", kInputsAtStart[i]);
     for (const std::uint16_t tag : kOutputTags) row(tag, "rw", 0);
+    for (unsigned i = 0; i < kMostNumberedTags; ++i) row(kFirstNumberedTag + i, "rw", 0);
     return text;
 }
 

@@ -129,7 +129,7 @@ void add_device_cases(std::vector<Case>& all)
          .asks = "The longest Data_Exchange that the device can have is answered with all its inputs",
          .run = C29_LongestTelegrams});
     all.push_back({.name = "C30_DpV1",
-                   .asks = "MS1 and MS2: errors, alarms, Initiate, time-outs, abort",
+                   .asks = "MS1 and MS2: errors, alarms, Initiate, timeouts, abort",
                    .not_applicable = no_dpv1});
 }
 

@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view kHead = R"(# Conformance
 
 This page is made by a run of the cases in `tests/conformance`. A test compares it with the next run, character by
-character. `tools/conformance` runs all cases. `tools/conformance --write` writes the page again.
+character. `tools/run conformance` runs all cases. `tools/run conformance --write` writes the page again.
 
 The cases are those that a certification examines, as far as that is public: section 10 of the
 [wire reference](profibus-dp.md). They are no certificate. A certificate is given by a test laboratory of PI, for one

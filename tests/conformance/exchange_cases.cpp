@@ -168,10 +168,9 @@ void add_exchange_cases(std::vector<Case>& all)
 
 void add_data_cases(std::vector<Case>& all)
 {
-    all.push_back(
-        {.name = "B2_DataFormat",
-         .asks = "The high octet of a word comes first; words stand in the order of the identifiers",
-         .run = B2_DataFormat});
+    all.push_back({.name = "B2_DataFormat",
+                   .asks = "The high octet of a word comes first; words are in the order of the identifiers",
+                   .run = B2_DataFormat});
     all.push_back({.name = "B2_Consistency",
                    .asks = "The two octets of a word are of one moment, in both directions",
                    .run = B2_Consistency});

@@ -19,10 +19,10 @@ Octets mapped(Octets head, std::size_t length)
     return head;
 }
 
-/// `count` tags from 100 on.
+/// `count` tags from kFirstNumberedTag on.
 Octets numbered(Octets head, std::size_t count)
 {
-    for (std::size_t i = 0; i < count; ++i) append(head, static_cast<std::uint16_t>(100 + i));
+    for (std::size_t i = 0; i < count; ++i) append(head, static_cast<std::uint16_t>(kFirstNumberedTag + i));
     return head;
 }
 
@@ -97,7 +97,7 @@ Family controller()
             .dpv1_status = false,
             .user_prm = mapped({}, 12),
             .bad_user_prm = mapped({0x40, 0x00}, 14), // tag 16384
-            .all_user_prm = numbered({}, 109),
+            .all_user_prm = numbered({}, kMostNumberedTags),
             .all_cfg = demand_and(54, 55),
             .healthy = {0x03, 0x00, 0x00},
             .faulty = {0x03, 0x00, 0x01},

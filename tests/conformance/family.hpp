@@ -19,6 +19,11 @@ inline constexpr std::array<std::uint16_t, 4> kOutputTags{56, 62, 70, 71};
 /// The inputs of the drive when it is switched on.
 inline constexpr std::array<std::uint16_t, 2> kInputsAtStart{0x1234, 0x5678};
 
+/// The tags of `all_user_prm`: the drive has them, because a station does not start with a tag that its drive
+/// denies.
+inline constexpr std::uint16_t kFirstNumberedTag = 100;
+inline constexpr std::size_t kMostNumberedTags = 109;
+
 struct Family {
     const char* name;    ///< "option board"
     const char* suite;   ///< "OptionBoard"

@@ -29,7 +29,7 @@ dpslave::test::SecondHand gsd_of(const Family& family)
 {
     const std::string source = DPSLAVE_SOURCE_DIR;
     const auto known = profile::load_profile(read_regular_file, source + "/config/profiles", family.profile);
-    if (!known) throw std::runtime_error{dpslave::toml::to_string(known.error().at(0))};
+    if (!known) throw std::runtime_error{dpslave::input::to_string(known.error().at(0))};
     if (!known->gsd.file.empty())
         return second_hand(content_of(source + "/gsd/" + family.profile + '/' + known->gsd.file));
     profile::Selection selection;

@@ -11,7 +11,7 @@
 
 namespace conformance {
 
-/// Is this one telegram with a right check sum? By a hand of its own.
+/// Is this one telegram with a right checksum? By a hand of its own.
 bool is_whole(const test::Octets& octets);
 
 class SentCounts {

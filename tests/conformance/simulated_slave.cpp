@@ -20,7 +20,7 @@ dp::Personality personality_of(const Family& family)
 {
     const auto profile = dpslave::profile::load_profile(
         dpslave::io::read_regular_file, std::string{DPSLAVE_SOURCE_DIR} + "/config/profiles", family.profile);
-    if (!profile) throw std::runtime_error{dpslave::toml::to_string(profile.error().at(0))};
+    if (!profile) throw std::runtime_error{dpslave::input::to_string(profile.error().at(0))};
     dp::Personality personality = profile->personality;
     if (family.has_own_ident) personality.ident = family.ident;
     return personality;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench.hpp"
 
+#include "control/interface.hpp"
+
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -11,6 +13,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <set>
 #include <stdexcept>
 
 namespace dpslave::test {
@@ -34,14 +37,20 @@ TempFolder::~TempFolder()
     std::filesystem::remove_all(path_, ignored);
 }
 
-control::Handlers quiet_handlers()
+control::Methods quiet_methods()
 {
-    control::Handlers handlers;
-    for (const auto& method : control::kMethods)
-        handlers[std::string{method.name}] = [](const Json&, const control::Caller&) {
-            return control::Done{};
-        };
-    return handlers;
+    const std::set<std::string_view> writing{"WriteTag", "SetTec"};
+    const std::set<std::string_view> operating{"Survey", "ProbeDrive",    "SetLogLevel",
+                                               "Reload", "ListIncidents", "Trace"};
+    const auto interface = control::parse_interface(control::interface_text());
+    control::Methods methods;
+    for (const auto& [name, type] : interface->methods) {
+        control::Method& method = methods[name];
+        if (writing.contains(name)) method.right = control::Right::write;
+        if (operating.contains(name)) method.right = control::Right::operate;
+        method.answer = [](const Json&, const control::Caller&) { return control::Done{}; };
+    }
+    return methods;
 }
 
 RawCaller::RawCaller(const std::filesystem::path& socket)
@@ -96,14 +105,14 @@ std::string call(std::string_view method, std::string_view parameters, std::stri
     return message(json);
 }
 
-Bench::Bench(control::Handlers handlers, const std::function<void(control::ServerSettings&)>& change)
+Bench::Bench(control::Methods methods, const std::function<void(control::ServerSettings&)>& change)
 {
     control::ServerSettings settings;
     settings.socket = socket;
     settings.version = "9.8.7";
     settings.url = "file:///doc/README.md";
     if (change) change(settings);
-    auto opened = control::Server::open(std::move(settings), std::move(handlers));
+    auto opened = control::Server::open(std::move(settings), std::move(methods));
     if (!opened) throw std::runtime_error(opened.error());
     server = *std::move(opened);
 }

@@ -31,8 +31,8 @@ private:
     std::filesystem::path path_;
 };
 
-/// A handler for every method that answers with {}.
-control::Handlers quiet_handlers();
+/// All methods, each with its right; they answer with {}.
+control::Methods quiet_methods();
 
 /// One caller by hand. Non-blocking.
 class RawCaller {
@@ -60,7 +60,7 @@ std::string call(std::string_view method, std::string_view parameters = "{}",
 
 class Bench {
 public:
-    explicit Bench(control::Handlers handlers = quiet_handlers(),
+    explicit Bench(control::Methods methods = quiet_methods(),
                    const std::function<void(control::ServerSettings&)>& change = {});
 
     RawCaller caller() { return RawCaller{socket}; }

@@ -16,7 +16,7 @@ namespace {
 using test::Bench;
 using test::call;
 using test::kOperators;
-using test::quiet_handlers;
+using test::quiet_methods;
 using test::RawCaller;
 
 constexpr std::size_t kPlaces = 32, kShare = 8, kKept = 4;
@@ -28,16 +28,19 @@ std::string many_calls(int count)
     return all;
 }
 
-Handlers handlers_that_wait()
+/// Each Watch and each WriteTag is added to `waiting`.
+Methods methods_that_wait(std::vector<ReplyTo>& waiting)
 {
-    Handlers handlers = quiet_handlers();
-    handlers["Watch"] = [stream = std::uint64_t{0}](const Json&, const Caller&) mutable {
-        return Stream{++stream, Json::object()};
+    Methods methods = quiet_methods();
+    methods["Watch"].answer = [&waiting](const Json&, const Caller& caller) {
+        waiting.push_back(caller.reply_to);
+        return Stream{};
     };
-    handlers["WriteTag"] = [token = std::uint64_t{0}](const Json&, const Caller&) mutable {
-        return Later{++token};
+    methods["WriteTag"].answer = [&waiting](const Json&, const Caller& caller) {
+        waiting.push_back(caller.reply_to);
+        return Later{};
     };
-    return handlers;
+    return methods;
 }
 
 /// A server that gets the user of each caller from the test.
@@ -73,7 +76,8 @@ protected:
     std::uint64_t calls() const { return bench.server->counters().calls; }
 
     Caller who;
-    Bench bench{handlers_that_wait(), [this](ServerSettings& settings) {
+    std::vector<ReplyTo> waiting;
+    Bench bench{methods_that_wait(waiting), [this](ServerSettings& settings) {
                     settings.operator_group = kOperators;
                     settings.identify = [this](int) { return who; };
                 }};
@@ -138,7 +142,7 @@ TEST_F(Fairness, CallsBehindOneThatWaitsHaveTheirTurnsAfterIt)
     bench.settle();
     ASSERT_EQ(calls(), 1u);
 
-    ASSERT_TRUE(bench.server->complete(1, Done{}));
+    ASSERT_TRUE(waiting.at(0).end(Done{}));
     EXPECT_EQ(calls(), 1u) << "none within the answer to another one";
     bench.settle();
 
@@ -170,7 +174,7 @@ TEST_F(Fairness, HalfCallsAndWatchesAreEndedAsAnyIdleConnection)
     for (RawCaller& one : halves) EXPECT_TRUE(was_ended(one));
     for (RawCaller& one : watches) EXPECT_TRUE(was_ended(one));
     for (RawCaller& one : next) EXPECT_TRUE(is_served(one));
-    EXPECT_TRUE(bench.server->streams().empty());
+    for (const ReplyTo& watch : waiting) EXPECT_FALSE(watch.is_open());
 }
 
 TEST_F(Fairness, AUserNeverDisplacesAnotherOneThatHasLess)
@@ -190,8 +194,8 @@ TEST_F(Fairness, AConnectionThatWaitsForItsAnswerIsNotIdle)
     RawCaller next = caller(1000, kOperators);
 
     EXPECT_EQ(bench.reply(next)->at("error"), "org.dpslaved.Control.Busy");
-    for (std::uint64_t token = 1; token <= kShare; ++token)
-        EXPECT_TRUE(bench.server->complete(token, Done{}));
+    EXPECT_EQ(waiting.size(), kShare);
+    for (const ReplyTo& write : waiting) EXPECT_TRUE(write.end(Done{}));
 }
 
 TEST_F(Fairness, OfManyUsersThatHoldAllPlacesTheOneWithTheMostMakesRoomForOneThatHasNone)

@@ -15,15 +15,15 @@ const char* const kBus =
 
 const char* const kStations = R"([
   {"name":"unwinder","address":5,"profile":"590","device":"590 with PROFIBUS-DP option board","state":"Data_Exch","master":2,
-   "watchdog_ms":100,"min_tsdr":11,"groups":129,"sync":false,"freeze":false,"clear":false,"held":false,"ride":null,"silent_because":null,"stat_diag":false,"diag_pending":false,"parameters":2,
+   "watchdog_ms":100,"min_tsdr":11,"groups":129,"sync":false,"freeze":false,"clear":false,"held":false,"held_because":null,"ride":null,"silent_because":null,"stat_diag":false,"diag_pending":false,"parameters":2,
    "demand_data":true,"left_count":1,"left_because":"watchdog expired","left_code":"watchdog",
-   "drive":{"line":"p3","port":"/dev/ttyS2","protocol":"ei-ascii","unit":"00","link":"answers","port_open":true,"ever_answered":true,"baud":9600,"format":"7E1","timeout_ms":200,"cycle_ms":123.4,"reads":4000,
-            "writes":1,"silences":3,"refusals":0,"losses":1,"last_trouble":null}},
+   "drive":{"line":"p3","port":"/dev/ttyS2","protocol":"ei-ascii","unit":"00","link":"answers","port_open":true,"ever_answered":true,"baud":9600,"format":"7E1","direction":"none","timeout_ms":200,"cycle_ms":123.4,"reads":4000,
+            "writes":1,"silences":3,"refusals":0,"losses":1,"last_trouble":null,"not_zeroed":null}},
   {"name":"rewinder","address":16,"profile":"590","device":"590 with PROFIBUS-DP option board","state":"Wait_Prm","master":null,
-   "watchdog_ms":null,"min_tsdr":11,"groups":0,"sync":false,"freeze":false,"clear":false,"held":false,"ride":null,"silent_because":null,"stat_diag":true,"diag_pending":true,"parameters":0,
+   "watchdog_ms":null,"min_tsdr":11,"groups":0,"sync":false,"freeze":false,"clear":false,"held":false,"held_because":null,"ride":null,"silent_because":null,"stat_diag":true,"diag_pending":true,"parameters":0,
    "demand_data":false,"left_count":0,"left_because":null,"left_code":null,
-   "drive":{"line":"p3","port":"/dev/ttyS2","protocol":"ei-ascii","unit":"01","link":"silent","port_open":true,"ever_answered":false,"baud":9600,"format":"7E1","timeout_ms":200,"cycle_ms":null,"reads":0,
-            "writes":0,"silences":12,"refusals":0,"losses":0,"last_trouble":"no answer"}}])";
+   "drive":{"line":"p3","port":"/dev/ttyS2","protocol":"ei-ascii","unit":"01","link":"silent","port_open":true,"ever_answered":false,"baud":9600,"format":"7E1","direction":"none","timeout_ms":200,"cycle_ms":null,"reads":0,
+            "writes":0,"silences":12,"refusals":0,"losses":0,"last_trouble":"no answer","not_zeroed":null}}])";
 
 const char* const kWords = R"([
   {"tag":7,"name":"SPEED FEEDBACK","direction":"in","octet":8,"raw":5000,"value":"50.00","state":"good","answer":null,"age_ms":12.0},
@@ -33,8 +33,9 @@ const char* const kInfo = R"({"stations":[
   {"name":"unwinder","profile":"590","device":"590 with PROFIBUS-DP option board","order_code":"590 option digit 2",
    "firmware":"4.2 or later","manual":"HA389815","ident":1331,"address_active":5,"address_pending":7,"address_min":0,
    "address_max":125,"max_parameters":12,"max_input_octets":32,"max_output_octets":32,"max_diag_octets":6,"demand_data":true,
-   "sync":true,"freeze":true,"bauds":[9600,187500,1500000],"max_tsdr":[60,60,150],"tag_table":"590.csv","tags_in_table":312,
-   "option_software":null,"comms_status":null,"resolution":null,"notes":[]}]})";
+   "sync":true,"freeze":true,"bauds":[9600,187500,1500000],"max_tsdr":[60,60,150],"tags_at":null,"identifiers":[],"tag_table":"590.csv","tags_in_table":312,
+   "option_software":null,"comms_status":null,"resolution":null,
+   "mnemonic_rule":"590plus","mnemonic_source":"590+ formula","mnemonics_assumed":true,"notes":[]}]})";
 
 const char* const kDiagnosis = R"({"stations":[
   {"name":"rewinder",
@@ -47,7 +48,7 @@ const char* const kDiagnosis = R"({"stations":[
    "hex":"06 05 00 FF 05 33","bits":["Station_Not_Ready","Cfg_Fault","Prm_Req"],
    "refusal":{"code":"cfg_identifier","telegram":"Chk_Cfg","what":"no legal identifier","octet":3,"expected":"0x50 or 0x60","got":"0x51",
               "advice":"compare the modules chosen in the master with the GSD"},
-   "last_prm":"88 01 0A 0B 05 33 00","last_cfg":"73 50 51","held":false,"unscaled":[],"trouble":["tag 999 is in no table"],
+   "last_prm":"88 01 0A 0B 05 33 00","last_cfg":"73 50 51","held":false,"scale_register":null,"unscaled":[],"denied":[],"trouble":["tag 999 is in no table"],
    "refused":[{"tag":999,"write":false,"code":"invalid_tag","text":"tag 999 is in no table"}]}]})";
 
 const char* const kMembers =
@@ -62,8 +63,9 @@ const char* const kMembers =
    "retries":80,"unanswered":120,"last_heard_age_ms":null,"last_asked_age_ms":150.0,"cycle":null,"load_percent":0}]})";
 
 const char* const kLeds = R"({"stations":[{"name":"unwinder","meaning":"data exchange with the master",
-  "leds":[{"name":"red","sink":"gpio:23","lit":false,"pattern":"off"},
-          {"name":"green","sink":"led:dpslaved-green","lit":true,"pattern":"flashing 2 Hz"}]}]})";
+  "leds":[{"name":"red","sink":"gpio:23","lit":false,"pattern":"off","trouble":null},
+          {"name":"green","sink":"led:dpslaved-green","lit":true,"pattern":"flashing 2 Hz",
+           "trouble":null}]}]})";
 
 const char* const kTec = R"({"stations":[{"name":"booster","view":"profibus","rows":[
   {"name":"TYPE","generic_name":"TYPE","input":true,"value":2,"shown":"PROFIBUS DP","range":"0 to 9"},
@@ -127,7 +129,9 @@ std::map<std::string, json> all()
         {"ProbeDrive",
          json::parse(
              R"({"station":"rewinder","line":"p3","port":"/dev/ttyS2","tried":130,"to_try":174,"longest_s":42,"done":true,"answering":[
-            {"protocol":"ei-ascii","baud":19200,"format":"7E1","unit":"03"}]})")},
+            {"protocol":"ei-ascii","baud":19200,"format":"7E1","unit":"03","identity":">2650","version":null,
+             "device":"650V, frames C to F","rules":[{"rule":"590plus","answering":[],"denied":[55,56],"silent":[],"unasked":[],"nameless":0},
+             {"rule":"ac","answering":[55,56],"denied":[],"silent":[],"unasked":[],"nameless":0}],"best_rules":["ac"]}]})")},
         {"Reload", json::parse(R"({"applied":true,"changes":["station rewinder removed"],
             "leaving":[{"station":"rewinder","reason":"removed"}],
             "pending":["station unwinder: address 7 takes effect at the next start"],"warnings":[],"faults":[]})")},

@@ -5,33 +5,12 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
-
 namespace dpslave::control {
 namespace {
 
 Interface read(const std::string& members)
 {
     return *parse_interface("interface a.b\n" + members);
-}
-
-TEST(ControlInterface, HasAHandlerNameForEachMethodOfTheFileAndNoOther)
-{
-    std::set<std::string> written, known;
-    for (const auto& [name, fields] : test::control_varlink().outputs) written.insert(name);
-    for (const MethodEntry& method : kMethods) known.insert(std::string{method.name});
-
-    EXPECT_EQ(written, known);
-}
-
-TEST(ControlInterface, LetsEveryUserReadAndOnlyOperatorsChange)
-{
-    const std::set<std::string_view> operating{"Survey",     "WriteTag",      "SetTec",
-                                               "ProbeDrive", "Reload",        "SetLogLevel",
-                                               "Trace",      "ListIncidents", "GetIncident"};
-    for (const MethodEntry& method : kMethods)
-        EXPECT_EQ(method.right, operating.count(method.name) > 0 ? Right::operate : Right::look)
-            << method.name;
 }
 
 TEST(ControlInterface, TextInTheProgramIsTheFile)

@@ -13,16 +13,16 @@ namespace {
 using test::Bench;
 using test::call;
 using test::message;
-using test::quiet_handlers;
+using test::quiet_methods;
 using test::RawCaller;
 
-Handlers large_answers(std::size_t octets)
+Methods large_answers(std::size_t octets)
 {
-    Handlers handlers = quiet_handlers();
+    Methods methods = quiet_methods();
     const Json large = Json::object({{"x", std::string(octets, 'x')}});
-    handlers["GetStatus"] = [large](const Json&, const Caller&) { return Done{large}; };
-    handlers["Watch"] = [large](const Json&, const Caller&) { return Stream{1, large}; };
-    return handlers;
+    methods["GetStatus"].answer = [large](const Json&, const Caller&) { return Done{large}; };
+    methods["Watch"].answer = [large](const Json&, const Caller&) { return Stream{large}; };
+    return methods;
 }
 
 class MalformedMessage : public testing::TestWithParam<std::string> {};
@@ -78,18 +78,24 @@ TEST(ControlLimits, TheLongestCallIsAnswered)
 TEST(ControlLimits, AStreamThatIsNotReadIsDroppedAtItsBound)
 {
     constexpr std::size_t kReply = 100'000;
-    Bench bench{large_answers(kReply), [](ServerSettings& s) { s.max_unsent = 3 * kReply; }};
+    ReplyTo watch;
+    Methods methods = quiet_methods();
+    methods["Watch"].answer = [&watch](const Json&, const Caller& caller) {
+        watch = caller.reply_to;
+        return Stream{Json::object()};
+    };
+    Bench bench{methods, [](ServerSettings& s) { s.max_unsent = 3 * kReply; }};
     auto slow = bench.caller();
     slow.write(call("Watch", "{}", R"(,"more":true)"));
     bench.settle();
 
     int pushed = 0;
-    while (bench.server->push(1, Json::object({{"x", std::string(kReply, 'x')}}))) ASSERT_LT(++pushed, 100);
+    while (watch.send(Json::object({{"x", std::string(kReply, 'x')}}))) ASSERT_LT(++pushed, 100);
 
     EXPECT_GE(pushed, 2);
     EXPECT_EQ(bench.server->counters().too_slow, 1u);
     EXPECT_EQ(bench.server->clients(), 0u);
-    EXPECT_TRUE(bench.server->streams().empty());
+    EXPECT_FALSE(watch.is_open());
 }
 
 TEST(ControlLimits, ManyCallersThatDoNotReadOccupyNoMoreThanAFewDo)

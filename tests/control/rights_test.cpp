@@ -94,7 +94,7 @@ protected:
     {
         if (::geteuid() != 0) GTEST_SKIP() << "only root can become another user";
     }
-    Bench bench{test::quiet_handlers(), [](ServerSettings& s) {
+    Bench bench{test::quiet_methods(), [](ServerSettings& s) {
                     s.operator_group = kOperators;
                     s.operator_group_name = "dpslaved";
                 }};
@@ -103,6 +103,19 @@ protected:
     const Json refused =
         Json::parse(R"({"error":"org.dpslaved.Control.NotPermitted","parameters":{"group":"dpslaved"}})");
 };
+
+TEST_F(KernelsWord, LetsNobodyWriteWhereTheDaemonOnlyShows)
+{
+    bench.server->set_read_only(true);
+    const Caller root = caller_with(0, 0, {});
+    EXPECT_EQ(ask_as(bench, root, write),
+              Json::parse(R"({"error":"org.dpslaved.Control.ReadOnly","parameters":{}})"));
+    EXPECT_EQ(ask_as(bench, root, call("Reload")), done) << "it operates, and writes nothing to a drive";
+    EXPECT_EQ(ask_as(bench, caller_with(kUnprivileged, kUnprivileged, {}), write), refused);
+
+    bench.server->set_read_only(false);
+    EXPECT_EQ(ask_as(bench, root, write), done);
+}
 
 TEST_F(KernelsWord, LetsRootWrite)
 {

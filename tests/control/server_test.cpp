@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench.hpp"
+#include "control/interface.hpp"
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <stdexcept>
 
 namespace dpslave::control {
@@ -11,38 +13,42 @@ namespace {
 using test::Bench;
 using test::call;
 using test::message;
-using test::quiet_handlers;
+using test::quiet_methods;
 
 Json json(const char* text)
 {
     return Json::parse(text);
 }
 
-/// ReadTag waits for its answer under the tag as token; Watch is a stream 1; GetStatus counts its calls.
+/// ReadTag waits for its answer, by its tag; Watch is a stream; GetStatus counts its calls.
 struct Application {
-    Handlers handlers()
+    Methods methods()
     {
-        Handlers all = quiet_handlers();
-        all["GetStatus"] = [this](const Json&, const Caller&) {
+        Methods all = quiet_methods();
+        all["GetStatus"].answer = [this](const Json&, const Caller&) {
             return Done{Json::object({{"n", ++calls}})};
         };
-        all["ReadTag"] = [](const Json& parameters, const Caller&) {
-            return Later{parameters["tag"].get<std::uint64_t>()};
+        all["ReadTag"].answer = [this](const Json& parameters, const Caller& caller) {
+            reads[parameters["tag"].get<int>()] = caller.reply_to;
+            return Later{};
         };
-        all["Watch"] = [this](const Json&, const Caller& caller) {
+        all["Watch"].answer = [this](const Json&, const Caller& caller) {
             more = caller.more;
-            return Stream{1, Json::object({{"n", 0}})};
+            watch = caller.reply_to;
+            return Stream{Json::object({{"n", 0}})};
         };
         return all;
     }
     int calls = 0;
     bool more = false;
+    std::map<int, ReplyTo> reads;
+    ReplyTo watch;
 };
 
 class ControlServer : public testing::Test {
 protected:
     Application application;
-    Bench bench{application.handlers()};
+    Bench bench{application.methods()};
 };
 
 TEST_F(ControlServer, AnswersACallWithTheHandlersParameters)
@@ -98,7 +104,7 @@ TEST_F(ControlServer, StillAnswersACallerThatHasClosedItsWritingSide)
 
     EXPECT_EQ(bench.reply(caller), json(R"({"parameters":{"n":1}})"));
     bench.settle();
-    EXPECT_TRUE(bench.server->complete(7, Done{}));
+    EXPECT_TRUE(application.reads[7].end(Done{}));
     EXPECT_EQ(bench.reply(caller), json(R"({"parameters":{}})"));
     EXPECT_EQ(bench.reply(caller), std::nullopt);
 }
@@ -129,7 +135,7 @@ TEST_F(ControlServer, ReturnsTheDescriptionOfAnInterface)
 
     const auto read = parse_interface(reply->at("parameters").at("description").get<std::string>());
     ASSERT_TRUE(read) << read.error();
-    EXPECT_EQ(read->methods.size(), kMethods.size());
+    EXPECT_EQ(read->methods.size(), quiet_methods().size());
 }
 
 struct Wrong {
@@ -181,12 +187,12 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_F(ControlServer, ShowsAHandlerNoNullParameters)
 {
     Json seen;
-    Handlers handlers = quiet_handlers();
-    handlers["GetIo"] = [&seen](const Json& parameters, const Caller&) {
+    Methods methods = quiet_methods();
+    methods["GetIo"].answer = [&seen](const Json& parameters, const Caller&) {
         seen = parameters;
         return Done{};
     };
-    Bench own{handlers};
+    Bench own{methods};
 
     own.ask("GetIo", R"({"station":null})");
 
@@ -202,7 +208,7 @@ TEST_F(ControlServer, AnswersLaterWhenTheApplicationHasTheAnswer)
     bench.settle();
     EXPECT_EQ(caller.read(), "");
 
-    EXPECT_TRUE(bench.server->complete(56, Done{json(R"({"raw":7})")}));
+    EXPECT_TRUE(application.reads[56].end(Done{json(R"({"raw":7})")}));
 
     EXPECT_EQ(bench.reply(caller), json(R"({"parameters":{"raw":7}})"));
 }
@@ -213,7 +219,7 @@ TEST_F(ControlServer, AnswersLaterWithAnErrorToo)
     caller.write(call("ReadTag", R"({"tag":56})"));
     bench.settle();
 
-    bench.server->complete(56, Error{"DriveRefused", json(R"({"tag":56})")});
+    application.reads[56].end(Error{"DriveRefused", json(R"({"tag":56})")});
 
     EXPECT_EQ(bench.reply(caller),
               json(R"({"error":"org.dpslaved.Control.DriveRefused","parameters":{"tag":56}})"));
@@ -235,7 +241,7 @@ TEST_F(ControlServer, LeavesFurtherCallsOfAWaitingCallerForAfterwards)
     bench.settle();
     EXPECT_EQ(application.calls, 0);
 
-    bench.server->complete(1, Done{});
+    application.reads[1].end(Done{});
 
     EXPECT_EQ(bench.reply(caller), json(R"({"parameters":{}})"));
     EXPECT_EQ(bench.reply(caller), json(R"({"parameters":{"n":1}})"));
@@ -249,7 +255,7 @@ TEST_F(ControlServer, ToleratesThatTheWaitingCallerHasGone)
     caller.close();
 
     EXPECT_TRUE(bench.run_until([&] { return bench.server->clients() == 0; }));
-    EXPECT_FALSE(bench.server->complete(1, Done{}));
+    EXPECT_FALSE(application.reads[1].end(Done{}));
 }
 
 TEST_F(ControlServer, CompletesOnceAndOnlyWhatWasPromised)
@@ -258,22 +264,45 @@ TEST_F(ControlServer, CompletesOnceAndOnlyWhatWasPromised)
     caller.write(call("ReadTag", R"({"tag":1})"));
     bench.settle();
 
-    EXPECT_FALSE(bench.server->complete(2, Done{}));
-    EXPECT_FALSE(bench.server->complete(1, Later{1}));
-    EXPECT_TRUE(bench.server->complete(1, Done{}));
-    EXPECT_FALSE(bench.server->complete(1, Done{}));
+    EXPECT_FALSE(application.reads[2].end(Done{}));
+    EXPECT_FALSE(application.reads[1].send(Json::object())) << "it is no stream";
+    EXPECT_TRUE(application.reads[1].end(Done{}));
+    EXPECT_FALSE(application.reads[1].end(Done{}));
 }
 
-TEST_F(ControlServer, AnswersBusyWhenATokenIsInUse)
+TEST_F(ControlServer, AnswersEachOfTwoCallsThatWait)
 {
     auto first = bench.caller(), second = bench.caller();
     first.write(call("ReadTag", R"({"tag":1})"));
+    second.write(call("ReadTag", R"({"tag":2})"));
     bench.settle();
 
-    EXPECT_EQ(bench.ask(second, call("ReadTag", R"({"tag":1})")),
-              json(R"({"error":"org.dpslaved.Control.Busy","parameters":{}})"));
-    EXPECT_TRUE(bench.server->complete(1, Done{}));
-    EXPECT_EQ(bench.reply(first), json(R"({"parameters":{}})"));
+    EXPECT_TRUE(application.reads[2].end(Done{json(R"({"raw":2})")}));
+    EXPECT_TRUE(application.reads[1].end(Done{json(R"({"raw":1})")}));
+    EXPECT_EQ(bench.reply(first), json(R"({"parameters":{"raw":1}})"));
+    EXPECT_EQ(bench.reply(second), json(R"({"parameters":{"raw":2}})"));
+}
+
+TEST_F(ControlServer, LeavesNobodyToAnswerWhenItEnds)
+{
+    auto caller = bench.caller();
+    bench.ask(caller, call("Watch", "{}", R"(,"more":true)"));
+    bench.server.reset();
+
+    EXPECT_FALSE(application.watch.is_open());
+    EXPECT_FALSE(application.watch.send(Json::object()));
+    EXPECT_EQ(application.watch.unsent(), 0u);
+    EXPECT_FALSE(application.watch.end(Done{}));
+}
+
+TEST_F(ControlServer, HasNobodyToAnswerLaterOfAOnewayCall)
+{
+    auto caller = bench.caller();
+    caller.write(call("ReadTag", R"({"tag":1})", R"(,"oneway":true)"));
+    bench.settle();
+
+    EXPECT_FALSE(application.reads[1].is_open());
+    EXPECT_FALSE(application.reads[1].end(Done{}));
 }
 
 // ---------------------------------------------------------------- streams
@@ -284,10 +313,10 @@ TEST_F(ControlServer, StreamsRepliesThatContinue)
     EXPECT_EQ(bench.ask(caller, call("Watch", "{}", R"(,"more":true)")),
               json(R"({"continues":true,"parameters":{"n":0}})"));
     EXPECT_TRUE(application.more);
-    EXPECT_EQ(bench.server->streams(), std::vector<std::uint64_t>{1});
+    EXPECT_TRUE(application.watch.is_open());
 
-    EXPECT_TRUE(bench.server->push(1, json(R"({"n":1})")));
-    EXPECT_TRUE(bench.server->push(1, json(R"({"n":2})")));
+    EXPECT_TRUE(application.watch.send(json(R"({"n":1})")));
+    EXPECT_TRUE(application.watch.send(json(R"({"n":2})")));
 
     EXPECT_EQ(bench.reply(caller), json(R"({"continues":true,"parameters":{"n":1}})"));
     EXPECT_EQ(bench.reply(caller), json(R"({"continues":true,"parameters":{"n":2}})"));
@@ -299,7 +328,7 @@ TEST_F(ControlServer, StreamsOneReplyToACallerThatDidNotAskForMore)
 
     EXPECT_EQ(bench.ask(caller, call("Watch")), json(R"({"parameters":{"n":0}})"));
     EXPECT_FALSE(application.more);
-    EXPECT_FALSE(bench.server->push(1, Json::object()));
+    EXPECT_FALSE(application.watch.send(Json::object()));
 }
 
 TEST_F(ControlServer, EndsAStreamWithAnErrorAndTakesTheNextCall)
@@ -307,12 +336,12 @@ TEST_F(ControlServer, EndsAStreamWithAnErrorAndTakesTheNextCall)
     auto caller = bench.caller();
     bench.ask(caller, call("Watch", "{}", R"(,"more":true)"));
 
-    EXPECT_TRUE(bench.server->end_stream(1, Error{"NoSuchStation", json(R"({"station":"5","known":[]})")}));
+    EXPECT_TRUE(application.watch.end(Error{"NoSuchStation", json(R"({"station":"5","known":[]})")}));
     EXPECT_EQ(
         bench.reply(caller),
         json(R"({"error":"org.dpslaved.Control.NoSuchStation","parameters":{"station":"5","known":[]}})"));
-    EXPECT_TRUE(bench.server->streams().empty());
-    EXPECT_FALSE(bench.server->end_stream(1, Error{"Busy", Json::object()}));
+    EXPECT_FALSE(application.watch.is_open());
+    EXPECT_FALSE(application.watch.end(Error{"Busy", Json::object()}));
     EXPECT_EQ(bench.ask(caller, call("GetStatus")), json(R"({"parameters":{"n":1}})"));
 }
 
@@ -323,15 +352,15 @@ TEST_F(ControlServer, EndsAStreamWhenItsCallerGoes)
     caller.close();
 
     EXPECT_TRUE(bench.run_until([&] { return bench.server->clients() == 0; }));
-    EXPECT_TRUE(bench.server->streams().empty());
-    EXPECT_FALSE(bench.server->push(1, Json::object()));
+    EXPECT_FALSE(application.watch.is_open());
+    EXPECT_FALSE(application.watch.send(Json::object()));
 }
 
 // ---------------------------------------------------------------- the server itself
 
 TEST(ControlServerOpen, RequiresAHandlerForEachMethodAndNoOther)
 {
-    Handlers missing = quiet_handlers(), surplus = quiet_handlers();
+    Methods missing = quiet_methods(), surplus = quiet_methods();
     missing.erase("GetLeds");
     surplus["Explode"] = surplus["GetLeds"];
     ServerSettings settings;
@@ -343,9 +372,11 @@ TEST(ControlServerOpen, RequiresAHandlerForEachMethodAndNoOther)
 
 TEST_F(ControlServer, EndsTheConnectionWhenAHandlerFailsAndServesOn)
 {
-    Handlers handlers = quiet_handlers();
-    handlers["GetIo"] = [](const Json&, const Caller&) -> Reply { throw std::runtime_error("a fault"); };
-    Bench own{handlers};
+    Methods methods = quiet_methods();
+    methods["GetIo"].answer = [](const Json&, const Caller&) -> Reply {
+        throw std::runtime_error("a fault");
+    };
+    Bench own{methods};
     auto caller = own.caller();
 
     EXPECT_EQ(own.ask(caller, call("GetIo")), std::nullopt);

@@ -13,7 +13,7 @@ namespace dpslave::control {
 namespace {
 
 using test::call;
-using test::quiet_handlers;
+using test::quiet_methods;
 using test::TempFolder;
 
 ServerSettings at(const std::filesystem::path& path)
@@ -51,7 +51,7 @@ TEST(ControlSocket, WithoutAServerIsReplaced)
     const auto path = folder.path() / "control.sock";
     leave_stale_socket(path);
 
-    const auto server = Server::open(at(path), quiet_handlers());
+    const auto server = Server::open(at(path), quiet_methods());
 
     ASSERT_TRUE(server) << server.error();
     EXPECT_NO_THROW(test::RawCaller{path});
@@ -61,7 +61,7 @@ TEST(ControlSocket, WithAServerIsKept)
 {
     test::Bench first;
 
-    const auto second = Server::open(at(first.socket), quiet_handlers());
+    const auto second = Server::open(at(first.socket), quiet_methods());
 
     ASSERT_FALSE(second);
     EXPECT_EQ(second.error(), first.socket.string() + ": another dpslaved is running and answers here");
@@ -74,7 +74,7 @@ TEST(ControlSocket, IsNotMadeInPlaceOfAFile)
     const auto path = folder.path() / "notes.txt";
     std::ofstream(path) << "precious";
 
-    const auto server = Server::open(at(path), quiet_handlers());
+    const auto server = Server::open(at(path), quiet_methods());
 
     ASSERT_FALSE(server);
     EXPECT_EQ(server.error(),
@@ -87,17 +87,17 @@ TEST(ControlSocket, NeedsAFolderThatExists)
     const TempFolder folder;
     const auto path = folder.path() / "nowhere" / "control.sock";
 
-    EXPECT_EQ(Server::open(at(path), quiet_handlers()).error(),
+    EXPECT_EQ(Server::open(at(path), quiet_methods()).error(),
               path.string() + ": cannot be made: No such file or directory");
 }
 
 TEST(ControlSocket, NeedsAPathThatFits)
 {
-    EXPECT_NE(Server::open(at("/tmp/" + std::string(200, 'x')), quiet_handlers())
+    EXPECT_NE(Server::open(at("/tmp/" + std::string(200, 'x')), quiet_methods())
                   .error()
                   .find("1 to 107 characters"),
               std::string::npos);
-    EXPECT_FALSE(Server::open(at(""), quiet_handlers()));
+    EXPECT_FALSE(Server::open(at(""), quiet_methods()));
 }
 
 TEST(ControlSocket, GoesWithItsServer)
@@ -105,7 +105,7 @@ TEST(ControlSocket, GoesWithItsServer)
     const TempFolder folder;
     const auto path = folder.path() / "control.sock";
     {
-        const auto server = Server::open(at(path), quiet_handlers());
+        const auto server = Server::open(at(path), quiet_methods());
         ASSERT_TRUE(std::filesystem::exists(path));
     }
 
@@ -117,7 +117,7 @@ TEST(ControlSocket, ThatAnotherServerReplacedIsNotRemoved)
     const TempFolder folder;
     const auto path = folder.path() / "control.sock";
     {
-        const auto first = Server::open(at(path), quiet_handlers());
+        const auto first = Server::open(at(path), quiet_methods());
         std::filesystem::rename(path, folder.path() / "old.sock");
         leave_stale_socket(path);
     }

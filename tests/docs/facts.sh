@@ -42,7 +42,7 @@ docs/devices/technology-box.md | shows the terminals from the back | B-026
 docs/devices/technology-box.md | set the DIL switch SW1 .* yellow/green|yellow/green .* set the DIL switch SW1 | B-027
 docs/devices/2408f-2404f.md | Never connect the shield to it | C-003
 docs/guide/master.md | only where the gateway's machine keeps the MaxTsdr of that GSD | wire reference 11.6
-docs/guide/master.md | It is computed, not measured | wire reference 11.6
+docs/guide/real-time.md | It is computed, not measured | wire reference 11.6
 docs/guide/master.md | 584S, 590, 620 that we make \| 0 \| General | wire reference 9
 docs/guide/master.md | the listings of HA389815 \| not stated | HA389815, appendix A
 docs/guide/master.md | SONSTIGE \(OTHERS\) \| Others, not DRIVES | HA389815, appendix B

@@ -87,9 +87,9 @@ class Program:
     def help(self, command):
         if command not in self.known:
             text = subprocess.run([self.path, *command, "--help"], capture_output=True, text=True, check=False).stdout
-            section = "".join(re.findall(r"^(?:Subcommands|Look|Watch|Operate|Offline|Version):\n((?: .*\n)+)", text, re.M))
+            section = "".join(re.findall(r"^(?:Commands|Look|Watch|Operate|Offline|Version):\n((?: .*\n)+)", text, re.M))
             self.known[command] = (set(re.findall(r"^  ([a-z][a-z-]*)", section, re.M)),
-                                   set(re.findall(r"(?:^ +|,)(--?[a-z][a-z-]*)", text, re.M)) | {"--help", "-h"})
+                                   set(re.findall(r"(?:^ +|, ?)(--?[a-z][a-z-]*)", text, re.M)) | {"--help", "-h"})
         return self.known[command]
 
 
@@ -157,7 +157,7 @@ def notices(kind, programs):
         text = "# One head\n[a](#one-head) [b](#no-head) [c](pages.py) [d](no.md)\n```\n[e](no.md)\n```\n"
         return len(list(faults_of_links("x.md", text, root))) == 2
     if kind == "commands":
-        text = "`dpctl status` `dpctl sttus` `dpctl hex 288 --none`\n```\ndpctl doctor --all && dpctl gsd nothing\ndpctl x\n```\n"
+        text = "`dpctl status` `dpctl sttus` `dpctl hex 288 --none`\n```\ndpctl doctor --rules && dpctl gsd nothing\ndpctl x\n```\n"
         return len(list(faults_of_commands("x.md", text, programs))) == (3 if "dpctl" in programs else 0)
     text = "A b; c; d.\n\n" + "word " * (LONGEST + 1) + ".\n\n" + "Short one. " * LONGEST + "\n```\na; b; c; d\n```\n"
     return len(list(faults_of_sentences("x.md", text))) == 2

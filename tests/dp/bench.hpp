@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the tests of DP stand on: device types made by hand, masters that keep their frame count bit, and a
+/// The tests of DP use this: device types made by hand, masters that keep their frame count bit, and a
 /// slave 5 behind a real layer 2 on the simulated bus.
 #pragma once
 
@@ -29,11 +29,11 @@ dpslave::dp::Personality technology_box();
 dpslave::dp::Personality controller();
 
 /// A tag that the master reads, and one that it writes.
-inline dpslave::Parameter input(std::uint16_t tag)
+inline dpslave::LayoutEntry input(std::uint16_t tag)
 {
     return {tag, true, false};
 }
-inline dpslave::Parameter output(std::uint16_t tag)
+inline dpslave::LayoutEntry output(std::uint16_t tag)
 {
     return {tag, false, true};
 }

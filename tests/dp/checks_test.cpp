@@ -80,6 +80,51 @@ TEST(ChkCfgCheck, RefusesTooManyIdentifiersWhateverTheyAre)
               Refusal::cfg_identifier);
 }
 
+/// The option board of a plant whose GSD has identifiers of several words, and one of the special format
+///
+Personality of_a_plant()
+{
+    Personality device = option_board();
+    device.identifiers = {{0x52, 3, 0}, {0x60, 0, 1}, {octets("C0 41 41"), 2, 2}};
+    return device;
+}
+
+TEST(ChkCfgCheck, MakesEachWordOfAnIdentifierOneTagInTheOrderOfChkCfg)
+{
+    const std::vector<std::uint16_t> tags{1, 5, 3, 24, 7, 8};
+    const auto taken = dpslave::dp::check_chk_cfg(of_a_plant(), tags, octets("73 52 60 C0 41 41"));
+    ASSERT_TRUE(taken);
+    EXPECT_TRUE(taken->demand);
+    EXPECT_EQ(taken->in_length, 8U + 2 * 5);
+    EXPECT_EQ(taken->out_length, 8U + 2 * 3);
+    ASSERT_EQ(taken->layout.count, 6);
+    using dpslave::LayoutEntry;
+    const std::array<LayoutEntry, 6> wanted{LayoutEntry{1, true, false}, {5, true, false}, {3, true, false},
+                                            {24, false, true},           {7, true, true},  {8, true, true}};
+    for (std::size_t i = 0; i < wanted.size(); ++i) EXPECT_EQ(taken->layout.parameters[i], wanted[i]) << i;
+}
+
+TEST(ChkCfgCheck, CountsWordsAgainstTheTagsAndTheLimit)
+{
+    EXPECT_EQ(cfg_refusal(of_a_plant(), {1, 5}, "52"), (RefusalDetail{Refusal::cfg_too_many, 1, 2, 3}));
+    EXPECT_EQ(cfg_refusal(of_a_plant(), {1, 5, 3}, "52 60"), (RefusalDetail{Refusal::cfg_too_many, 2, 3, 4}));
+    EXPECT_EQ(cfg_refusal(of_a_plant(), {1, 5, 3, 4}, "52"), (RefusalDetail{Refusal::cfg_too_few, 0, 4, 3}));
+    EXPECT_EQ(cfg_refusal(of_a_plant(), {}, "73 52 52 52 52 52"),
+              (RefusalDetail{Refusal::cfg_too_long, 6, 13, 16}))
+        << "at most 12 words";
+}
+
+TEST(ChkCfgCheck, NamesTheOctetOfAnIdentifierThatDiffers)
+{
+    EXPECT_EQ(cfg_refusal(of_a_plant(), {1}, "C0 41 40"),
+              (RefusalDetail{Refusal::cfg_identifier, 3, 0x41, 0x40}));
+    EXPECT_EQ(cfg_refusal(of_a_plant(), {1}, "60 C0 41"),
+              (RefusalDetail{Refusal::cfg_identifier, 2, 0xC0, 0xC0}))
+        << "it is cut short";
+    EXPECT_EQ(cfg_refusal(of_a_plant(), {1}, "50"), (RefusalDetail{Refusal::cfg_identifier, 1, 0x52, 0x50}))
+        << "only those of the station are taken";
+}
+
 TEST(ChkCfgCheck, RefusesDemandDataAloneWhereTheDeviceNeedsAParameter)
 {
     Personality device = option_board();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the tests of Demand Data stand on: registers as a master has them, and a drive side that is asked.
+/// The tests of Demand Data use this: registers as a master has them, and a drive side that is asked.
 #pragma once
 
 #include "bench.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What a log and `dpctl` get to see: events, counters, texts.
+/// Tests what a log and `dpctl` get to see: events, counters, texts.
 #include "bench.hpp"
 
 #include <gmock/gmock.h>

@@ -1,33 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-/// No service of the whole stack, layer 2 and DP, takes memory from the heap: a program of its own, because
-/// it replaces operator new.
+/// No service of the whole stack, layer 2 and DP, takes memory from the heap.
 #include "bench.hpp"
+#include "support/allocations.hpp"
 
-#include <cstdlib>
-#include <new>
-
-namespace {
-bool counting = false;
-std::size_t allocations = 0;
-} // namespace
-
-[[gnu::noinline]] void* operator new(std::size_t size)
-{
-    if (counting) ++allocations;
-    if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-    throw std::bad_alloc{};
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept
-{
-    std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept
-{
-    std::free(memory);
-}
+#include <optional>
+#include <utility>
 
 namespace test {
 namespace {
+
+using dpslave::test::allocations;
+using Counting = std::optional<dpslave::test::CountAllocations>;
 
 class NoAllocation : public testing::Test {
 protected:
@@ -36,8 +19,7 @@ protected:
     std::uint8_t passes(const Octets& telegram)
     {
         const dpslave::Bytes octets{telegram};
-        allocations = 0;
-        counting = true;
+        Counting counting{std::in_place};
         now += std::chrono::milliseconds{1};
         station.on_bytes(octets, now);
         station.on_time(now);
@@ -50,8 +32,8 @@ protected:
         (void)slave.take_left();
         (void)slave.take_event();
         (void)slave.snapshot();
-        counting = false;
-        EXPECT_EQ(allocations, 0u) << show(telegram);
+        counting.reset();
+        EXPECT_EQ(allocations(), 0u) << show(telegram);
         return first;
     }
     Octets request(std::uint8_t sap, std::string_view data = "")
@@ -74,13 +56,12 @@ protected:
 
 TEST_F(NoAllocation, TheCounterCounts)
 {
-    counting = true;
-    allocations = 0;
+    Counting counting{std::in_place};
     const auto* one = new volatile int{1};
-    counting = false;
+    counting.reset();
     delete one;
 
-    EXPECT_EQ(allocations, 1u);
+    EXPECT_GT(allocations(), 0u);
 }
 
 TEST_F(NoAllocation, InAnyService)
@@ -107,30 +88,29 @@ TEST_F(NoAllocation, InAnyService)
     EXPECT_EQ(passes(request(55)), kSd1);
     EXPECT_EQ(passes(sd2(127, 2, 0x46, Saps{58, 62}, octets("2A 00"))), 0);
 
-    allocations = 0;
-    counting = true;
+    Counting counting{std::in_place};
     dpslave::InputImage inputs{.generation = slave.snapshot().layout.generation, .every_input_tried = true};
     slave.set_inputs(inputs);
     slave.set_demand_answer({.number = 2});
-    counting = false;
-    EXPECT_EQ(allocations, 0u);
+    counting.reset();
+    EXPECT_EQ(allocations(), 0u);
 
     const Octets block = octets("02 01");
-    counting = true;
+    counting.emplace();
     slave.set_ext_diag(block, true);
-    counting = false;
-    EXPECT_EQ(allocations, 0u);
+    counting.reset();
+    EXPECT_EQ(allocations(), 0u);
 
     EXPECT_EQ(passes(exchange("00 00 00 00 00 00 00 00 00 02")), kSd2);
     EXPECT_EQ(passes(exchange("00")), kSd1); // leaves
     EXPECT_EQ(slave.state(), dpslave::dp::State::wait_prm);
 
     EXPECT_EQ(passes(request(61, board_prm({55}))), kSc);
-    counting = true;
+    counting.emplace();
     now += std::chrono::seconds{1};
     station.on_time(now); // the watchdog
-    counting = false;
-    EXPECT_EQ(allocations, 0u);
+    counting.reset();
+    EXPECT_EQ(allocations(), 0u);
     EXPECT_EQ(slave.state(), dpslave::dp::State::wait_prm);
 }
 

@@ -27,7 +27,7 @@ protected:
         dpslave::InputImage image{.generation = data.configuration().layout.generation,
                                   .every_input_tried = tried};
         image.words[0] = word;
-        return data.set_inputs(image);
+        return data.set_inputs(image) == dpslave::dp::ProcessData::Readiness::ready;
     }
     std::string inputs() const
     {
@@ -49,13 +49,13 @@ protected:
 
 TEST_F(ProcessData, HoldTheOutputsUnderSyncUntilSyncOrUnsync)
 {
-    data.receive(octets("00 01"));
+    data.receive(octets("00 01"), {});
     EXPECT_TRUE(data.set_sync(Switch::on));
-    data.receive(octets("00 02"));
+    data.receive(octets("00 02"), {});
     EXPECT_EQ(outputs(), "00 01");
     EXPECT_FALSE(data.set_sync(Switch::on)); // as before, and what came is taken
     EXPECT_EQ(outputs(), "00 02");
-    data.receive(octets("00 03"));
+    data.receive(octets("00 03"), {});
     EXPECT_FALSE(data.set_sync(Switch::keep));
     EXPECT_EQ(outputs(), "00 02");
     EXPECT_TRUE(data.set_sync(Switch::off));
@@ -66,7 +66,7 @@ TEST_F(ProcessData, HoldTheOutputsUnderSyncUntilSyncOrUnsync)
 TEST_F(ProcessData, WriteNothingUnderSyncUntilOutputsOfTheMasterAreInForce)
 {
     data.set_sync(Switch::on);
-    data.receive(octets("00 02"));
+    data.receive(octets("00 02"), {});
     EXPECT_FALSE(data.take_outputs()->may_write);
 
     data.set_sync(Switch::on);
@@ -99,7 +99,7 @@ TEST_F(ProcessData, HoldTheInputsUnderFreezeUntilFreezeOrUnfreeze)
 
 TEST_F(ProcessData, ClearIsTheFirstOneOnlyAfterAControlWithout)
 {
-    data.receive(octets("00 01"));
+    data.receive(octets("00 01"), {});
 
     EXPECT_TRUE(data.set_clear(true));
     EXPECT_EQ(outputs(), "00 00");
@@ -110,7 +110,7 @@ TEST_F(ProcessData, ClearIsTheFirstOneOnlyAfterAControlWithout)
 
 TEST_F(ProcessData, ClearGoesThroughSync)
 {
-    data.receive(octets("00 01"));
+    data.receive(octets("00 01"), {});
     data.set_sync(Switch::on);
 
     data.set_clear(true);
@@ -128,7 +128,7 @@ TEST_F(ProcessData, StatDiagMayEndWhenEveryInputWasTriedOrHadItsTime)
     EXPECT_TRUE(data.give_up_waiting());
     EXPECT_TRUE(input_is(0x1111, false));
 
-    data.end_stat_diag();
+    data.set_stat_diag(false);
 
     EXPECT_FALSE(data.stat_diag());
     EXPECT_EQ(data.ready_by(), dpslave::kNever);
@@ -138,7 +138,7 @@ TEST_F(ProcessData, StatDiagMayEndWhenEveryInputWasTriedOrHadItsTime)
 TEST_F(ProcessData, EndIsReportedToTheDriveSideByOrderAndByImage)
 {
     const auto generation = data.configuration().layout.generation;
-    data.receive(octets("00 01"));
+    data.receive(octets("00 01"), {});
     EXPECT_TRUE(data.take_outputs()->may_write);
     EXPECT_FALSE(data.take_outputs());
 
@@ -165,7 +165,7 @@ protected:
     /// The order that the master gives by these registers.
     dpslave::DemandOrder order_by(std::string_view registers)
     {
-        data.receive(octets(registers));
+        data.receive(octets(registers), {});
         const auto order = data.take_demand_order();
         EXPECT_TRUE(order) << "no order";
         return order.value_or(dpslave::DemandOrder{});

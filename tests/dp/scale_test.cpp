@@ -7,6 +7,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using dpslave::InputImage;
+using dpslave::StartHold;
 
 class UnknownScale : public DpBench {
 protected:
@@ -22,9 +23,20 @@ protected:
     {
         InputImage image{.generation = generation(),
                          .every_input_tried = every_input_tried,
-                         .scale_missing = scale_missing};
+                         .hold = scale_missing ? StartHold::unscaled : StartHold::none};
         image.words[0] = word;
         slave.set_inputs(image);
+    }
+    /// Not every parameter was tried, and the drive answers, or was not found silent.
+    void drive_is_asked(bool answers)
+    {
+        slave.set_inputs({.generation = generation(), .drive_answers = answers});
+    }
+    bool may_write()
+    {
+        bool may = false;
+        while (const auto outputs = slave.take_outputs()) may = outputs->may_write;
+        return may;
     }
     /// Without a watchdog: time passes here.
     static std::string prm(const std::vector<std::uint16_t>& tags)
@@ -42,7 +54,7 @@ TEST_F(UnknownScale, HoldsStatDiagWithTheStationReadyBehindTheSecondOfEveryStart
     EXPECT_EQ(diag(), "00 06") << "Stat_Diag 1, Station_Not_Ready 0";
     bus.advance(5min);
     EXPECT_EQ(diag(), "00 06");
-    EXPECT_TRUE(seen().holds);
+    EXPECT_EQ(seen().hold, StartHold::unscaled);
 }
 
 TEST_F(UnknownScale, HoldsAlsoWhenItIsFoundBeforeEveryInputWasTried)
@@ -51,6 +63,17 @@ TEST_F(UnknownScale, HoldsAlsoWhenItIsFoundBeforeEveryInputWasTried)
     drive_says(false, true);
     bus.advance(2s);
     EXPECT_EQ(diag(), "00 06");
+}
+
+/// At 300 bit/s one transaction may last longer than the second of C2.
+TEST_F(UnknownScale, ADriveThatAnswersIsWaitedForAlsoBeforeItsFirstWordOfTheLayout)
+{
+    slave.set_inputs({.generation = 0, .drive_answers = true});
+    start_up(prm({55, 56}), "50 60");
+    bus.advance(5s);
+    EXPECT_EQ(diag(), "00 06");
+    drive_says(true, false);
+    EXPECT_EQ(diag(), "00 04");
 }
 
 TEST_F(UnknownScale, SilenceNeverHoldsBehindTheFirstSecond)
@@ -119,7 +142,7 @@ TEST_F(UnknownScale, AnotherSetPrmEndsIt)
     start_up(prm({55}), "50");
     drive_says(true, true);
     start_up(prm({56}), "50");
-    EXPECT_FALSE(seen().holds);
+    EXPECT_EQ(seen().hold, StartHold::none);
     drive_says(true, false);
     EXPECT_EQ(diag(), "00 04");
 }
@@ -133,7 +156,7 @@ TEST_F(UnknownScale, NeverStopsARunningExchange)
     drive_says(true, true);
 
     EXPECT_EQ(master.data_exchange("12 34"), "DL 00 00");
-    EXPECT_FALSE(seen().holds);
+    EXPECT_EQ(seen().hold, StartHold::none);
     EXPECT_EQ(diag(), "00 04");
 }
 
@@ -146,6 +169,73 @@ TEST_F(UnknownScale, WaitsForOutputsAsForInputsWhereTheyHaveToBeTried)
     EXPECT_EQ(diag(), "00 06");
     drive_says(true, false);
     EXPECT_EQ(diag(), "00 04");
+}
+
+TEST_F(UnknownScale, ADriveThatAnswersIsWaitedForBehindTheFirstSecond)
+{
+    start_up(prm({55, 56}), "50 60");
+    drive_is_asked(true);
+    bus.advance(20s);
+    EXPECT_EQ(diag(), "00 06") << "the line is slow";
+    drive_says(true, false);
+    EXPECT_EQ(diag(), "00 04");
+}
+
+TEST_F(UnknownScale, ADriveThatIsFoundSilentBehindTheFirstSecondIsWaitedForNoLonger)
+{
+    start_up(prm({55, 56}), "50 60");
+    drive_is_asked(true);
+    bus.advance(3s);
+    drive_is_asked(false);
+    EXPECT_EQ(diag(), "00 04");
+}
+
+TEST_F(UnknownScale, OutputsThatCameMeanwhileAreWrittenAtItsEndIfTheyAreNotOlderThanTwoSeconds)
+{
+    start_up(prm({55, 56}), "50 60");
+    drive_is_asked(true);
+    master.data_exchange("12 34");
+    EXPECT_FALSE(may_write());
+    bus.advance(1990ms);
+    drive_says(true, false);
+
+    const auto outputs = slave.take_outputs();
+    ASSERT_TRUE(outputs && outputs->may_write);
+    EXPECT_EQ(outputs->words[1], 0x1234);
+}
+
+TEST_F(UnknownScale, OutputsThatAreTooOldAtItsEndAreWrittenWithTheNextDataExchange)
+{
+    start_up(prm({55, 56}), "50 60");
+    drive_is_asked(true);
+    master.data_exchange("12 34");
+    bus.advance(2010ms);
+    drive_says(true, false);
+    EXPECT_FALSE(may_write());
+    diagnosis_is_read();
+    master.data_exchange("12 34");
+    EXPECT_TRUE(may_write());
+}
+
+TEST_F(UnknownScale, WithoutADataExchangeMeanwhileNothingIsWrittenAtItsEnd)
+{
+    start_up(prm({55, 56}), "50 60");
+    drive_is_asked(true);
+    master.control("02 00"); // Clear
+    drive_says(true, false);
+    EXPECT_FALSE(may_write());
+}
+
+TEST_F(UnknownScale, AnOrderOfDemandDataThatCameMeanwhileIsGivenAtItsEnd)
+{
+    start_up(prm({55}), "73 50");
+    drive_is_asked(true);
+    master.data_exchange("20 37 00 00 00 00 00 05"); // write 5 to tag 55
+    ASSERT_FALSE(slave.take_demand_order());
+    drive_says(true, false);
+    const auto order = slave.take_demand_order();
+    ASSERT_TRUE(order);
+    EXPECT_EQ(order->value, 5);
 }
 
 TEST_F(UnknownScale, DemandDataAloneIsNeverHeld)

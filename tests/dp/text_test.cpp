@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What an operator reads of states, refusals and reasons.
+/// Tests what an operator reads of states, refusals and reasons.
 #include "dpslave/dp/refusal.hpp"
 #include "dpslave/dp/state.hpp"
 

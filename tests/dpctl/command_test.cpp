@@ -148,7 +148,7 @@ TEST_F(DpctlProgram, PrintsARefusalAsJsonToo)
 {
     const Ran ran = run({"read", "1", "--station", "5", "--json"});
 
-    EXPECT_EQ(ran.exit, 1);
+    EXPECT_EQ(ran.exit, 5);
     EXPECT_EQ(
         Json::parse(ran.out),
         Json::parse(
@@ -156,8 +156,16 @@ TEST_F(DpctlProgram, PrintsARefusalAsJsonToo)
     EXPECT_EQ(ran.err, "dpctl: tag 1: read only (Demand Data: error code 1)\n");
 }
 
+TEST_F(DpctlProgram, AloneShowsTheStatus)
+{
+    EXPECT_EQ(run({}).exit, 0);
+    EXPECT_EQ(run({}).out, run({"status"}).out);
+    EXPECT_EQ(run({"--json"}).out, run({"status", "-j"}).out);
+}
+
 TEST_F(DpctlProgram, ShowsOneStationOfStatus)
 {
+    EXPECT_EQ(run({"status", "-s", "16"}).out, run({"status", "16"}).out);
     const Ran one = run({"status", "16"});
     EXPECT_EQ(one.exit, 0);
     EXPECT_THAT(one.out, HasSubstr("rewinder"));
@@ -198,23 +206,65 @@ TEST_F(DpctlProgram, WritesNegativeValuesWithoutAnyMark)
 TEST_F(DpctlProgram, SaysWhatWasWritten)
 {
     EXPECT_EQ(run({"write", "7", "50", "--station", "5"}).out,
+              "unwinder: tag 7 SPEED FEEDBACK is 50.00, raw 5000 (0x1388)\n"
               "unwinder: tag 7 SPEED FEEDBACK is now 50.00, raw 5000 (0x1388)\n");
 }
 
-TEST_F(DpctlProgram, EndsWith1AndAReasonWhenItIsRefused)
+TEST_F(DpctlProgram, WritesByNumberOrByAWholeNameOnly)
+{
+    for (const char* tag : {"7", "007", "0x7", "speed feedback", "SPEED FEEDBACK"}) {
+        EXPECT_EQ(run({"write", tag, "50", "--station", "5"}).exit, 0) << tag;
+        EXPECT_EQ(daemon.written().at("tag"), 7) << tag;
+    }
+    for (const char* tag : {"speed", "speed f", "torq", "colour"}) {
+        const Ran ran = run({"write", tag, "99", "--station", "5"});
+        EXPECT_EQ(ran.exit, 2) << tag;
+        EXPECT_EQ(ran.out, "") << tag;
+        EXPECT_THAT(ran.err, StartsWith("dpctl: no tag of unwinder is called '" + std::string{tag} +
+                                        "': write the number, or the whole name\n"));
+    }
+    EXPECT_EQ(run({"write", "7-8", "99", "--station", "5"}).exit, 2);
+    EXPECT_EQ(run({"write", "7,8", "99", "--station", "5"}).exit, 2);
+    EXPECT_EQ(daemon.written().at("value"), "50") << "nothing else was written";
+}
+
+TEST_F(DpctlProgram, OnATerminalAsksBeforeItWrites)
+{
+    Dpctl no{{"--socket", daemon.socket(), "write", "7", "50", "--station", "5"}, Dpctl::As::this_user, true};
+    EXPECT_TRUE(no.prints("tag 7 SPEED FEEDBACK is 50.00"));
+    no.type("n\n");
+    const Ran refused = no.wait();
+    EXPECT_EQ(refused.exit, 1);
+    EXPECT_EQ(refused.err, "Write 50? [y/N] dpctl: nothing was written\n");
+    EXPECT_TRUE(daemon.written().empty());
+
+    Dpctl yes{
+        {"--socket", daemon.socket(), "write", "7", "50", "--station", "5"}, Dpctl::As::this_user, true};
+    yes.type("y\n");
+    EXPECT_EQ(yes.wait().exit, 0);
+    EXPECT_EQ(daemon.written().at("tag"), 7);
+
+    Dpctl at_once{{"--socket", daemon.socket(), "write", "8", "50", "--station", "5", "--yes"},
+                  Dpctl::As::this_user,
+                  true};
+    EXPECT_EQ(at_once.wait().exit, 0);
+    EXPECT_EQ(daemon.written().at("tag"), 8);
+}
+
+TEST_F(DpctlProgram, EndsWith5AndAReasonWhenItIsRefused)
 {
     const Ran station = run({"show", "winder"});
     EXPECT_EQ(station.exit, 2) << "apart from what is refused";
     EXPECT_EQ(station.err, "dpctl: there is no station 'winder'; there are: unwinder, rewinder\n");
 
     const Ran which = run({"read", "7"});
-    EXPECT_EQ(which.exit, 1);
+    EXPECT_EQ(which.exit, 2);
     EXPECT_EQ(which.err, "dpctl: there are several stations, name one: unwinder, rewinder\n"
                          "Add its name to the command, for example: --station unwinder\n");
 
     const Ran drive = run({"write", "1", "5", "--station", "5"});
-    EXPECT_EQ(drive.exit, 1);
-    EXPECT_EQ(drive.out, "");
+    EXPECT_EQ(drive.exit, 5);
+    EXPECT_THAT(drive.out, StartsWith("its value is not known: tag 1: read only"));
     EXPECT_EQ(drive.err, "dpctl: tag 1: read only (Demand Data: error code 1)\n");
 }
 
@@ -224,15 +274,15 @@ TEST_F(DpctlProgram, LetsAnOrdinaryUserReadButNotWrite)
 
     EXPECT_EQ(run({"read", "7", "--station", "5"}, Dpctl::As::unprivileged).exit, 0);
     const Ran ran = run({"write", "7", "5", "--station", "5"}, Dpctl::As::unprivileged);
-    EXPECT_EQ(ran.exit, 1);
+    EXPECT_EQ(ran.exit, 5);
     EXPECT_THAT(ran.err, StartsWith("dpctl: only root and members of the group 'dpslaved' may do this"));
 }
 
-TEST_F(DpctlProgram, EndsWith1WhenTheDaemonIsSilent)
+TEST_F(DpctlProgram, EndsWith4WhenTheDaemonIsSilent)
 {
     const Ran ran = run({"read", "2", "--station", "5", "--timeout", "0.1"});
 
-    EXPECT_EQ(ran.exit, 1);
+    EXPECT_EQ(ran.exit, 4);
     EXPECT_THAT(ran.err, HasSubstr("no answer within 100 ms"));
 }
 
@@ -245,8 +295,41 @@ TEST_F(DpctlProgram, ReloadsForOperatorsOnly)
     EXPECT_EQ(ran.out, dpctl::render_reload(report::read<report::ReloadReply>(fixture("Reload")), false));
     EXPECT_EQ(Json::parse(run({"reload", "--json"}).out), fixture("Reload"));
     if (::geteuid() == 0) {
-        EXPECT_EQ(run({"reload"}, Dpctl::As::unprivileged).exit, 1);
+        EXPECT_EQ(run({"reload"}, Dpctl::As::unprivileged).exit, 5);
     }
+}
+
+TEST_F(DpctlProgram, ReloadsWithoutATerminalButCarefullyRefusesToTakeAStationOutOfItsExchange)
+{
+    daemon.set_state("rewinder", "Data_Exch"); // the plan takes it off the bus
+    EXPECT_EQ(run({"reload"}).exit, 0) << "as a service does";
+    const Ran ran = run({"reload", "--careful"});
+    EXPECT_EQ(ran.exit, 5);
+    EXPECT_THAT(ran.err,
+                HasSubstr("not reloaded: a master exchanges data with rewinder, which would leave the bus"));
+    EXPECT_EQ(run({"reload", "--careful", "--json"}).exit, 5);
+
+    daemon.set_state("rewinder", "Wait_Prm");
+    EXPECT_EQ(run({"reload", "--careful"}).exit, 0);
+}
+
+TEST_F(DpctlProgram, OnATerminalAsksBeforeAReloadTakesAStationOutOfItsExchange)
+{
+    const auto reload = [&](const std::string& typed, const std::string& option = "--timeout=5") {
+        Dpctl running{{"--socket", daemon.socket(), "reload", option}, Dpctl::As::this_user, true};
+        if (!typed.empty()) running.type(typed);
+        return running.wait();
+    };
+    daemon.set_state("rewinder", "Data_Exch");
+    const Ran no = reload("n\n");
+    EXPECT_EQ(no.exit, 1);
+    EXPECT_THAT(no.err, HasSubstr("A master exchanges data with rewinder, which would leave the bus. Reload? "
+                                  "[y/N] dpctl: nothing was changed\n"));
+    EXPECT_EQ(reload("y\n").exit, 0);
+    EXPECT_EQ(reload("", "--yes").exit, 0);
+
+    daemon.set_state("rewinder", "Wait_Prm");
+    EXPECT_EQ(reload("").exit, 0) << "it is not asked";
 }
 
 // ---------------------------------------------------------------- TEC OPTION
@@ -268,7 +351,7 @@ TEST_F(DpctlProgram, SaysWhyAnInputOfTheFunctionBlockCannotBeSet)
 {
     const Ran ran = run({"tec", "set", "FAULT", "1"});
 
-    EXPECT_EQ(ran.exit, 1);
+    EXPECT_EQ(ran.exit, 5);
     EXPECT_EQ(ran.out, "");
     EXPECT_EQ(ran.err, "dpctl: FAULT cannot be set to '1': it is an output\n");
 }

@@ -137,9 +137,11 @@ TEST(DecodeSetPrm, SaysWhatTheDeviceWouldRefuse)
     const auto parts = decoded(kBoxPrm, &box);
 
     ASSERT_EQ(parts.size(), 1u);
-    EXPECT_THAT(parts[0].faults,
-                ElementsAre("profile box would refuse it: the Ident_Number is that of another device, "
-                            "octet 5 (expected 1331, here 5705)"));
+    EXPECT_THAT(
+        parts[0].faults,
+        ElementsAre("profile box would refuse it: the Ident_Number is that of another device, "
+                    "octet 5, expected Ident_Number 0x0533, got 0x1649; use the GSD of this device in the "
+                    "master's project, or check that the master expects this device at this address"));
     box.ident.reset(); // the site's own: nothing to compare with
     EXPECT_THAT(decoded(kBoxPrm, &box)[0].faults, IsEmpty());
 }
@@ -178,7 +180,7 @@ TEST(DecodeChkCfg, ReadsGeneralAndSpecialFormats)
                                       "special format: outputs and inputs", "length: 1 octet out",
                                       "length: 2 octets in", "special format: inputs, then 2 vendor octets",
                                       "length: 2 octets in", "vendor octet", "vendor octet",
-                                      "special format: no inputs or outputs"));
+                                      "special format, empty slot: no inputs or outputs"));
     EXPECT_EQ(parts[0].lines.back().value, "14 octets in, 17 octets out");
 }
 
@@ -190,10 +192,10 @@ TEST(DecodeChkCfg, SaysWhatTheDeviceWouldRefuseAfterTheSetPrmBefore)
     EXPECT_THAT(alone[0].faults, IsEmpty());
     const auto after = decoded(std::string{kBoxPrm} + " 68 06 06 68 85 81 7D 3E 3E 50 4F 16", &box);
     ASSERT_EQ(after.size(), 2u);
-    EXPECT_THAT(
-        after[1].faults,
-        ElementsAre("profile box would refuse it: Cfg_Data has fewer identifiers than User_Prm_Data has tags "
-                    "(expected 2, here 1)"));
+    EXPECT_THAT(after[1].faults, ElementsAre("profile box would refuse it: Cfg_Data has fewer identifiers "
+                                             "than User_Prm_Data has tags, expected 2 "
+                                             "identifiers for as many tags, got 1; add a module for each "
+                                             "tag, or leave tags out"));
     const auto unknown = decoded("68 06 06 68 85 81 7D 3E 3E 51 50 16", &box);
     EXPECT_THAT(unknown[0].faults, ElementsAre(HasSubstr("an identifier is not legal here, octet 1")));
 }

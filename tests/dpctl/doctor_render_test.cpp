@@ -58,8 +58,8 @@ unwinder        5  Data_Exch  silent  red off, green flashing 2 Hz: data
 
 1. The drive no longer answers: power, cable, or changed settings of its port
    (dpslaved)
-   unwinder: ei-ascii unit 00 on p3: /dev/ttyS2 at 9.6 kbit/s, 7E1; it does not
-             answer
+   unwinder: ei-ascii unit 00 on p3: /dev/ttyS2 at 9.6 kbit/s, 7E1, direction
+             none; it does not answer
    - Check the power of the drive, and the cable between gateway and drive.
    - Compare the port of the drive with the configuration: protocol, rate, unit.
    - Ask the drive now: dpctl read TAG

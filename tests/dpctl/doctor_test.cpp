@@ -39,6 +39,14 @@ TEST_F(Doctor, FindsNothingWhereAllIsWell)
 
 // ---------------------------------------------------------------- HA389815 chapter 9
 
+TEST_F(Doctor, NamesALampThatCannotBeSwitched)
+{
+    replies.leds.stations[0].leds[0].trouble = "LED gpio:23: no such line";
+
+    EXPECT_THAT(found(), ElementsAre("station.lamp"));
+    EXPECT_EQ(evidence("station.lamp"), "lamp red: LED gpio:23: no such line");
+}
+
 TEST_F(Doctor, NamesTheSilentBusAndThenTheExternalFaultOfAnOptionBoard)
 {
     station().state = "Wait_Prm";
@@ -193,8 +201,8 @@ TEST_F(Doctor, NamesTheDriveThatWasNeverHeardInOneCauseWithAProbe)
     drive_was_never_heard();
 
     EXPECT_THAT(found(), ElementsAre("drive.never", "board.internal"));
-    EXPECT_EQ(evidence("drive.never"),
-              "ei-ascii unit 00 on p3: /dev/ttyS2 at 9.6 kbit/s, 7E1; 3 requests and never an answer");
+    EXPECT_EQ(evidence("drive.never"), "ei-ascii unit 00 on p3: /dev/ttyS2 at 9.6 kbit/s, 7E1, direction "
+                                       "none; 3 requests and never an answer");
     EXPECT_THAT(steps("drive.never"), HasSubstr("dpctl doctor --probe"));
     EXPECT_THAT(steps("board.internal"),
                 AllOf(HasSubstr("PROTOCOL"), HasSubstr("OPTION"), HasSubstr("0 to 125 (620: 1 to 125)"),
@@ -614,6 +622,7 @@ INSTANTIATE_TEST_SUITE_P(
     States, DoctorTag,
     testing::Values(RefusedTag{"ReadOnlyAsAnOutput", "read_only", "read_only", "station.read_only"},
                     RefusedTag{"OutOfRange", "out_of_range", "out_of_range", "station.range"},
+                    RefusedTag{"TheDrivesOwnValue", "", "does_not_fit", "drive.value"},
                     RefusedTag{"Unknown", "invalid_tag", "invalid_tag", "station.tags"},
                     RefusedTag{"OnlyStopped", "", "not_stopped", "station.not_now"},
                     RefusedTag{"OnlyInConfiguration", "", "not_config_mode", "station.not_now"},
@@ -675,9 +684,24 @@ INSTANTIATE_TEST_SUITE_P(
                                "the drive could not take 23 requests in the last minute"},
                     DriveCount{"NotAccepted", "drive_not_accepted", "drive.not_accepted",
                                "the drive refused 23 writes for a wrong checksum (EE 02) in the last minute"},
+                    DriveCount{
+                        "LateRelease", "line_late_releases", "drive.late_release",
+                        "the transceiver of line p3 (direction none) was released late 23 times in the "
+                        "last minute"},
+                    DriveCount{"DriverErrors", "line_driver_errors", "drive.driver",
+                               "line p3 (direction none): 23 edges failed, and the guard released the driver "
+                               "0 times in the last minute"},
                     DriveCount{"Late", "drive_late", "drive.late",
                                "23 answers came after timeout_ms = 200 in the last minute"}),
     [](const auto& row) { return row.param.name; });
+
+TEST_F(Doctor, AnOutputThatWasNotZeroWhenTheDriveCameBackIsNamed)
+{
+    station().drive.not_zeroed = 100;
+
+    EXPECT_THAT(found(), ElementsAre("drive.not_zeroed"));
+    EXPECT_EQ(evidence("drive.not_zeroed"), "tag 100 was not set to 0 when the drive came back");
+}
 
 TEST_F(Doctor, ADriveThatIsAlwaysLateIsReportedWithTheTimeThatItNeeds)
 {
@@ -702,7 +726,28 @@ TEST_F(Doctor, ADriveWhoseAnswersCannotBeReadIsNotCalledSilent)
         evidence("drive.unreadable"),
         HasSubstr("23 answers could not be read in the last minute, 20 of them only for a wrong checksum, "
                   "and it answered well before"));
-    EXPECT_THAT(steps("drive.unreadable"), HasSubstr("dpctl doctor --probe"));
+    EXPECT_THAT(steps("drive.unreadable"),
+                AllOf(HasSubstr("rate and format"), HasSubstr("dpctl doctor --probe")));
+}
+
+TEST_F(Doctor, ADriveThatWasNeverReadableIsNotSaidToHaveNeverAnswered)
+{
+    drive_was_never_heard();
+    count_of_station("drive_damaged", 23);
+    count_of_station("drive_bad_checksum", 23);
+
+    EXPECT_EQ(found().front(), "drive.unreadable");
+    EXPECT_THAT(evidence("drive.unreadable"),
+                AllOf(HasSubstr("all of them only for a wrong checksum"), HasSubstr("none was ever good")));
+}
+
+TEST_F(Doctor, SaysOfEachFaultOfADriveLineWhereToLook)
+{
+    EXPECT_THAT(steps("drive.damaged"), HasSubstr("screen"));
+    EXPECT_THAT(steps("drive.echo"), HasSubstr("in the [[line]] of this drive"));
+    EXPECT_THAT(steps("drive.not_accepted"), HasSubstr("from the gateway to the drive"));
+    EXPECT_THAT(steps("drive.gone"), HasSubstr("/dev/serial/by-id"));
+    EXPECT_THAT(steps("drive.unsteady"), HasSubstr("plugs at both ends"));
 }
 
 TEST_F(Doctor, ALineThatHearsItselfIsNeitherSilentNorUnreadable)
@@ -716,6 +761,17 @@ TEST_F(Doctor, ALineThatHearsItselfIsNeitherSilentNorUnreadable)
     EXPECT_THAT(found(), Not(Contains(testing::AnyOf("drive.never", "drive.unreadable", "drive.foreign"))));
     EXPECT_THAT(evidence("drive.echo"), HasSubstr("23 requests came back in the last minute"));
     EXPECT_THAT(steps("drive.echo"), HasSubstr("echo = \"on\""));
+}
+
+TEST_F(Doctor, NoiseBeforeTheAnswersNamesBiasResistorsAndTheDirection)
+{
+    count_of_station("drive_noise", 23);
+
+    EXPECT_THAT(found(), Contains("drive.noise_before"));
+    EXPECT_THAT(evidence("drive.noise_before"),
+                HasSubstr("noise came before or instead of 23 answers in the last minute"));
+    EXPECT_THAT(steps("drive.noise_before"), HasSubstr("bias resistors"));
+    EXPECT_THAT(steps("drive.noise_before"), HasSubstr("direction"));
 }
 
 TEST_F(Doctor, ADriveThatWasLateAWhileAgoMayBeSilentNow)

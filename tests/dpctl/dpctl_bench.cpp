@@ -2,6 +2,7 @@
 #include "dpctl_bench.hpp"
 
 #include "control/fixtures.hpp"
+#include "control/interface.hpp"
 
 #include <fcntl.h>
 #include <grp.h>
@@ -66,28 +67,27 @@ FixtureDaemon::FixtureDaemon(std::string behind_each_text)
     control::ServerSettings settings;
     settings.socket = socket_;
     settings.operator_group_name = "dpslaved";
-    auto server = control::Server::open(settings, handlers());
+    auto server = control::Server::open(settings, methods());
     if (!server) throw std::runtime_error(server.error());
     thread_ = std::thread([this, own = *std::move(server)]() mutable {
         std::array<pollfd, 4> ready{
             {{own.fd(), POLLIN, 0}, {stop_, POLLIN, 0}, {wake_, POLLIN, 0}, {event_, POLLIN, 0}}};
         while (::poll(ready.data(), ready.size(), -1) > 0 && ready[1].revents == 0) {
             own.on_ready();
-            for (const auto& [token, reply] : std::exchange(answers_, {})) own.complete(token, reply);
+            for (const auto& [caller, reply] : std::exchange(answers_, {})) caller.end(reply);
             if (std::exchange(second_picture_due_, false)) {
                 Json picture = reply("Watch");
                 picture["stations"][0]["state"] = "Wait_Prm";
-                for (const std::uint64_t stream : own.streams()) own.push(stream, picture);
+                for (const control::ReplyTo& watch : watches_) watch.send(picture);
             }
-            if (const std::uint64_t stream = std::exchange(trace_stream_, 0); stream != 0)
-                push_line(own, stream);
+            push_line();
             eventfd_t woken = 0;
-            if (::eventfd_read(event_, &woken) == 0) push_events(own);
+            if (::eventfd_read(event_, &woken) == 0) push_events();
             if (::eventfd_read(wake_, &woken) == 0) {
                 Json picture = reply("Watch");
                 picture["stations"][0]["state"] = "Wait_Prm";
                 picture["words"][0]["words"][0]["value"] = "51.00";
-                for (const std::uint64_t stream : own.streams()) own.push(stream, picture);
+                for (const control::ReplyTo& watch : watches_) watch.send(picture);
             }
         }
     });
@@ -108,16 +108,17 @@ void FixtureDaemon::something_happens()
 }
 
 /// The end of a trace with drive lines: that line has no records.
-void FixtureDaemon::push_line(control::Server& server, std::uint64_t stream) const
+void FixtureDaemon::push_line()
 {
+    if (!trace_.is_open()) return;
     Json line = reply("Trace");
     line["line"] = "p3";
     line["records"] = "";
     line["lost"] = 0;
-    server.push(stream, line);
+    std::exchange(trace_, {}).send(line);
 }
 
-void FixtureDaemon::push_events(control::Server& server)
+void FixtureDaemon::push_events()
 {
     const Json event = {{"number", 4},
                         {"age_ms", 1.0},
@@ -125,8 +126,8 @@ void FixtureDaemon::push_events(control::Server& server)
                         {"kind", "drive"},
                         {"text", "unwinder: the drive does not answer"},
                         {"count", 1}};
-    for (const std::uint64_t stream : events_followed_)
-        server.push(stream, {{"events", Json::array({event})}, {"lost", 0}, {"newest", 4}});
+    for (const control::ReplyTo& follower : events_followed_)
+        follower.send({{"events", Json::array({event})}, {"lost", 0}, {"newest", 4}});
 }
 
 bool FixtureDaemon::was_read(std::size_t times)
@@ -154,12 +155,11 @@ void FixtureDaemon::change_value()
     ::eventfd_write(wake_, 1);
 }
 
-control::Handlers FixtureDaemon::handlers()
+control::Methods FixtureDaemon::methods()
 {
-    control::Handlers all;
-    for (const auto& method : control::kMethods) {
-        const std::string name{method.name};
-        all[name] = [this, name](const Json& parameters, const control::Caller&) -> Reply {
+    control::Methods all = quiet_methods();
+    for (auto& [name, method] : all) {
+        method.answer = [this, name = name](const Json& parameters, const control::Caller&) -> Reply {
             {
                 const std::lock_guard lock(mutex_);
                 questions_.insert(name);
@@ -172,36 +172,40 @@ control::Handlers FixtureDaemon::handlers()
             return Error{"NoSuchStation", Json::object({{"station", station}, {"known", known}})};
         };
     }
-    all["ReadTag"] = [this](const Json& parameters, const control::Caller&) {
+    all["ReadTag"].answer = [this](const Json& parameters, const control::Caller& caller) {
         if (parameters.contains("station")) {
             const std::lock_guard lock(mutex_);
             read_.push_back(parameters.at("tag").get<int>());
         }
         asked_.notify_all();
-        return tag(parameters);
+        return tag(parameters, caller);
     };
-    all["FindTags"] = [](const Json& parameters, const control::Caller&) { return find_tags(parameters); };
-    all["GetEvents"] = [this](const Json&, const control::Caller& caller) -> Reply {
+    all["FindTags"].answer = [](const Json& parameters, const control::Caller&) {
+        return find_tags(parameters);
+    };
+    all["GetEvents"].answer = [this](const Json&, const control::Caller& caller) -> Reply {
         if (!caller.more) return Done{reply("GetEvents")};
-        events_followed_.push_back(++last_number_);
-        return control::Stream{last_number_, reply("GetEvents")};
+        events_followed_.push_back(caller.reply_to);
+        return control::Stream{reply("GetEvents")};
     };
-    all["SetLogLevel"] = [this](const Json& parameters, const control::Caller&) -> Reply {
+    all["SetLogLevel"].answer = [this](const Json& parameters, const control::Caller&) -> Reply {
         {
             const std::lock_guard lock(mutex_);
             written_ = parameters;
         }
         return Done{reply("SetLogLevel")};
     };
-    all["WriteTag"] = [this](const Json& parameters, const control::Caller&) {
+    all["WriteTag"].answer = [this](const Json& parameters, const control::Caller& caller) {
         {
             const std::lock_guard lock(mutex_);
             written_ = parameters;
         }
-        return tag(parameters);
+        return tag(parameters, caller);
     };
-    all["Survey"] = [this](const Json& parameters, const control::Caller&) { return survey(parameters); };
-    all["SetTec"] = [this](const Json& parameters, const control::Caller&) -> Reply {
+    all["Survey"].answer = [this](const Json& parameters, const control::Caller&) {
+        return survey(parameters);
+    };
+    all["SetTec"].answer = [this](const Json& parameters, const control::Caller&) -> Reply {
         if (parameters.at("parameter") == "FAULT")
             return Error{
                 "BadTecValue",
@@ -212,17 +216,18 @@ control::Handlers FixtureDaemon::handlers()
         }
         return Done{reply("SetTec")};
     };
-    all["Trace"] = [this](const Json& parameters, const control::Caller&) -> Reply {
+    all["Trace"].answer = [this](const Json& parameters, const control::Caller& caller) -> Reply {
         if (!parameters.value("all", false)) return Done{reply("Trace")};
         Json bus = reply("Trace");
         bus["caught_up"] = false;
         bus["records"] = "AwAAAAQAAAAEAAAAAAAAAAAvaFkAAAAAAAAAAAAAAABoDQ0="; // 68 0D 0D at 1.5 s
-        trace_stream_ = ++last_number_;
-        return control::Stream{trace_stream_, bus};
+        trace_ = caller.reply_to;
+        return control::Stream{bus};
     };
-    all["Watch"] = [this](const Json&, const control::Caller&) {
+    all["Watch"].answer = [this](const Json&, const control::Caller& caller) {
         second_picture_due_ = true;
-        return control::Stream{++last_number_, reply("Watch")};
+        watches_.push_back(caller.reply_to);
+        return control::Stream{reply("Watch")};
     };
     return all;
 }
@@ -253,11 +258,9 @@ Reply FixtureDaemon::survey(const Json& parameters)
 /// As the daemon does: a part of the name in any case, or the whole name alone.
 Reply FixtureDaemon::find_tags(const Json& parameters)
 {
-    const std::map<std::string, std::vector<int>> found{{"", {7, 8, 9}},
-                                                        {"SPEED FEEDBACK", {7}},
-                                                        {"speed feedback", {7}},
-                                                        {"feedback", {7}},
-                                                        {"speed", {7, 8}}};
+    const std::map<std::string, std::vector<int>> found{
+        {"", {7, 8, 9}},       {"SPEED FEEDBACK", {7}}, {"speed feedback", {7}}, {"feedback", {7}},
+        {"speed demand", {8}}, {"torq", {9}},           {"speed", {7, 8}}};
     const std::map<int, const char*> names{{7, "SPEED FEEDBACK"}, {8, "SPEED DEMAND"}, {9, "TORQUE"}};
     Json tags = Json::array();
     if (const auto one = found.find(parameters.value("name", "")); one != found.end())
@@ -265,20 +268,20 @@ Reply FixtureDaemon::find_tags(const Json& parameters)
     return Done{{{"station", "unwinder"}, {"tags", std::move(tags)}}};
 }
 
-Reply FixtureDaemon::tag(const Json& parameters)
+Reply FixtureDaemon::tag(const Json& parameters, const control::Caller& caller)
 {
     const auto number = parameters.at("tag").get<int>();
     if (!parameters.contains("station"))
         return Error{"StationRequired", Json::object({{"known", Json::array({"unwinder", "rewinder"})}})};
-    const std::uint64_t token = ++last_number_;
     if (number == 1)
         answers_.emplace_back(
-            token,
+            caller.reply_to,
             Error{"DriveRefused",
                   Json::object({{"tag", 1}, {"reason", "read only" + behind_each_text_}, {"code", 1}})});
     else if (number != 2)
-        answers_.emplace_back(token, Done{reply(parameters.contains("value") ? "WriteTag" : "ReadTag")});
-    return control::Later{token};
+        answers_.emplace_back(caller.reply_to,
+                              Done{reply(parameters.contains("value") ? "WriteTag" : "ReadTag")});
+    return control::Later{};
 }
 
 // ---------------------------------------------------------------- the program

@@ -54,28 +54,28 @@ public:
     }
 
 private:
-    control::Handlers handlers();
-    control::Reply tag(const Json& parameters);
+    control::Methods methods();
+    control::Reply tag(const Json& parameters, const control::Caller& caller);
     static control::Reply find_tags(const Json& parameters);
-    void push_events(control::Server& server);
-    void push_line(control::Server& server, std::uint64_t stream) const;
+    void push_events();
+    void push_line();
     Json reply(const std::string& method) const;
     control::Reply survey(const Json& parameters);
 
     std::string behind_each_text_;
     TempFolder folder_;
     std::filesystem::path socket_ = folder_.path() / "control.sock";
-    std::vector<std::pair<std::uint64_t, control::Reply>> answers_;
+    std::vector<std::pair<control::ReplyTo, control::LastReply>> answers_;
     bool second_picture_due_ = false;
-    std::uint64_t trace_stream_ = 0; ///< whose second reply is due; 0: none
-    std::uint64_t last_number_ = 0;
+    control::ReplyTo trace_; ///< whose second reply is due
+    std::vector<control::ReplyTo> watches_;
     std::map<int, int> surveyed_; ///< by tag, how often; only the thread's
     mutable std::mutex mutex_;
     std::condition_variable asked_;
     std::set<std::string> questions_;
     std::vector<int> read_;
-    std::vector<std::uint64_t> events_followed_; ///< streams; only the thread's
-    std::map<std::string, std::string> states_;  ///< by station
+    std::vector<control::ReplyTo> events_followed_; ///< only the thread's
+    std::map<std::string, std::string> states_;     ///< by station
     Json written_;
     int stop_, wake_, event_;
     std::thread thread_;

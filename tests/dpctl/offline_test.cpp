@@ -53,11 +53,11 @@ TEST(DpctlDoctor, EndsWith3AndAHintWhenNoDaemonRuns)
 
 TEST(DpctlDoctor, PrintsAllRulesWithoutADaemon)
 {
-    const Ran ran = dpctl({"doctor", "--all", "--socket", "/nonexistent/control.sock"});
+    const Ran ran = dpctl({"doctor", "--rules", "--socket", "/nonexistent/control.sock"});
 
     EXPECT_EQ(ran.exit, 0);
     EXPECT_THAT(ran.out, HasSubstr("NETWORK off, MODULE short flash (FAULT is SELF TEST)\n"));
-    EXPECT_EQ(Json::parse(dpctl({"doctor", "--all", "--json"}).out)["lines"].size(), 7u);
+    EXPECT_EQ(Json::parse(dpctl({"doctor", "--rules", "--json"}).out)["lines"].size(), 7u);
 }
 
 // ---------------------------------------------------------------- hex

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What dpctl reload prints.
+// Tests what dpctl reload prints.
 #include "control/fixtures.hpp"
 #include "dpctl/cli/render.hpp"
 

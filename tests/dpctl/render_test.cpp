@@ -79,6 +79,7 @@ TEST(DpctlStatus, SaysOfAStationThatIsHeldThatItExchangesNothing)
 {
     Json reply = fixture("GetStatus");
     reply["stations"][0]["held"] = true;
+    reply["stations"][0]["held_because"] = "the scale of a tag is not known";
 
     const std::string picture = render_status(reply, Look{false, 120});
     EXPECT_NE(picture.find("Data_Exch, held"), std::string::npos) << picture;
@@ -165,7 +166,8 @@ unwinder, address 5
   diagnosis         nothing new
   parameters        2 and Demand Data
   left Data_Exch    1 time, the last time: watchdog expired
-  drive             unit 00 on p3 (/dev/ttyS2, ei-ascii): answers
+  drive             unit 00 on p3 (/dev/ttyS2, ei-ascii, direction none):
+                    answers
                     a round takes 123 ms; 4000 reads, 1 write, 3 unanswered, 0
                     refused, lost 1 time
 
@@ -185,12 +187,23 @@ unwinder, address 5
                     187.5 kbit/s, answers within 60 T_bit
                     1.5 Mbit/s, answers within 150 T_bit
   tag table         590.csv, 312 tags
+  mnemonics         rule 590plus, assumed: 590+ formula
 
   lamps             data exchange with the master
   LED    NOW   PATTERN        SINK
   red    dark  off            gpio:23
   green  lit   flashing 2 Hz  led:dpslaved-green
 )"));
+}
+
+TEST(DpctlShow, NamesALampThatCannotBeSwitchedInPlaceOfLit)
+{
+    Json document = shown(0);
+    document["stations"][0]["leds"]["leds"][1]["trouble"] = "LED led:dpslaved-green: no such name";
+
+    EXPECT_NE(render_show(document, false).find("green  cannot be switched  flashing 2 Hz"),
+              std::string::npos)
+        << render_show(document, false);
 }
 
 TEST(DpctlShow, ReportsAStationWithoutMasterAndASilentDrive)
@@ -206,7 +219,7 @@ TEST(DpctlShow, ReportsAStationWithoutMasterAndASilentDrive)
                     by the master
   parameters        0
   left Data_Exch    never
-  drive             unit 01 on p3 (/dev/ttyS2, ei-ascii): silent
+  drive             unit 01 on p3 (/dev/ttyS2, ei-ascii, direction none): silent
                     0 reads, 0 writes, 12 unanswered, 0 refused, lost 0 times
                     last trouble: no answer
 
@@ -262,6 +275,21 @@ TEST(DpctlInfo, ShowsReleaseStatusAndResolutionWhereTheDeviceHasThem)
     info["comms_status"] = "run";
     EXPECT_NE(render_show(shown(0, info), {}).find("\n  comms status      run (comms running)\n"),
               std::string::npos);
+}
+
+TEST(DpctlInfo, SaysThatAMnemonicRuleIsAssumedAndWhereItComesFrom)
+{
+    Json info = fixture("GetInfo")["stations"][0];
+    EXPECT_NE(
+        render_show(shown(0, info), {}).find("\n  mnemonics         rule 590plus, assumed: 590+ formula\n"),
+        std::string::npos);
+
+    info["mnemonics_assumed"] = false;
+    EXPECT_NE(render_show(shown(0, info), {}).find("\n  mnemonics         rule 590plus: 590+ formula\n"),
+              std::string::npos);
+
+    info["mnemonic_rule"] = nullptr;
+    EXPECT_EQ(render_show(shown(0, info), {}).find("mnemonics"), std::string::npos);
 }
 
 TEST(DpctlInfo, RepeatsWhatTheFunctionBlockWarnsOf)

@@ -74,6 +74,21 @@ TEST_F(SurveyFilesTest, ARecordGoesOnWhereItEnded)
     EXPECT_EQ(files.seen.at(2).denied, "invalid tag");
 }
 
+TEST_F(SurveyFilesTest, ARecordByOneRuleIsNotContinuedByAnother)
+{
+    {
+        auto files =
+            SurveyFiles::open("unwinder by rule pno", table, {}, false, profile::MnemonicCells::fill);
+        ASSERT_TRUE(files);
+        files->seen[1].add(said("12.5"));
+        EXPECT_EQ(files->save(), std::nullopt);
+    }
+    const auto files =
+        SurveyFiles::open("unwinder by rule ac", table, {}, true, profile::MnemonicCells::fill);
+    ASSERT_FALSE(files);
+    EXPECT_THAT(files.error(), HasSubstr("'unwinder by rule pno', not of 'unwinder by rule ac'"));
+}
+
 TEST_F(SurveyFilesTest, WithoutResumeTheRecordBeginsAnewAndTheTableKeepsWhatWasSeen)
 {
     {
@@ -149,7 +164,7 @@ TEST_F(SurveyFilesTest, OfOneSurveyAreNotThoseOfAnotherAtTheSameTime)
     {
         SurveyFiles first = open();
         EXPECT_THAT(SurveyFiles::open("unwinder", table, {}, true).error(),
-                    testing::AllOf(HasSubstr("another survey writes this file"), HasSubstr("--table")));
+                    testing::AllOf(HasSubstr("another survey writes this file"), HasSubstr("--output")));
         first.seen[1].add(said("12.5"));
         EXPECT_EQ(first.save(), std::nullopt);
         EXPECT_THAT(SurveyFiles::open("unwinder", table, {}, true).error(), HasSubstr("another survey"))
@@ -293,7 +308,7 @@ protected:
     std::vector<std::string> command(std::vector<std::string> more) const
     {
         std::vector<std::string> all{"--socket", daemon.socket(), "survey",
-                                     "unwinder", "--table",       table.string()};
+                                     "unwinder", "--output",      table.string()};
         all.insert(all.end(), more.begin(), more.end());
         return all;
     }

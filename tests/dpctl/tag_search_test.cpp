@@ -109,7 +109,7 @@ own.csv: tag 12 (0x000C) Speed feedback
   section      Speed
 )"));
     EXPECT_THAT(shown({"75"}), HasSubstr("  bits         0 = Alarm 1\n               4 = Manual\n"));
-    EXPECT_THAT(shown({"75"}), HasSubstr("  access       not stated, the device decides\n"));
+    EXPECT_THAT(shown({"75"}), HasSubstr("  access       not known: the device decides\n"));
 }
 
 TEST_F(TagLookup, NamesTheWordsOfDemandDataAlsoAbove2047)
@@ -143,8 +143,7 @@ TEST_F(TagLookup, PrintsManyInOneLineEach)
     const std::string picture = shown({"input"});
 
     EXPECT_EQ(picture.find("TABLE     TAG  HEX   NAME      TYPE  ACCESS"), 0u) << picture;
-    EXPECT_THAT(picture,
-                HasSubstr("\nmany.csv   11  000B  Input 11  INT   not stated, the device decides\n"));
+    EXPECT_THAT(picture, HasSubstr("\nmany.csv   11  000B  Input 11  INT   not known: the device decides\n"));
     EXPECT_THAT(picture, HasSubstr("\nall about one of them: dpctl tag NUMBER\n"));
 }
 

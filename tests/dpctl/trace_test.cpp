@@ -74,6 +74,21 @@ TEST_F(DpctlTrace, WhatIsNoTelegramNamesItsFlaw)
     EXPECT_THAT(line(piece), HasSubstr("no telegram: " + std::string{fdl::text(fdl::Flaw::unfinished)}));
 }
 
+TEST_F(DpctlTrace, APartOfATelegramIsCutAndNoFlaw)
+{
+    const Entry cut = entry(What::cut, {0x50, 0x16});
+
+    EXPECT_THAT(line(cut), HasSubstr("  - > -   cut: "));
+    EXPECT_FALSE(passes({.address = {}, .service = {}, .bad = true}, cut));
+    const auto words = dpctl::words_of(cut);
+    EXPECT_EQ(json_of(cut, words, kOffset).at("what"), "cut");
+    EXPECT_EQ(json_of(cut, words, kOffset).at("flaw"), nullptr);
+    const auto packet = packet_of(cut, words, kOffset);
+    ASSERT_TRUE(packet);
+    EXPECT_FALSE(packet->checksum_error);
+    EXPECT_THAT(packet->comments, ElementsAre(words.service));
+}
+
 TEST_F(DpctlTrace, OctetsThatAreNoTelegramAreNamedSoWhateverTheRecordSays)
 {
     for (const std::vector<std::uint8_t>& octets :
@@ -159,7 +174,7 @@ TEST_F(DpctlTrace, OfThePastThatEndsWithADriveLineHasWhatIsUnfinishedOnTheBus)
     const TempFolder folder;
     const std::string file = (folder.path() / "all.pcapng").string();
 
-    const Ran ran = dpctl({"--socket", daemon.socket(), "trace", "--write", file});
+    const Ran ran = dpctl({"--socket", daemon.socket(), "trace", "--output", file});
 
     ASSERT_EQ(ran.exit, 0) << ran.err;
     std::ifstream in{file, std::ios::binary};
@@ -172,7 +187,7 @@ TEST_F(DpctlTrace, ThatCannotCreateItsFileSaysWhich)
 {
     const FixtureDaemon daemon;
 
-    const Ran ran = dpctl({"--socket", daemon.socket(), "trace", "--write", "/none/bus.pcapng"});
+    const Ran ran = dpctl({"--socket", daemon.socket(), "trace", "--output", "/none/bus.pcapng"});
 
     EXPECT_EQ(ran.exit, 1);
     EXPECT_THAT(ran.err, HasSubstr("/none/bus.pcapng"));

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What dpctl tune says of machines: each number is that of the wire reference, 11.2, 11.5 and 11.6, and each
-// verdict was worked out by hand from those.
+// Tests what dpctl tune says of machines: each number is that of the wire reference, 11.2, 11.5 and 11.6, and
+// each verdict was worked out by hand from those.
 #include "control/lines.hpp"
 #include "dpctl/tune/tune.hpp"
 #include "dpctl/tune/tune_uart.hpp"
 #include "dpctl_bench.hpp"
+#include "gsd/second_hand.hpp"
 #include "machine_tree.hpp"
 
 #include <gmock/gmock.h>
@@ -600,26 +601,26 @@ TEST_F(Tune, PrintsFactsRatesAndWhatIsToDoWithin80Columns)
   daemon      pid 400, 93.75 kbit/s, bus thread FIFO 80 on 3, memory locked, 0
               replies
 
-  RATE          VERDICT   NEEDS  PROMISED  WHY
-    9.6 kbit/s  holds        35        60  as promised
-   19.2 kbit/s  holds        38        60  as promised
-  45.45 kbit/s  holds        46        60  as promised
-> 93.75 kbit/s  holds        61        60  with max_tsdr = 61
-  187.5 kbit/s  holds        89        60  with max_tsdr = 89
-    500 kbit/s  holds       182        60  with max_tsdr = 182
-    1.5 Mbit/s  holds       482        60  with max_tsdr = 482
+          RATE  VERDICT  NEEDS  PROMISED  WHY
+    9.6 kbit/s  holds       35        60  as promised
+   19.2 kbit/s  holds       38        60  as promised
+  45.45 kbit/s  holds       46        60  as promised
+> 93.75 kbit/s  holds       61        60  with max_tsdr = 61
+  187.5 kbit/s  holds       89        60  with max_tsdr = 89
+    500 kbit/s  holds      182        60  with max_tsdr = 182
+    1.5 Mbit/s  holds      482        60  with max_tsdr = 482
   NEEDS, PROMISED: MaxTsdr in bit times. More needed than promised: write
   max_tsdr under [bus], and give the master the GSD of dpctl gsd make --max-tsdr
 
-1. At 93.75 kbit/s this machine may need 61 bit times to begin a reply, and 60
-   are promised
+1. At 93.75 kbit/s this machine may need 61 bit times to begin a reply, and
+   60 are promised
    costs replies that are not sent, because the master does not wait for them
    - Write max_tsdr = 61 under [bus], and restart dpslaved
    - Give the master the GSD that dpctl gsd make --max-tsdr 61 writes, so that
      it waits as long
 
-note: The UART keeps fewer characters than its trigger until the line was idle
-   for 32 bit times
+note: The UART keeps fewer characters than its trigger until the line was
+   idle for 32 bit times
    costs 21 bit times at every rate
    - The driver has no setting for it: the figures above have room for it
 )"));
@@ -639,7 +640,7 @@ TEST_F(Tune, NoLineIsLongerThan80Columns)
     }
 }
 
-TEST_F(Tune, PrintsJsonInTheFormThatItsHelpShows)
+TEST_F(Tune, PrintsJsonInTheFormThatTheManualPageHas)
 {
     on(test::stock_pc, "/dev/ttyS1");
     const Json json = tune_json(facts(), rates(), findings());
@@ -657,12 +658,12 @@ TEST_F(Tune, PrintsJsonInTheFormThatItsHelpShows)
     serves(Baud::k9_6);
     const Json served = tune_json(facts(), rates(), findings());
     EXPECT_EQ(served["daemon"]["bus_thread"]["policy"], "fifo");
-    const std::string help = test::dpctl({"tune", "--help"}).out;
+    const std::string page = test::content_of(test::kSource / "docs/man/dpctl.1.scd");
     for (const char* part : {"machine", "port", "daemon"})
-        for (const auto& item : served[part].items()) EXPECT_THAT(help, HasSubstr('"' + item.key() + '"'));
+        for (const auto& item : served[part].items()) EXPECT_THAT(page, HasSubstr('"' + item.key() + '"'));
     for (const char* array : {"rates", "findings"})
         for (const auto& item : served[array][0].items())
-            EXPECT_THAT(help, HasSubstr('"' + item.key() + '"'));
+            EXPECT_THAT(page, HasSubstr('"' + item.key() + '"'));
 }
 
 TEST(DpctlTune, WithoutPortAndWithoutDaemonSaysWhatToType)

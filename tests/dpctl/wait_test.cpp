@@ -27,7 +27,7 @@ TEST_F(DpctlWait, AnswersWhetherStationsExchangeData)
     EXPECT_EQ(all.exit, 1);
     EXPECT_EQ(all.out, "");
     EXPECT_EQ(all.err, "");
-    EXPECT_EQ(asked({"unwinder", "--drive"}).exit, 0);
+    EXPECT_EQ(asked({"unwinder", "--with-drive"}).exit, 0);
     EXPECT_EQ(asked({"unwinder"}).exit, 0);
     EXPECT_EQ(asked({"5"}).exit, 0);
     EXPECT_EQ(asked({"16"}).exit, 1);
@@ -61,7 +61,7 @@ TEST_F(DpctlWait, WaitsForADriveThatAnswersAndAMasterOutOfClearWhereThatIsAsked)
     daemon.set_state("rewinder", "Data_Exch"); // its drive is silent
 
     EXPECT_EQ(run({"status", "rewinder", "--wait", "0", "--quiet"}).exit, 0);
-    EXPECT_EQ(run({"status", "rewinder", "--wait", "0", "--quiet", "--drive"}).exit, 1);
+    EXPECT_EQ(run({"status", "rewinder", "--wait", "0", "--quiet", "--with-drive"}).exit, 1);
 }
 
 } // namespace

@@ -132,5 +132,18 @@ INSTANTIATE_TEST_SUITE_P(
         Explained{"WithoutItsParameters", "org.dpslaved.Control.DriveRefused", "{}", "tag -: ?"}),
     [](const auto& row) { return row.param.name; });
 
+Exit exit_of_reason(const char* reason)
+{
+    const Json parameters{{"tag", 56}, {"reason", reason}, {"code", nullptr}};
+    return exit_of({parameters, "org.dpslaved.Control.DriveRefused", false});
+}
+
+TEST(ExitStatus, TellsADriveThatDidNotAnswerFromOneThatRefused)
+{
+    EXPECT_EQ(exit_of_reason("the drive does not answer"), 4);
+    EXPECT_EQ(exit_of_reason("the drive line has not come to it within 5 minutes"), 4);
+    EXPECT_EQ(exit_of_reason("read only"), 5);
+}
+
 } // namespace
 } // namespace dpslave::dpctl

@@ -90,7 +90,7 @@ TEST_F(ConsoleTest, StartsAndWaitsForAnInput)
     run("start");
     run("wait 2s for in1 = 1250");
     run("expect in 1 = 1250");
-    EXPECT_FALSE(console.failed()) << text;
+    EXPECT_EQ(console.exit(), 0) << text;
     EXPECT_THAT(text, HasSubstr("station is in data exchange"));
 }
 
@@ -98,7 +98,7 @@ TEST_F(ConsoleTest, FailsWithASentenceWhenAnExpectationIsNotMet)
 {
     run("start");
     run("expect in 1 = 7");
-    EXPECT_TRUE(console.failed());
+    EXPECT_NE(console.exit(), 0);
     EXPECT_THAT(text, HasSubstr("script:1: expect in 1 = 7: in 1 is 0 (0x0000)"));
 }
 
@@ -106,14 +106,14 @@ TEST_F(ConsoleTest, ForgivesWhatWasOnlyTried)
 {
     run("start");
     run("try expect in 1 = 7");
-    EXPECT_FALSE(console.failed());
+    EXPECT_EQ(console.exit(), 0);
 }
 
 TEST_F(ConsoleTest, FailsWhenAConditionDoesNotComeInTime)
 {
     run("start");
     run("wait 500ms for in 1 > 0");
-    EXPECT_TRUE(console.failed());
+    EXPECT_NE(console.exit(), 0);
     EXPECT_THAT(text, HasSubstr("not in time, in 1 is 0"));
 }
 
@@ -121,7 +121,7 @@ TEST_F(ConsoleTest, ReportsThatNoStationAnswers)
 {
     silent = true;
     run("start 1s");
-    EXPECT_TRUE(console.failed());
+    EXPECT_NE(console.exit(), 0);
     EXPECT_THAT(text, HasSubstr("station 5 does not answer"));
 }
 
@@ -129,7 +129,7 @@ TEST_F(ConsoleTest, ExplainsTheDiagnosisWhenTheStartIsRefused)
 {
     diagnosis = wire("06 05 00 FF 05 33");
     run("start");
-    EXPECT_TRUE(console.failed());
+    EXPECT_NE(console.exit(), 0);
     EXPECT_THAT(text, HasSubstr("Chk_Cfg was refused"));
     EXPECT_THAT(text, HasSubstr("Cfg_Fault"));
     run("try expect diag cfg-fault");
@@ -176,7 +176,7 @@ TEST_F(DemandConsoleTest, ReadsATag)
     run("start");
     run("demand read 55");
     run("expect demand = 42");
-    EXPECT_FALSE(console.failed()) << text;
+    EXPECT_EQ(console.exit(), 0) << text;
     EXPECT_THAT(text, HasSubstr("tag 55 = 42"));
     EXPECT_EQ(hex(requests.back()), "10 37 00 00 00 00 00 00");
 }
@@ -189,7 +189,7 @@ TEST_F(DemandConsoleTest, PutsNoCommandBetweenTwoOrdersOfOneTag)
     run("demand write 55 1000");
     EXPECT_EQ(hex(requests[before]), "00 00 00 00 00 00 00 00");
     EXPECT_EQ(hex(requests.back()), "20 37 00 00 00 00 03 E8");
-    EXPECT_FALSE(console.failed()) << text;
+    EXPECT_EQ(console.exit(), 0) << text;
 }
 
 TEST_F(DemandConsoleTest, ShowsARejectionWithItsReason)
@@ -198,11 +198,11 @@ TEST_F(DemandConsoleTest, ShowsARejectionWithItsReason)
     run("start");
     run("demand write 55 1000");
     run("expect demand reject 1");
-    EXPECT_FALSE(console.failed()) << text;
+    EXPECT_EQ(console.exit(), 0) << text;
     EXPECT_THAT(text, HasSubstr("tag 55 rejected, 1: read-only parameter"));
     run("demand none");
     run("expect demand none");
-    EXPECT_FALSE(console.failed()) << text;
+    EXPECT_EQ(console.exit(), 0) << text;
 }
 
 TEST_F(DemandConsoleTest, SetsTheFourRegistersAsTheyAre)
@@ -214,7 +214,7 @@ TEST_F(DemandConsoleTest, SetsTheFourRegistersAsTheyAre)
     run("demand raw 0x104C");
     run("wait 5s for demand reg 1 = 4172");
     run("expect demand reg 4 & 0x0008 = 8");
-    EXPECT_FALSE(console.failed()) << text;
+    EXPECT_EQ(console.exit(), 0) << text;
     run("demand");
     EXPECT_THAT(text, HasSubstr("request 104C 0000 0000 0000"));
     EXPECT_THAT(text, HasSubstr("answer  104C 0000 0000 002A"));
@@ -254,10 +254,10 @@ TEST_F(ExtendedConsoleTest, ReadsAndWritesATagAbove2047)
     run("demand write-ext 8328 -2");
     EXPECT_EQ(hex(requests.back()), "40 00 20 88 00 00 FF FE");
     run("expect demand = -2");
-    EXPECT_FALSE(console.failed()) << text;
+    EXPECT_EQ(console.exit(), 0) << text;
     run("demand write-ext 9000 1");
     run("expect demand reject 0");
-    EXPECT_FALSE(console.failed()) << text;
+    EXPECT_EQ(console.exit(), 0) << text;
     EXPECT_THAT(text, HasSubstr("tag 9000 rejected, 0: invalid tag number"));
 }
 
@@ -269,7 +269,7 @@ TEST_F(ExtendedConsoleTest, UnderstandsTheAnswersOfWorkedExample2)
     run("expect demand = 8329");
     run("demand read-ext 9000");
     run("expect demand reject 0");
-    EXPECT_FALSE(console.failed()) << text;
+    EXPECT_EQ(console.exit(), 0) << text;
 }
 
 TEST_F(ExtendedConsoleTest, UploadsABlockOneTagARequestAfterCommand0)
@@ -277,7 +277,7 @@ TEST_F(ExtendedConsoleTest, UploadsABlockOneTagARequestAfterCommand0)
     run("start");
     const std::size_t before = requests.size();
     run("demand upload 8328 136");
-    EXPECT_FALSE(console.failed()) << text;
+    EXPECT_EQ(console.exit(), 0) << text;
     EXPECT_EQ(hex(requests[before]), "00 00 00 00 00 00 00 00");
     std::vector<std::uint16_t> asked;
     for (std::size_t i = before; i < requests.size(); ++i)
@@ -302,7 +302,7 @@ TEST_F(ExtendedConsoleTest, DownloadsTheBlockThatWasUploadedOrOtherValues)
     EXPECT_EQ(held.at(8328), 5);
     EXPECT_EQ(held.at(8329), 6);
     EXPECT_EQ(held.at(8330), 0xFFF9);
-    EXPECT_FALSE(console.failed()) << text;
+    EXPECT_EQ(console.exit(), 0) << text;
 }
 
 TEST_F(ExtendedConsoleTest, EndsATransferAtTheFirstTagThatIsRefused)
@@ -310,7 +310,7 @@ TEST_F(ExtendedConsoleTest, EndsATransferAtTheFirstTagThatIsRefused)
     missing = 8330;
     run("start");
     run("demand download 8328 1 2 3 4");
-    EXPECT_TRUE(console.failed());
+    EXPECT_NE(console.exit(), 0);
     EXPECT_THAT(text, HasSubstr("tag 8330 rejected, 0: invalid tag number after 2 values"));
     EXPECT_EQ(held.count(8331), 0U);
 }
@@ -335,7 +335,7 @@ TEST_F(ConsoleTest, PrintsAChangedDiagnosisOnceInWords)
     diagnosis = wire("00 0C 00 02 05 33 03 40 30");
     run("wait 2s for diag ext 03 40 30");
     run("run 1s");
-    EXPECT_FALSE(console.failed()) << text;
+    EXPECT_EQ(console.exit(), 0) << text;
     const auto first = text.find("summary output status 4030, manual mode, sensor break, IP1 fault");
     EXPECT_NE(first, std::string::npos) << text;
     EXPECT_EQ(text.find("summary output status", first + 1), std::string::npos) << text;
@@ -358,11 +358,11 @@ TEST_F(ConsoleTest, SendsRawOctetsAndShowsTheReply)
 {
     run("send 10 05 02 49 50 16");
     run("expect reply 10 02 05 00 07 16");
-    EXPECT_FALSE(console.failed()) << text;
+    EXPECT_EQ(console.exit(), 0) << text;
     silent = true;
     run("send 10 06 02 49 51 16");
     run("expect reply none");
-    EXPECT_FALSE(console.failed()) << text;
+    EXPECT_EQ(console.exit(), 0) << text;
 }
 
 TEST_F(ConsoleTest, StaysInDataExchangeUntilItIsStopped)
@@ -372,7 +372,7 @@ TEST_F(ConsoleTest, StaysInDataExchangeUntilItIsStopped)
     run("expect state data-exchange");
     run("stop");
     run("expect state stopped");
-    EXPECT_FALSE(console.failed()) << text;
+    EXPECT_EQ(console.exit(), 0) << text;
     EXPECT_GT(master.counters().cycles, 90U) << "a cycle takes 10 ms";
 }
 

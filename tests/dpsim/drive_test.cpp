@@ -92,6 +92,14 @@ TEST_F(Drive, UsesTheMnemonicOfTheTableBeforeThatOfTheRule)
     EXPECT_EQ(line.units()[1].find(348)->value.counts, 3000);
 }
 
+TEST_F(Drive, DeniesATagByTheRuleOfItsModelWhereItFollowsAnother)
+{
+    line = DriveLine{Model::dc590, 2ms, Naming{Rule::pno}};
+    ASSERT_TRUE(line.add_unit("00", *parse_tags(kTable, "table.csv")));
+    EXPECT_EQ(hears(kPoll55), wire("04"));
+    EXPECT_EQ(hears("04 30 30 30 30 33 37 05"), wire("02 33 37 31 32 2E 35 03 1F")); // 37: 55 in hexadecimal
+}
+
 TEST_F(Drive, RepeatsThePollAfterNakWithTheNewValue)
 {
     hears(kPoll55);
@@ -256,14 +264,14 @@ TEST_F(Drive, SendsGarbageOnRequest)
 
 TEST_F(Drive, IsSlowOnRequest)
 {
-    commands.command("slow 50", now);
+    commands.command("slow 50ms", now);
     line.on_bytes(wire(kPoll55), now);
     EXPECT_EQ(line.next_deadline(), now + 52ms);
 }
 
 TEST_F(Drive, AnswersLateOnRequestEvenWhenItWasAskedSomethingElse)
 {
-    commands.command("late 900 1/2 tag 55", now);
+    commands.command("late 900ms 1/2 tag 55", now);
     EXPECT_EQ(hears(kPoll55), wire(kReply55)) << "each second one is late";
     line.on_bytes(wire(kPoll55), now);
     line.on_bytes(wire(kPollEe), now + 100ms);
@@ -289,6 +297,9 @@ TEST_F(Drive, SaysSomethingBeforeOrInPlaceOfItsAnswerOnRequest)
     EXPECT_EQ(line.take_reply(now + 4ms), wire(kReply55));
     commands.command("instead 04 once", now);
     EXPECT_EQ(hears(kPoll55), wire("04"));
+    EXPECT_EQ(hears(kPoll55), wire(kReply55));
+    commands.command("noise 00FF once", now);
+    EXPECT_EQ(hears(kPoll55), wire(("00 FF " + std::string{kReply55}).c_str()));
     EXPECT_EQ(hears(kPoll55), wire(kReply55));
 }
 
@@ -321,10 +332,11 @@ TEST_F(Drive, SaysWhatIsWrongWithACommand)
     EXPECT_THAT(commands.command("set 99 1", now), ElementsAre(HasSubstr("no tag 99")));
     EXPECT_THAT(commands.command("dance", now), ElementsAre(HasSubstr("no command 'dance'")));
     EXPECT_THAT(commands.command("unit 77", now), ElementsAre(HasSubstr("no unit '77'")));
-    EXPECT_THAT(commands.command("slow down", now), ElementsAre(HasSubstr("slow 50")));
-    EXPECT_THAT(commands.command("late", now), ElementsAre(HasSubstr("late 900")));
-    EXPECT_THAT(commands.command("late 900 sometimes", now), ElementsAre(HasSubstr("chooses no replies")));
+    EXPECT_THAT(commands.command("slow down", now), ElementsAre(HasSubstr("slow 50ms")));
+    EXPECT_THAT(commands.command("late", now), ElementsAre(HasSubstr("late 900ms")));
+    EXPECT_THAT(commands.command("late 900ms sometimes", now), ElementsAre(HasSubstr("chooses no replies")));
     EXPECT_THAT(commands.command("instead", now), ElementsAre(HasSubstr("instead 04")));
+    EXPECT_THAT(commands.command("noise", now), ElementsAre(HasSubstr("noise 00FF")));
 }
 
 } // namespace

@@ -37,29 +37,29 @@ TEST(EiAscii, ChecksTheWorkedSelectsWhateverTheCheckLooksLike)
 
 TEST(EiAscii, NamesTagsByTheRuleOfThe590)
 {
-    EXPECT_EQ(mnemonic_of(Model::dc590, 0), "a0");
-    EXPECT_EQ(mnemonic_of(Model::dc590, 12), "ac");
-    EXPECT_EQ(mnemonic_of(Model::dc590, 55), "bj");
-    EXPECT_EQ(mnemonic_of(Model::dc590, 56), "bk");
-    EXPECT_EQ(mnemonic_of(Model::dc590, 130), "dm");
-    EXPECT_EQ(mnemonic_of(Model::dc590, 198), "fi");
-    EXPECT_EQ(mnemonic_of(Model::dc590, 288), "i0");
-    EXPECT_EQ(mnemonic_of(Model::dc590, 536), "ow");
-    EXPECT_EQ(mnemonic_of(Model::dc590, 537), "ox");
-    EXPECT_EQ(mnemonic_of(Model::dc590, 559), "pj");
-    EXPECT_EQ(mnemonic_of(Model::dc590, 935), "zz");
-    EXPECT_EQ(mnemonic_of(Model::dc590, 936), "aA");
-    EXPECT_EQ(mnemonic_of(Model::dc590, 937), "aB");
-    EXPECT_EQ(mnemonic_of(Model::dc590, 961), "aZ");
-    EXPECT_EQ(mnemonic_of(Model::dc590, 962), "bA");
+    EXPECT_EQ(mnemonic_of(Rule::dc_590plus, 0), "a0");
+    EXPECT_EQ(mnemonic_of(Rule::dc_590plus, 12), "ac");
+    EXPECT_EQ(mnemonic_of(Rule::dc_590plus, 55), "bj");
+    EXPECT_EQ(mnemonic_of(Rule::dc_590plus, 56), "bk");
+    EXPECT_EQ(mnemonic_of(Rule::dc_590plus, 130), "dm");
+    EXPECT_EQ(mnemonic_of(Rule::dc_590plus, 198), "fi");
+    EXPECT_EQ(mnemonic_of(Rule::dc_590plus, 288), "i0");
+    EXPECT_EQ(mnemonic_of(Rule::dc_590plus, 536), "ow");
+    EXPECT_EQ(mnemonic_of(Rule::dc_590plus, 537), "ox");
+    EXPECT_EQ(mnemonic_of(Rule::dc_590plus, 559), "pj");
+    EXPECT_EQ(mnemonic_of(Rule::dc_590plus, 935), "zz");
+    EXPECT_EQ(mnemonic_of(Rule::dc_590plus, 936), "aA");
+    EXPECT_EQ(mnemonic_of(Rule::dc_590plus, 937), "aB");
+    EXPECT_EQ(mnemonic_of(Rule::dc_590plus, 961), "aZ");
+    EXPECT_EQ(mnemonic_of(Rule::dc_590plus, 962), "bA");
 }
 
 TEST(EiAscii, ReachesParameterNumbersAsTags1000To1127)
 {
-    EXPECT_EQ(mnemonic_of(Model::dc590, 1039), "27");
-    EXPECT_EQ(mnemonic_of(Model::dc590, 1015), "0F");
-    EXPECT_EQ(mnemonic_of(Model::dc590, 1127), "7F");
-    EXPECT_EQ(mnemonic_of(Model::dc590, 1128), "hK");
+    EXPECT_EQ(mnemonic_of(Rule::dc_590plus, 1039), "27");
+    EXPECT_EQ(mnemonic_of(Rule::dc_590plus, 1015), "0F");
+    EXPECT_EQ(mnemonic_of(Rule::dc_590plus, 1127), "7F");
+    EXPECT_EQ(mnemonic_of(Rule::dc_590plus, 1128), "hK");
 }
 
 TEST(Mnemonics, OfAcDrivesHaveARuleOfTheirOwn)
@@ -67,21 +67,43 @@ TEST(Mnemonics, OfAcDrivesHaveARuleOfTheirOwn)
     EXPECT_EQ(model_of("605"), Model::ac);
     EXPECT_EQ(model_of("584sv"), Model::ac);
     EXPECT_EQ(model_of("690plus"), Model::ac);
-    EXPECT_EQ(mnemonic_of(Model::ac, 0), "00");
-    EXPECT_EQ(mnemonic_of(Model::ac, 35), "0z");
-    EXPECT_EQ(mnemonic_of(Model::ac, 36), "10");
-    EXPECT_EQ(mnemonic_of(Model::ac, 255), "73");
-    EXPECT_EQ(mnemonic_of(Model::ac, 269), "7h");
-    EXPECT_EQ(mnemonic_of(Model::ac, 271), "7j");
-    EXPECT_EQ(mnemonic_of(Model::ac, 272), "7k");
-    EXPECT_EQ(mnemonic_of(Model::ac, 348), "9o");
-    EXPECT_EQ(mnemonic_of(Model::ac, 1000), "rs") << "no PNO there";
-    EXPECT_EQ(mnemonic_of(Model::ac, 1295), "zz");
-    EXPECT_EQ(mnemonic_of(Model::ac, 1296), "aA");
-    EXPECT_EQ(mnemonic_of(Model::ac, 1297), "bA") << "the letter that runs fast comes first";
-    EXPECT_EQ(mnemonic_of(Model::ac, 1321), "zA");
-    EXPECT_EQ(mnemonic_of(Model::ac, 1322), "aB");
-    EXPECT_EQ(mnemonic_of(Model::ac, 1972), "");
+    EXPECT_EQ(mnemonic_of(Rule::ac, 0), "00");
+    EXPECT_EQ(mnemonic_of(Rule::ac, 35), "0z");
+    EXPECT_EQ(mnemonic_of(Rule::ac, 36), "10");
+    EXPECT_EQ(mnemonic_of(Rule::ac, 255), "73");
+    EXPECT_EQ(mnemonic_of(Rule::ac, 269), "7h");
+    EXPECT_EQ(mnemonic_of(Rule::ac, 271), "7j");
+    EXPECT_EQ(mnemonic_of(Rule::ac, 272), "7k");
+    EXPECT_EQ(mnemonic_of(Rule::ac, 348), "9o");
+    EXPECT_EQ(mnemonic_of(Rule::ac, 1000), "rs") << "no PNO there";
+    EXPECT_EQ(mnemonic_of(Rule::ac, 1295), "zz");
+    EXPECT_EQ(mnemonic_of(Rule::ac, 1296), "aA");
+    EXPECT_EQ(mnemonic_of(Rule::ac, 1297), "bA") << "the letter that runs fast comes first";
+    EXPECT_EQ(mnemonic_of(Rule::ac, 1321), "zA");
+    EXPECT_EQ(mnemonic_of(Rule::ac, 1322), "aB");
+    EXPECT_EQ(mnemonic_of(Rule::ac, 1972), "");
+}
+
+TEST(Mnemonics, OfParameterNumbersAreTheirHexadecimalForm)
+{
+    EXPECT_EQ(mnemonic_of(Rule::pno, 39), "27");
+    EXPECT_EQ(mnemonic_of(Rule::pno, 15), "0F");
+    EXPECT_EQ(mnemonic_of(Rule::pno, 127), "7F");
+    EXPECT_EQ(mnemonic_of(Rule::pno, 128), "") << "there is no PNO 128";
+    EXPECT_EQ(mnemonic_of(Rule::pno, 288), "");
+    EXPECT_EQ(mnemonic_of(Rule::pno, 1000), "00");
+    EXPECT_EQ(mnemonic_of(Rule::pno, 1128), "");
+}
+
+TEST(Mnemonics, ThatAreChosenCountWhateverTheTableSays)
+{
+    const SimTag plain{.number = 55}, named{.number = 56, .mnemonic = "xy"};
+    EXPECT_EQ(Naming{Model::dc590}.name(plain), "bj");
+    EXPECT_EQ(Naming{Model::dc590}.name(named), "xy");
+    EXPECT_EQ(Naming{Rule::ac}.name(named), "1k");
+    const Naming rows{*parse_tags("tag,mnemonic\n55,Q1\n", "rows.csv")};
+    EXPECT_EQ(rows.name(plain), "Q1");
+    EXPECT_EQ(rows.name(named), "") << "these rows have no tag 56";
 }
 
 TEST(EiAscii, SendsNumbersWithoutNeedlessZerosButWithThePoint)

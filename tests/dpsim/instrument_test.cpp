@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a 2408f or 2404f does by itself (handbook chapters 4, 7 and 8).
+// Tests what a 2408f or 2404f does by itself (handbook chapters 4, 7 and 8).
 #include "modbus_bench.hpp"
 
 #include <algorithm>

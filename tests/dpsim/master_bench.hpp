@@ -17,7 +17,7 @@ inline MasterSettings reference_settings()
     s.user_prm.clear();
     s.cfg = {0x11, 0x21};
     s.watchdog = std::chrono::milliseconds{200};
-    s.sync_freeze = false;
+    s.sync = s.freeze = false;
     return s;
 }
 

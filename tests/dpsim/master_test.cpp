@@ -246,7 +246,7 @@ TEST(MasterSettingsTest, MakeTheDataUnitOfSetPrm)
     s.user_prm = wire("00 37 00 38 01 20 00 00");
     EXPECT_EQ(hex(set_prm_unit(s)), "B8 64 01 0B 05 33 01 00 37 00 38 01 20 00 00");
     s.watchdog = std::chrono::milliseconds{0};
-    s.sync_freeze = false;
+    s.sync = s.freeze = false;
     EXPECT_EQ(hex(set_prm_unit(s)), "80 01 01 0B 05 33 01 00 37 00 38 01 20 00 00");
 }
 

@@ -322,7 +322,7 @@ TEST_F(ModbusSlave, SpoilsCutsAndDelaysRepliesOnRequest)
     const Octets said = hears(wire("01 07 41 E2"));
     EXPECT_EQ(said.size(), 5U);
     EXPECT_NE(said, wire("01 07 00 22 30"));
-    type("slow 50");
+    type("slow 50ms");
     now += 1s;
     line.on_bytes(wire("01 07 41 E2"), now);
     EXPECT_EQ(line.next_deadline(), now + 55ms);
@@ -335,7 +335,7 @@ TEST_F(ModbusSlave, SaysWhatIsWrongWithACommand)
     EXPECT_THAT(type("exception 4"), ElementsAre(HasSubstr("exception 2")));
     EXPECT_THAT(type("bit 75 16 on"), ElementsAre(HasSubstr("bit 75 5 on")));
     EXPECT_THAT(type("tune soon"), ElementsAre(HasSubstr("tune 5s")));
-    EXPECT_THAT(type("slow down"), ElementsAre(HasSubstr("slow 50")));
+    EXPECT_THAT(type("slow down"), ElementsAre(HasSubstr("slow 50ms")));
     EXPECT_THAT(type("dance"), ElementsAre(HasSubstr("no command 'dance'")));
 }
 

@@ -32,7 +32,7 @@ TEST(TagFile, LoadsTheShippedExample)
         accesses.insert(tag.access);
         if (tag.type == TagKind::number) decimals.insert(tag.decimals);
         EXPECT_TRUE(
-            mnemonics.insert(tag.mnemonic.empty() ? mnemonic_of(Model::dc590, tag.number) : tag.mnemonic)
+            mnemonics.insert(tag.mnemonic.empty() ? mnemonic_of(Rule::dc_590plus, tag.number) : tag.mnemonic)
                 .second)
             << tag.number;
     }

@@ -45,7 +45,7 @@ inline bool is_consistent(WordState state, AccessError error)
     });
 }
 
-inline bool is_consistent(const UnitSnapshot& seen)
+inline bool is_consistent(const DriveSnapshot& seen)
 {
     for (std::size_t i = 0; i < kMaxParameters; ++i)
         if (!is_consistent(seen.states[i], seen.errors[i])) return false;

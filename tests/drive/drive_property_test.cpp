@@ -62,7 +62,7 @@ public:
         for (FakeDrive& drive : drives_)
             for (std::size_t i = 0; i < kTags.size(); ++i)
                 drive.parameters[kMnemonics[i]].text = i == 4 ? ">0001" : "1.";
-        UnitSettings one, two;
+        DriveSettings one, two;
         one.tags = two.tags = &table_;
         one.compare_outputs = two.compare_outputs = compare;
         one.output_refresh = two.output_refresh = 3600s; // no refresh to help
@@ -91,7 +91,7 @@ public:
                 }
     }
 
-    const UnitSnapshot& seen(std::size_t unit) const { return poller_->snapshot(unit); }
+    const DriveSnapshot& seen(std::size_t unit) const { return poller_->snapshot(unit); }
 
 private:
     unsigned pick(unsigned below) { return static_cast<unsigned>(random_() % below); }
@@ -122,7 +122,7 @@ private:
         for (const int tag : kTags) {
             const unsigned use = pick(4);
             if (use == 0) continue;
-            Parameter& parameter = master.image.layout.parameters[master.image.layout.count++];
+            LayoutEntry& parameter = master.image.layout.parameters[master.image.layout.count++];
             parameter = {static_cast<std::uint16_t>(tag), (use & 1) != 0, use >= 2};
         }
         poller_->set_outputs(unit, master.image);
@@ -206,9 +206,7 @@ private:
             switch (next->kind) {
                 case Transaction::Kind::read: error = client_.read(address, *next->tag, {&word, 1}); break;
                 case Transaction::Kind::write: error = client_.write(address, *next->tag, next->words); break;
-                case Transaction::Kind::probe:
-                    error = client_.probe(address) ? AccessError::none : AccessError::no_answer;
-                    break;
+                case Transaction::Kind::probe: error = client_.probe(address); break;
             }
             poller_->done({error, {&word, 1}}, line_.time);
             ASSERT_TRUE(test::is_consistent(poller_->snapshot(next->unit)));

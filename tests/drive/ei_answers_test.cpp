@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Which answer belongs to which question, on a line with two drives that have the same mnemonics.
+/// Tests which answer belongs to which question, on a line with two drives that have the same mnemonics.
 #include "fake_drive.hpp"
 
 #include "dpslave/drive/ei_ascii_client.hpp"
@@ -272,13 +272,13 @@ TEST_F(EiAnswers, ADoubtfulAckWithoutProofIsNone)
 TEST_F(EiAnswers, AStrayEotDoesNotBringADriveBack)
 {
     line.comes_by_itself(stray('\x04'), 12ms);
-    EXPECT_FALSE(client.probe(kMissing));
+    EXPECT_NE(client.probe(kMissing), AccessError::none);
 }
 
 TEST_F(EiAnswers, AnEchoBringsNoDriveBackHoweverTheLineIsSet)
 {
     line.echoes = true;
-    EXPECT_FALSE(client.probe(kMissing));
+    EXPECT_NE(client.probe(kMissing), AccessError::none);
     EXPECT_NE(read(kMissing, output), AccessError::none);
     EXPECT_NE(write(kMissing, output, 1), AccessError::none);
 }
@@ -306,7 +306,7 @@ TEST_F(EiEchoOn, IsTakenAwayAndTheAnswerBehindItIsTaken)
     EXPECT_EQ(write(kFirst, output, 5), AccessError::none);
     a.parameters.erase("ox");
     EXPECT_EQ(read(kFirst, input), AccessError::invalid_tag) << "an EOT behind the echo";
-    EXPECT_FALSE(client.probe(kMissing));
+    EXPECT_NE(client.probe(kMissing), AccessError::none);
 }
 
 TEST_F(EiEchoAuto, IsTakenAwayWhereThereIsOneAndNotMissedWhereThereIsNone)

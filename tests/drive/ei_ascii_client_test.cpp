@@ -6,12 +6,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
 namespace dpslave::drive {
 namespace {
 
 using namespace std::chrono_literals;
 using test::FakeDrive;
 using test::Fault;
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 constexpr UnitAddress kDc{0, 0}; ///< a 590+
@@ -159,6 +163,63 @@ TEST_F(EiClient, NamesWhyAWriteIsRefusedByReadingEe)
     EXPECT_THAT(client.last_trouble(), HasSubstr(">01C7"));
 }
 
+TEST_F(EiClient, AWriteThatCountsOnceAndIsRefusedReachesTheDriveOnce)
+{
+    const auto once = [&](const Tag& tag, std::uint16_t value) {
+        dc.selected.clear();
+        const std::array<std::uint16_t, 1> written{value};
+        return client.write_once(kDc, tag, written);
+    };
+    dc.ee = ">07C8"; // of something that was before
+    EXPECT_EQ(once(status, 1), AccessError::read_only);
+    EXPECT_THAT(dc.selected, ElementsAre("EE", "ox", "EE")) << "0 before it, and again for the next one";
+    EXPECT_EQ(once(row(100, TagType::word), 1), AccessError::invalid_tag);
+    EXPECT_EQ(dc.selected.size() - static_cast<std::size_t>(std::ranges::count(dc.selected, "EE")), 1U);
+    EXPECT_EQ(once(demand, 1001), AccessError::out_of_range);
+    EXPECT_EQ(std::ranges::count(dc.selected, "i0"), 1);
+    EXPECT_EQ(once(demand, 1000), AccessError::none);
+    EXPECT_EQ(std::ranges::count(dc.selected, "i0"), 1);
+}
+
+TEST_F(EiClient, WithoutAnAnswerForEeAWriteThatCountsOnceIsNotMade)
+{
+    dc.faults = {Fault::none, Fault::silent}; // EE is written, and not read
+    const std::array<std::uint16_t, 1> written{1000};
+    EXPECT_EQ(client.write_once(kDc, demand, written), AccessError::no_answer);
+    EXPECT_EQ(dc.parameters["i0"].writes, 0U);
+}
+
+TEST_F(EiClient, SaysOfAWriteThatCountsWhetherItsWordWasSentAndSendsItOnce)
+{
+    Tag counts = demand;
+    const std::array<std::uint16_t, 1> written{1000};
+    const auto write = [&](std::vector<Fault> faults) {
+        line.time += 1min; // nothing is owed any more
+        line.sent.clear();
+        dc.faults = {faults.begin(), faults.end()};
+        const AccessError error = client.write_once(kDc, counts, written);
+        dc.faults.clear();
+        return error;
+    };
+    EXPECT_EQ(write({Fault::none, Fault::none, Fault::silent}), AccessError::no_answer);
+    EXPECT_TRUE(client.has_sent());
+    EXPECT_EQ(line.sent.find("i0"), line.sent.rfind("i0")) << "and it is not repeated";
+    EXPECT_EQ(write({Fault::none, Fault::silent}), AccessError::no_answer);
+    EXPECT_FALSE(client.has_sent()) << "EE is not read";
+    EXPECT_THAT(line.sent, Not(HasSubstr("i0")));
+    counts = row(100, TagType::word);
+    EXPECT_EQ(write({Fault::none, Fault::none, Fault::none, Fault::silent}), AccessError::no_answer)
+        << "a NAK, and EE is not read behind it";
+    EXPECT_TRUE(client.has_sent());
+    line.sent.clear();
+    line.time += 1min;
+    EXPECT_EQ(client.write_once(kDc, counts, written), AccessError::invalid_tag) << "EE says why";
+    EXPECT_THAT(line.sent, Not(HasSubstr("cs"))) << "and it is not written a second time";
+    line.unplugged = true;
+    EXPECT_EQ(client.write_once(kDc, demand, written), AccessError::no_answer);
+    EXPECT_FALSE(client.has_sent());
+}
+
 TEST_F(EiClient, TakesAValueAtTheVeryLimitOfTheDrive)
 {
     EXPECT_EQ(write(kDc, demand, 1000), AccessError::none);
@@ -273,7 +334,7 @@ TEST_F(EiClient, ReturnsFromALineThatBabbles)
 
 TEST_F(EiClient, ReturnsWithinItsDeadlineFromALineWithEndlessNoise)
 {
-    // The time-out and the request, the longest answer with a gap, then twice that for what is drained.
+    // The timeout and the request, the longest answer with a gap, then twice that for what is drained.
     const auto longest = 200ms + 8 * line.character() + (1 + 2) * 85 * line.character() + 2 * 21ms;
     for (const char octet : {'U', '\xFF', '\x15', '\x02', '\x04'})
         for (const auto every : {std::chrono::nanoseconds{1ms}, std::chrono::nanoseconds{19ms}}) {
@@ -292,7 +353,7 @@ TEST_F(EiClient, AnEotThatNoDriveStandsBehindIsNoiseAndNoVerdictOnTheTag)
     line.comes_by_itself("\x04", 15ms);
 
     EXPECT_EQ(read(kAbsent, status), AccessError::no_answer);
-    EXPECT_EQ(client.last_trouble(), "an EOT, but no answer for EE behind it: noise");
+    EXPECT_EQ(client.last_trouble(), "an EOT, but no answer for EE after it: noise");
 }
 
 TEST_F(EiClient, GivesUpADriveThatSendsTooSlowlyAtItsDeadline)
@@ -317,7 +378,7 @@ TEST_F(EiClient, SaysSoWhenTheLineIsUnplugged)
     line.unplugged = true;
     EXPECT_EQ(read(kDc, status), AccessError::no_answer);
     EXPECT_THAT(client.last_trouble(), HasSubstr("does not accept"));
-    EXPECT_FALSE(client.probe(kDc));
+    EXPECT_NE(client.probe(kDc), AccessError::none);
 }
 
 TEST_F(EiClient, RefusesMoreDecimalsThanTheTableHasAndSaysWhich)
@@ -332,7 +393,7 @@ TEST_F(EiClient, RefusesMoreDecimalsThanTheTableHasAndSaysWhich)
 TEST_F(EiClient, ReportsAValueThatDoesNotFitInsteadOfClampingIt)
 {
     dc.parameters["i0"].text = "3276.8";
-    EXPECT_EQ(read(kDc, demand), AccessError::out_of_range);
+    EXPECT_EQ(read(kDc, demand), AccessError::does_not_fit);
     dc.parameters["i0"].text = "3276.7";
     EXPECT_EQ(read(kDc, demand), AccessError::none);
     EXPECT_EQ(word, 0x7FFF);
@@ -424,7 +485,7 @@ TEST_F(EiClient, GivesTagsWithoutARowTheOneScaleOfTheStation)
 TEST_F(EiClient, LooksAgainBeforeItWritesToADriveThatMayBeAnotherOne)
 {
     ASSERT_EQ(write(kDc, unlisted_tag(536), 0x0201), AccessError::none);
-    ASSERT_TRUE(client.probe(kDc)); // a lost drive is probed until it answers
+    ASSERT_EQ(client.probe(kDc), AccessError::none); // a lost drive is probed until it answers
     dc.parameters["ow"] = {.text = "7.5"};
 
     EXPECT_EQ(write(kDc, unlisted_tag(536), 0x0203), AccessError::no_scale);
@@ -474,15 +535,15 @@ TEST_F(EiClient, TakesNoBlocks)
 
 TEST_F(EiClient, ProbesTheIdentityAndTakesAValueForProof)
 {
-    EXPECT_TRUE(client.probe(kDc));
+    EXPECT_EQ(client.probe(kDc), AccessError::none);
     EXPECT_EQ(line.sent, "\x04"
                          "0000II\x05");
     dc.parameters.erase("II");
-    EXPECT_TRUE(client.probe(kDc)) << "EOT, but EE has a value";
+    EXPECT_EQ(client.probe(kDc), AccessError::none) << "EOT, but EE has a value";
     dc.faults = {Fault::bad_bcc};
     dc.parameters["II"].text = ">0650";
-    EXPECT_FALSE(client.probe(kDc));
-    EXPECT_FALSE(client.probe(kAbsent));
+    EXPECT_NE(client.probe(kDc), AccessError::none);
+    EXPECT_NE(client.probe(kAbsent), AccessError::none);
 }
 
 } // namespace

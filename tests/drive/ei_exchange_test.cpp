@@ -2,6 +2,7 @@
 /// One question on an EI-ASCII line and what is heard until its wait is over, to the nanosecond and read by
 /// read. What the answers then mean for two drives is in ei_answers_test.cpp.
 #include "drive/ei/ei_exchange.hpp"
+#include "written_line.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,22 +18,16 @@ using End = Exchange::End;
 
 constexpr UnitAddress kFirst{0, 0}, kSecond{0, 1};
 constexpr Mnemonic kOw{'o', 'w'}, kOx{'o', 'x'};
-constexpr auto kRequest = 8ms; ///< a poll at the rate of WrittenLine
+constexpr auto kRequest = 8ms; ///< a poll at the rate of the line
 constexpr auto kTimeout = 200ms;
 
-/// On it comes what the test has written down, each piece in one read.
-class WrittenLine final : public SerialLine {
+/// What is asked is written down.
+class AskedLine final : public test::WrittenLine {
 public:
-    static constexpr std::uint32_t kBaud = 10'000; ///< 1 ms for each character
-    Instant time{1h};
     Instant asked_at{};
     std::string sent;
     bool is_unplugged = false;
 
-    void comes(const std::string& octets, std::chrono::nanoseconds after)
-    {
-        coming_.emplace(time + after, octets);
-    }
     bool write(Bytes octets) override
     {
         if (is_unplugged) return false;
@@ -40,24 +35,6 @@ public:
         sent.append(octets.begin(), octets.end());
         return true;
     }
-    std::size_t read(std::span<std::uint8_t> into, std::chrono::nanoseconds timeout) override
-    {
-        EXPECT_GE(timeout, 0ns);
-        if (coming_.empty() || coming_.begin()->first > time + timeout) {
-            time += timeout;
-            return 0;
-        }
-        const auto [at, octets] = *coming_.begin();
-        coming_.erase(coming_.begin());
-        time = std::max(time, at);
-        std::copy(octets.begin(), octets.end(), into.begin());
-        return octets.size();
-    }
-    Instant now() const override { return time; }
-    void discard() override {}
-
-private:
-    std::multimap<Instant, std::string> coming_;
 };
 
 /// STX C1 C2 text ETX BCC.
@@ -71,8 +48,8 @@ std::string value(const std::string& mnemonic, const std::string& text)
 
 class EiExchange : public testing::Test {
 protected:
-    explicit EiExchange(EchoMode echo = EchoMode::off) { open(WrittenLine::kBaud, {.echo = echo}); }
-    void open(std::uint32_t baud, const LineRules& rules)
+    explicit EiExchange(EchoMode echo = EchoMode::off) { open(AskedLine::kBaud, {.echo = echo}); }
+    void open(std::uint32_t baud, const LineTiming& rules)
     {
         exchange.emplace(line, EiTiming{.baud = baud, .timeout = kTimeout, .rules = rules});
     }
@@ -81,7 +58,7 @@ protected:
     {
         ASSERT_EQ(exchange->poll(unit, mnemonic), End::silence);
     }
-    WrittenLine line;
+    AskedLine line;
     std::optional<Exchange> exchange;
 };
 class EiExchangeWithEcho : public EiExchange {
@@ -188,7 +165,7 @@ TEST_F(EiExchange, CallsALineThatTakesNoRequestSilent)
 
 TEST_F(EiExchange, AsksWhenTheLineHasBeenSilentForAsLongAsThePortHoldsBack)
 {
-    open(WrittenLine::kBaud, {.hold_back = 16ms});
+    open(AskedLine::kBaud, {.hold_back = 16ms});
     line.comes("\xFF", 0ms);
     const Instant heard = line.time;
     exchange->poll(kFirst, kOw);
@@ -197,7 +174,7 @@ TEST_F(EiExchange, AsksWhenTheLineHasBeenSilentForAsLongAsThePortHoldsBack)
 
 TEST_F(EiExchange, AsksAtOnceAfterAQuestionThatStayedWithoutAnswer)
 {
-    open(WrittenLine::kBaud, {.hold_back = 16ms});
+    open(AskedLine::kBaud, {.hold_back = 16ms});
     leave_owed(kFirst, kOw);
     const Instant over = line.time;
     exchange->poll(kFirst, kOx);
@@ -230,7 +207,7 @@ TEST_F(EiExchange, ADebtSettlesAfterItsTimeTheAnswerOnTheWireAndWhatThePortHolds
     constexpr auto kAnswer = 13ms; // STX C1 C2, 8 of text, ETX BCC
     for (const Settle& one :
          {Settle{0ms, 0ms, 10 * kTimeout}, Settle{500ms, 0ms, 500ms}, Settle{500ms, 16ms, 516ms}}) {
-        open(WrittenLine::kBaud, {.settle = one.settle, .hold_back = one.hold_back});
+        open(AskedLine::kBaud, {.settle = one.settle, .hold_back = one.hold_back});
         leave_owed(kSecond, kOw);
         line.time = line.asked_at + kRequest + one.takes + kAnswer - 1ns;
         EXPECT_FALSE(exchange->may_poll(kFirst, kOw));
@@ -347,7 +324,7 @@ TEST_F(EiExchange, AnEotWithSomethingRightBehindItIsARefusalOnlyIfThatIsNoise)
     EXPECT_EQ(exchange->poll(kFirst, kOw), End::refused);
     line.comes("\x04U", 50ms);
     EXPECT_EQ(exchange->poll(kFirst, kOw), End::damaged);
-    EXPECT_EQ(exchange->trouble(), "characters right behind an EOT, ACK or NAK");
+    EXPECT_EQ(exchange->trouble(), "characters directly after an EOT, ACK or NAK");
 }
 
 TEST_F(EiExchange, WhatComesInOneReadWithTheAnswerIsJudgedAsIfItCameLater)

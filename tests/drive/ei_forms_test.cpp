@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What an answer of a drive means where the row of the tag does not say its form, and what is said where the
-/// two contradict each other.
+/// Tests what an answer of a drive means where the row of the tag does not say its form, and what is said
+/// where the two contradict each other.
 #include "drive/ei/ei_forms.hpp"
 
 #include <gmock/gmock.h>
@@ -135,7 +135,7 @@ TEST(EiForms, ATableHasToBeCorrectedOnlyWhereTheAnswerHasMoreDecimals)
     EXPECT_THAT(forms.take(kUnit, number(288, 1), "12.34").trouble,
                 HasSubstr("until the table is corrected"));
     const auto taken = forms.take(kUnit, number(288, 1), "9999.9");
-    EXPECT_EQ(taken.error, AccessError::out_of_range);
+    EXPECT_EQ(taken.error, AccessError::does_not_fit);
     EXPECT_THAT(taken.trouble, Not(HasSubstr("until the table is corrected")));
 }
 

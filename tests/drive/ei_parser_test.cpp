@@ -90,7 +90,7 @@ TEST(EiFlaw, IsSaidInWords)
     EXPECT_EQ(text(Flaw::bad_text), "a character inside the answer that is not allowed there");
     EXPECT_EQ(text(Flaw::too_long), "an answer that does not end");
     EXPECT_EQ(text(Flaw::bad_bcc), "a wrong BCC");
-    EXPECT_EQ(text(Flaw::octets_after), "characters right behind an EOT, ACK or NAK");
+    EXPECT_EQ(text(Flaw::octets_after), "characters directly after an EOT, ACK or NAK");
 }
 
 TEST(EiLastError, HasTheMeaningsOfTheManual)

@@ -52,6 +52,7 @@ public:
     std::deque<std::string> refuse_next; ///< EE of writes to be refused with NAK, whatever they say
     std::chrono::nanoseconds turnaround = 5ms;
     unsigned requests = 0;
+    std::vector<std::string> selected; ///< the mnemonic of each write that was heard, refused ones included
 
     /// One octet of the line; gives what the drive answers to it.
     std::string on_octet(char c)
@@ -122,6 +123,7 @@ private:
         ++requests;
         const Fault fault = next_fault();
         if (fault == Fault::silent) return {};
+        selected.push_back(collected_.substr(0, 2));
         const std::string answer = written(check) ? "\x06" : "\x15";
         return fault == Fault::lost_answer ? std::string{} : spoiled(answer, fault);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What is known of the word that a drive holds in a parameter: the table of transitions, row by row, and
-/// what an access makes of the record (drive-answers.md, "What is shown while an answer is missing").
+/// Tests what is known of the word that a drive holds in a parameter: the table of transitions, row by row,
+/// and what an access makes of the record (drive-answers.md, "What is shown while an answer is missing").
 #include "drive/parameter.hpp"
 
 #include <gtest/gtest.h>
@@ -278,6 +278,7 @@ TEST(AccessState, IsThatOfItsError)
           Meaning{AccessError::invalid_tag, WordState::invalid_tag},
           Meaning{AccessError::read_only, WordState::read_only},
           Meaning{AccessError::out_of_range, WordState::out_of_range},
+          Meaning{AccessError::does_not_fit, WordState::out_of_range},
           Meaning{AccessError::not_stopped, WordState::refused},
           Meaning{AccessError::not_config_mode, WordState::refused},
           Meaning{AccessError::unsupported_type, WordState::refused},
@@ -371,12 +372,12 @@ TEST(Reading, OfALostDriveIsHeldUnlessTheTagIsExcluded)
 {
     Reading good;
     good.answered(AccessError::none);
-    good.drive_lost();
+    good.drive_lost(true);
     EXPECT_EQ(good.state, WordState::stale);
     EXPECT_TRUE(good.tried);
     Reading excluded;
     excluded.answered(AccessError::invalid_tag);
-    excluded.drive_lost();
+    excluded.drive_lost(true);
     EXPECT_EQ(excluded.state, WordState::invalid_tag);
 }
 
@@ -385,10 +386,10 @@ TEST(Reading, WithoutAScaleIsHeldByALossOnlyWhenTheTableHasTheScaleByNow)
     Reading unscaled;
     unscaled.unscaled = true;
     unscaled.answered(AccessError::no_scale);
-    unscaled.drive_lost();
+    unscaled.drive_lost(true);
     EXPECT_EQ(unscaled.state, WordState::unscaled);
     unscaled.unscaled = false;
-    unscaled.drive_lost();
+    unscaled.drive_lost(true);
     EXPECT_EQ(unscaled.state, WordState::stale);
 }
 

@@ -51,7 +51,7 @@ protected:
         line_.drives = {&drive_};
         drive_.turnaround = GetParam().turnaround;
         for (const char* mnemonic : kRefreshedTags) drive_.parameters[mnemonic].text = "-327.67";
-        UnitSettings unit;
+        DriveSettings unit;
         unit.tags = &table_;
         unit.output_refresh = 0ns; // every parameter in every cycle
         poller_.emplace(std::vector{unit}, client_.block_rule());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// a number whose scale is not known. The poller and the EI-ASCII client together, on a simulated line.
+#include "client_transaction.hpp"
 #include "fake_drive.hpp"
 
 #include "dpslave/drive/ei_ascii_client.hpp"
@@ -51,10 +52,10 @@ protected:
         holds(kWord, ">1B0B");
         holds(kBare, "7.5");
     }
-    static UnitSettings settings(const TagTable& tags, std::optional<std::uint8_t> unlisted_decimals,
-                                 bool unscaled_holds)
+    static DriveSettings settings(const TagTable& tags, std::optional<std::uint8_t> unlisted_decimals,
+                                  bool unscaled_holds)
     {
-        UnitSettings one;
+        DriveSettings one;
         one.tags = &tags;
         one.scale_from_table = true;
         one.unlisted_decimals = unlisted_decimals;
@@ -93,6 +94,8 @@ protected:
         }
     }
 
+    bool is_held() const { return inputs.hold == StartHold::unscaled; }
+
     FakeDrive drive{'0', '0'};
     test::SimulatedLine line;
     EiAsciiClient client{line, {.baud = 9600, .timeout = 200ms}, {{kDrive, MnemonicRule::dc_590plus}}};
@@ -110,20 +113,7 @@ private:
     void carry_out(const Transaction& transaction)
     {
         std::array<std::uint16_t, 1> word{};
-        Outcome outcome;
-        switch (transaction.kind) {
-            case Transaction::Kind::read:
-                outcome.error = client.read(kDrive, *transaction.tag, word);
-                outcome.words = word;
-                outcome.answer = client.last_answer();
-                break;
-            case Transaction::Kind::write:
-                outcome.error = client.write(kDrive, *transaction.tag, transaction.words);
-                break;
-            case Transaction::Kind::probe:
-                outcome.error = client.probe(kDrive) ? AccessError::none : AccessError::no_answer;
-                break;
-        }
+        const Outcome outcome = test::carry_out(client, kDrive, transaction, word);
         poller.done(outcome, line.time);
     }
 };
@@ -134,10 +124,10 @@ TEST_F(Scale, AnInputThatAnswersWithAnUnscaledNumberReadsZeroAndHoldsTheStart)
     run(500ms);
 
     EXPECT_TRUE(inputs.every_input_tried);
-    EXPECT_TRUE(inputs.scale_missing);
+    EXPECT_TRUE(is_held());
     EXPECT_EQ(inputs.words[0], 125);
     EXPECT_EQ(inputs.words[1], 0);
-    const UnitSnapshot& seen = poller.snapshot(0);
+    const DriveSnapshot& seen = poller.snapshot(0);
     EXPECT_EQ(seen.states[1], WordState::unscaled);
     EXPECT_EQ(seen.errors[1], AccessError::no_scale);
     EXPECT_STREQ(seen.answer_texts[1].data(), "7.5");
@@ -149,7 +139,7 @@ TEST_F(Scale, ATagWithoutARowIsUnscaledToo)
     layout({400});
     run(500ms);
 
-    EXPECT_TRUE(inputs.scale_missing);
+    EXPECT_TRUE(is_held());
     EXPECT_EQ(inputs.words[0], 0);
 }
 
@@ -161,7 +151,7 @@ TEST_F(Scale, ARowThatIsNotConfirmedIsUnscaled)
     layout({kNumber, kWord});
     run(500ms);
 
-    EXPECT_TRUE(inputs.scale_missing);
+    EXPECT_TRUE(is_held());
     EXPECT_EQ(inputs.words[0], 0);
     EXPECT_EQ(inputs.words[1], 0x1B0B) << "an answer with > is taken as it is";
 }
@@ -172,7 +162,7 @@ TEST_F(Scale, AnOutputIsReadOnceToLearnWhetherItHasAScale)
     run(500ms);
 
     EXPECT_TRUE(inputs.every_input_tried);
-    EXPECT_TRUE(inputs.scale_missing);
+    EXPECT_TRUE(is_held());
     EXPECT_EQ(poller.snapshot(0).states[0], WordState::unscaled);
     EXPECT_STREQ(poller.snapshot(0).answer_texts[0].data(), "7.5");
     EXPECT_EQ(drive.parameters[mnemonic(kBare)].reads, 1u);
@@ -185,7 +175,7 @@ TEST_F(Scale, AnOutputThatAnswersAsAWordDoesNotHoldAndIsNotReadAgain)
     layout({}, {400});
     run(500ms);
     EXPECT_TRUE(inputs.every_input_tried);
-    EXPECT_FALSE(inputs.scale_missing);
+    EXPECT_FALSE(is_held());
 
     master_writes(0, 0x1234);
     run(20s);
@@ -198,7 +188,7 @@ TEST_F(Scale, AnOutputWithARowIsNotReadAtAll)
     layout({}, {kNumber});
     run(2s);
     EXPECT_EQ(drive.parameters[mnemonic(kNumber)].reads, 0u);
-    EXPECT_FALSE(inputs.scale_missing);
+    EXPECT_FALSE(is_held());
 }
 
 TEST_F(Scale, WhatHasNoScaleIsAskedFirst)
@@ -215,7 +205,7 @@ TEST_F(Scale, WhatHasNoScaleIsAskedFirst)
     layout(reads);
     run(60ms);
 
-    EXPECT_TRUE(inputs.scale_missing) << "before 30 words that have a row, which take longer than 1 s";
+    EXPECT_TRUE(is_held()) << "before 30 words that have a row, which take longer than 1 s";
     run(3s);
     EXPECT_TRUE(inputs.every_input_tried);
     EXPECT_EQ(inputs.words[0], 1);
@@ -228,7 +218,7 @@ TEST_F(Scale, SilenceNeverHolds)
     run(3s);
 
     EXPECT_TRUE(inputs.every_input_tried);
-    EXPECT_FALSE(inputs.scale_missing);
+    EXPECT_FALSE(is_held());
 }
 
 TEST_F(Scale, WhatHasAnsweredHoldsAlsoWhenTheDriveIsSilentAfterwards)
@@ -238,18 +228,18 @@ TEST_F(Scale, WhatHasAnsweredHoldsAlsoWhenTheDriveIsSilentAfterwards)
     drive.alive = false;
     run(5s);
 
-    EXPECT_TRUE(inputs.scale_missing);
+    EXPECT_TRUE(is_held());
 }
 
 TEST_F(Scale, AnAnswerInHexadecimalEndsIt)
 {
     layout({kBare});
     run(500ms);
-    ASSERT_TRUE(inputs.scale_missing);
+    ASSERT_TRUE(is_held());
     holds(kBare, ">0042");
     run(11s);
 
-    EXPECT_FALSE(inputs.scale_missing);
+    EXPECT_FALSE(is_held());
     EXPECT_EQ(inputs.words[0], 0x42);
     EXPECT_EQ(poller.snapshot(0).states[0], WordState::good);
     EXPECT_STREQ(poller.snapshot(0).answer_texts[0].data(), "");
@@ -269,14 +259,14 @@ TEST_F(Scale, ARowThatAReloadBringsIsTakenAtOnceAndTheExchangeBeginsWithItsWord)
         poller.exchange({settings(before, {}, true)}, {0U}, {});
         layout({kBare});
         run(500ms);
-        ASSERT_TRUE(inputs.scale_missing);
+        ASSERT_TRUE(is_held());
         ASSERT_EQ(inputs.words[0], 0);
 
         poller.exchange({settings(now, {}, true)}, {0U}, {});
         const Instant reload = line.time;
-        while (inputs.scale_missing && line.time < reload + 1s) run(1ms);
+        while (is_held() && line.time < reload + 1s) run(1ms);
 
-        EXPECT_FALSE(inputs.scale_missing);
+        EXPECT_FALSE(is_held());
         EXPECT_EQ(inputs.words[0], 75) << "the first image that lets it begin has the word";
         poller.exchange({settings(tags, {}, true)}, {0U}, {});
     }
@@ -288,7 +278,7 @@ TEST_F(Scale, ARowThatAReloadBringsEndsItAlsoWhileTheDriveIsSilent)
     run(500ms);
     drive.alive = false;
     run(5s);
-    ASSERT_TRUE(inputs.scale_missing);
+    ASSERT_TRUE(is_held());
     Tag scaled = row(kBare, TagType::number);
     scaled.decimals = 1;
     const TagTable now{{scaled}};
@@ -296,12 +286,12 @@ TEST_F(Scale, ARowThatAReloadBringsEndsItAlsoWhileTheDriveIsSilent)
     poller.exchange({settings(now, {}, true)}, {0U}, {});
     run(100ms);
 
-    EXPECT_FALSE(inputs.scale_missing) << "silence never holds";
+    EXPECT_FALSE(is_held()) << "silence never holds";
     EXPECT_EQ(poller.snapshot(0).states[0], WordState::stale);
     poller.exchange({settings(tags, {}, true)}, {0U}, {});
 }
 
-TEST_F(Scale, FoundOutLaterTheInputIsZeroAndMarkedAndTheOthersGoOn)
+TEST_F(Scale, FoundOutLaterTheInputIsHeldAndMarkedAndTheOthersGoOn)
 {
     holds(400, ">0007");
     layout({kNumber, 400}, {kNumber});
@@ -316,7 +306,7 @@ TEST_F(Scale, FoundOutLaterTheInputIsZeroAndMarkedAndTheOthersGoOn)
     drive.alive = true;
     run(15s);
 
-    EXPECT_EQ(inputs.words[1], 0);
+    EXPECT_EQ(inputs.words[1], 7);
     EXPECT_EQ(poller.snapshot(0).errors[1], AccessError::no_scale);
     EXPECT_EQ(inputs.words[0], 30);
     EXPECT_EQ(held(kNumber), "3.") << "the other output is written";
@@ -360,7 +350,7 @@ TEST_F(Scale, DemandDataForSuchATagIsRefusedReadAndWriteAndHoldsNothing)
         }
     }
     EXPECT_EQ(writes_of(kBare), 0u);
-    EXPECT_FALSE(inputs.scale_missing);
+    EXPECT_FALSE(is_held());
 }
 
 TEST_F(Scale, ARowThatAnAnswerContradictsStaysRefused)
@@ -378,7 +368,7 @@ TEST_F(Scale, ARowThatAnAnswerContradictsStaysRefused)
     EXPECT_EQ(poller.snapshot(0).errors[0], AccessError::contradicted);
     EXPECT_STREQ(poller.snapshot(0).answer_texts[0].data(), "12.34");
     EXPECT_EQ(inputs.words[1], 0x1B0B);
-    EXPECT_FALSE(inputs.scale_missing);
+    EXPECT_FALSE(is_held());
 
     layout({kNumber}, {kNumber}); // another start-up does not make it true
     run(500ms);
@@ -397,7 +387,7 @@ TEST_F(Scale, ARowThatAnAnswerContradictsStaysRefusedThroughAReloadThatDoesNotCh
     ASSERT_EQ(poller.snapshot(0).errors[0], AccessError::contradicted);
     holds(kNumber, "12.5");
     const TagTable same = table();
-    UnitSettings other_key = settings(same, {}, true);
+    DriveSettings other_key = settings(same, {}, true);
     other_key.output_refresh = 5s;
 
     poller.exchange({other_key}, {0U}, {});
@@ -442,7 +432,7 @@ TEST_F(ScaleZero, GoesOnWithTheInputAtZero)
     run(500ms);
 
     EXPECT_TRUE(inputs.every_input_tried);
-    EXPECT_FALSE(inputs.scale_missing);
+    EXPECT_FALSE(is_held());
     EXPECT_EQ(inputs.words[1], 0);
     EXPECT_EQ(poller.snapshot(0).states[1], WordState::unscaled);
 }
@@ -457,12 +447,12 @@ TEST_F(ScaleUnlisted, OneScaleForTagsWithoutARowButNotForARowWithoutDecimals)
     holds(400, "3.5");
     layout({400});
     run(500ms);
-    EXPECT_FALSE(inputs.scale_missing);
+    EXPECT_FALSE(is_held());
     EXPECT_EQ(inputs.words[0], 350);
 
     layout({kBare});
     run(500ms);
-    EXPECT_TRUE(inputs.scale_missing);
+    EXPECT_TRUE(is_held());
 }
 
 } // namespace

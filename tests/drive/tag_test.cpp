@@ -75,6 +75,21 @@ TEST(Mnemonic, OfEveryTagIsItsOwn)
     }
 }
 
+TEST(Mnemonic, OfAParameterNumberIsItsHexadecimalForm)
+{
+    EXPECT_EQ(by_rule(39, MnemonicRule::pno), "27");
+    EXPECT_EQ(by_rule(1015, MnemonicRule::pno), "0F");
+    EXPECT_EQ(by_rule(127, MnemonicRule::pno), "7F");
+    for (const int tag : {128, 288, 999, 1128, 65535}) EXPECT_EQ(by_rule(tag, MnemonicRule::pno), "none");
+}
+
+TEST(MnemonicRules, AreFoundByTheNamesThatTheyAreGivenBack)
+{
+    for (const char* const name : {"590plus", "ac", "pno", "none"})
+        EXPECT_EQ(text(mnemonic_rule_of(name).value()), name);
+    EXPECT_EQ(mnemonic_rule_of("590"), std::nullopt);
+}
+
 TEST(Mnemonic, OfTheTableGoesBeforeTheRule)
 {
     Tag tag = number_tag(0);
@@ -221,6 +236,26 @@ TEST(TagTable, KeepsTheOrderOfItsRowsBesideThatOfTheNumbers)
     EXPECT_EQ(rows[1]->number, 55);
     EXPECT_EQ(rows[2]->number, 56);
     EXPECT_EQ(table.all().front().number, 55);
+}
+
+TEST(TagInCounts, IsShownAndReadInCounts)
+{
+    Tag tag = number_tag(0);
+    tag.is_real = true;
+    std::vector<Tag> rows{tag, number_tag(0), number_tag(1), tag, tag};
+    rows[2].is_real = true;
+    rows[3].follows_display = true;
+    rows[4].modbus_register = 0x8006;
+    mark_counts(rows);
+
+    EXPECT_EQ(displayed(rows[0], 50), "50 counts");
+    EXPECT_EQ(displayed(rows[1], 50), "50") << "INT is a whole number";
+    EXPECT_EQ(displayed(rows[2], 50), "5.0");
+    EXPECT_EQ(displayed(rows[3], 50), "50") << "as the display has it";
+    EXPECT_EQ(displayed(rows[4], 50), "50") << "the IEEE area has the value itself";
+    EXPECT_EQ(parse_value(rows[0], "-50").word, 0xFFCE);
+    EXPECT_EQ(parse_value(rows[0], "50 counts").word, 50);
+    EXPECT_EQ(parse_value(rows[1], "50 counts").error, AccessError::value_not_encoded);
 }
 
 TEST(TagType, IsTheWordOfTheColumnAndDistinguishesRealFromInt)

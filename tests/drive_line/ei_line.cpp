@@ -104,6 +104,7 @@ bool EiLine::write(Bytes octets)
     const Instant ends = time + rules().character * static_cast<std::int64_t>(octets.size());
     if (traces())
         trace(fmt::format("{:.1f} ms: -> {}", double(time.time_since_epoch().count()) / 1e6, shown(octets)));
+    question_on_the_wire(ends);
     if (rules().echo) {
         Instant at = time;
         for (const std::uint8_t octet : octets)
@@ -148,12 +149,26 @@ void EiLine::discard()
     while (!arrived_.empty() && arrived_.front().at <= time) arrived_.pop_front();
 }
 
+/// A value with a mnemonic that no other drive of the line has.
+bool EiLine::names_its_drive(const Speech& speech) const
+{
+    if (speech.octets.front() != kStx) return false;
+    const std::string mnemonic(speech.octets.begin() + 1, speech.octets.begin() + 3);
+    if (mnemonic == "EE" || mnemonic == "V0" || mnemonic == "II") return drives.size() == 1;
+    return std::ranges::count_if(drives, [&](const SimulatedDrive& drive) {
+               return std::ranges::any_of(drive.tags,
+                                          [&](const auto& tag) { return tag.mnemonic == mnemonic; });
+           }) == 1;
+}
+
 void EiLine::heard(const Speech& speech, Instant begins)
 {
     if (traces())
         trace(fmt::format("{:.1f} ms: <- {}{}", double(begins.time_since_epoch().count()) / 1e6,
                           speech.drive < 0 ? "noise " : fmt::format("drive {} ", speech.drive),
-                          shown(speech.octets) + (speech.is_twice ? " twice" : "")));
+                          shown(speech.octets) + (speech.is_twice    ? " twice"
+                                                  : speech.is_repeat ? " again"
+                                                                     : "")));
     const auto length = static_cast<std::int64_t>(speech.octets.size());
     for (std::int64_t i = 0; i < (speech.is_twice ? 2 : 1) * length; ++i) {
         const std::int64_t place =

@@ -16,6 +16,7 @@ public:
     std::size_t read(std::span<std::uint8_t> into, std::chrono::nanoseconds timeout) override;
     Instant now() const override { return time; }
     void discard() override;
+    bool takes_wire_time() const override { return rules().wire_time; }
 
 private:
     struct Arrived {
@@ -24,6 +25,7 @@ private:
     };
 
     std::optional<Octets> carry_out(std::size_t drive, const SimulatedDrive::Question& question) override;
+    bool names_its_drive(const Speech& speech) const override;
     void heard(const Speech& speech, Instant begins) override;
     Octets spoilt(Octets answer) override;
     Octets noise() override;

@@ -27,7 +27,7 @@ void cable_is_pulled(const Make& make, bool is_modbus)
             bench.run->live_for(pulled / 5);
             EXPECT_TRUE(pulled < 1s || bench.held() == last) << "the last value stands in the drive";
         }
-        const drive::UnitSnapshot& shown = bench.run->seen(0);
+        const drive::DriveSnapshot& shown = bench.run->seen(0);
         EXPECT_TRUE(pulled < 10s || !shown.answers) << "the log says it";
         EXPECT_TRUE(pulled < 10s || shown.states[0] == WordState::stale) << "dpctl io says it";
 

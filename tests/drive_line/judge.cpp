@@ -9,7 +9,7 @@
 namespace dpslave::drive_line {
 namespace {
 
-/// A word that the tag gave up so long ago, and at least so many time-outs, is not shown as good.
+/// A word that the tag gave up so long ago, and at least so many timeouts, is not shown as good.
 constexpr Time kOutOfDate = 60s;
 constexpr int kOutOfDateTimeouts = 300;
 
@@ -63,7 +63,7 @@ void Judge::set_outputs(std::size_t drive, const OutputImage& image)
     record.image = image;
     if (!image.may_write) return;
     for (std::size_t i = 0; i < image.layout.count; ++i) {
-        const Parameter& parameter = image.layout.parameters[i];
+        const LayoutEntry& parameter = image.layout.parameters[i];
         if (!parameter.writes) continue;
         TagRecord& known = record.tags[parameter.tag];
         known.is_output = true;
@@ -78,7 +78,7 @@ void Judge::left(std::size_t drive, bool goes_to_zero)
     DriveRecord& record = drives_[drive];
     if (!record.image.may_write || !goes_to_zero) return;
     for (std::size_t i = 0; i < record.image.layout.count; ++i) {
-        const Parameter& parameter = record.image.layout.parameters[i];
+        const LayoutEntry& parameter = record.image.layout.parameters[i];
         if (parameter.writes) record.tags[parameter.tag].wanted.push_back({0, line_.time});
     }
 }
@@ -101,9 +101,9 @@ void Judge::operates(const drive::OperateOrder& order)
 void Judge::attempted(const drive::Transaction& transaction, AccessError error, Instant began)
 {
     using drive::Purpose;
-    if (transaction.purpose == Purpose::survey) return;
     DriveRecord& record = drives_[transaction.unit];
-    record.in_doubt = error == AccessError::no_answer;
+    const bool is_survey = transaction.purpose == Purpose::survey; // nothing follows from it, but it is owed
+    if (!is_survey) record.in_doubt = error == AccessError::no_answer;
     if (transaction.tag == nullptr) return;
     const bool is_read = transaction.kind == drive::Transaction::Kind::read;
     const bool is_cyclic =
@@ -123,6 +123,9 @@ void Judge::attempted(const drive::Transaction& transaction, AccessError error, 
 void Judge::was_written(std::size_t drive, const SimulatedTag& tag, std::uint16_t word, Instant at)
 {
     TagRecord& record = drives_[drive].tags[tag.number];
+    if (tag.counts && word != 0 && !record.written_words.insert(word).second)
+        report_violation(
+            fmt::format("{:04X} was written to tag {} of drive {} a second time", word, tag.number, drive));
     for (std::size_t i = record.written; i < record.wanted.size(); ++i) {
         if (record.wanted[i].word != word) continue;
         record.written = i;
@@ -168,7 +171,7 @@ void Judge::judge_word(std::size_t drive, std::size_t place, std::uint16_t word)
                                              : "which it never held"));
 }
 
-void Judge::shown(std::size_t drive, const drive::UnitSnapshot& snapshot,
+void Judge::shown(std::size_t drive, const drive::DriveSnapshot& snapshot,
                   const std::vector<std::uint16_t>& watched)
 {
     DriveRecord& record = drives_[drive];
@@ -185,7 +188,7 @@ void Judge::shown(std::size_t drive, const drive::UnitSnapshot& snapshot,
     }
     if (snapshot.generation != record.image.layout.generation) return;
     for (std::size_t i = 0; i < record.image.layout.count; ++i) {
-        const Parameter& parameter = record.image.layout.parameters[i];
+        const LayoutEntry& parameter = record.image.layout.parameters[i];
         if (!parameter.reads || snapshot.states[i] != WordState::good) continue;
         judge_good(drive, i, snapshot.words[i]);
         if (snapshot.words[i] == 0) continue;
@@ -293,15 +296,15 @@ bool Judge::outputs_now(std::size_t drive, std::uint16_t number) const
     const auto end = image.layout.parameters.begin() + image.layout.count;
     return image.may_write &&
            std::any_of(image.layout.parameters.begin(), end,
-                       [number](const Parameter& one) { return one.writes && one.tag == number; });
+                       [number](const LayoutEntry& one) { return one.writes && one.tag == number; });
 }
 
-std::string Judge::not_settled(std::size_t drive, const drive::UnitSnapshot& snapshot)
+std::string Judge::not_settled(std::size_t drive, const drive::DriveSnapshot& snapshot)
 {
     DriveRecord& record = drives_[drive];
     if (!snapshot.answers) return fmt::format("drive {} is shown as silent", drive);
     for (std::size_t i = 0; i < record.image.layout.count; ++i) {
-        const Parameter& parameter = record.image.layout.parameters[i];
+        const LayoutEntry& parameter = record.image.layout.parameters[i];
         const SimulatedTag& tag = tag_of(drive, parameter.tag);
         if (parameter.reads && !tag.now().denied && !parameter.writes) {
             if (snapshot.states[i] != WordState::good || snapshot.words[i] != tag.now().word)
@@ -312,7 +315,7 @@ std::string Judge::not_settled(std::size_t drive, const drive::UnitSnapshot& sna
     for (const auto& [number, known] : record.tags) {
         if (!known.is_output) continue; // a block also reads numbers that are no tags
         const SimulatedTag& tag = tag_of(drive, number);
-        if (tag.now().denied || tag.read_only) continue;
+        if (tag.now().denied || tag.read_only || tag.counts) continue; // what got lost stays so
         // What is no output any more is only sent to its safe state, and is not looked at again.
         const bool is_over = known.wanted.back().word != 0 || tag.disturbed_at >= known.wanted.back().at;
         if (!outputs_now(drive, number) && is_over) continue;

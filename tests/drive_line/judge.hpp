@@ -15,6 +15,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace dpslave::drive_line {
@@ -34,13 +35,13 @@ public:
 
     // What the drive side shows.
     void shown(std::size_t drive, const InputImage& image);
-    void shown(std::size_t drive, const drive::UnitSnapshot& snapshot,
+    void shown(std::size_t drive, const drive::DriveSnapshot& snapshot,
                const std::vector<std::uint16_t>& watched);
     void answered(std::size_t drive, const DemandAnswer& answer);
     void answered(const drive::OperateAnswer& answer);
 
     /// After the faults have ended and the line has settled: what is still wrong; empty: nothing.
-    std::string not_settled(std::size_t drive, const drive::UnitSnapshot& snapshot);
+    std::string not_settled(std::size_t drive, const drive::DriveSnapshot& snapshot);
 
     const std::optional<std::string>& violation() const { return violation_; }
 
@@ -57,6 +58,7 @@ private:
         std::size_t written = 0; ///< place in `wanted` of the newest that the drive has taken
         bool is_output = false;  ///< the master writes it in its exchange
         bool was_written = false;
+        std::set<std::uint16_t> written_words{}; ///< but 0; each word is wanted once
         Instant written_at{};
         bool was_refreshed = false; ///< by the last cyclic read
         Instant sampled_from{};     ///< in which its sample cannot be older than this

@@ -45,7 +45,7 @@ public:
     /// The drive holds what its master wants and its input is good.
     bool works(std::size_t drive = 0)
     {
-        const drive::UnitSnapshot& seen = run->seen(drive);
+        const drive::DriveSnapshot& seen = run->seen(drive);
         return seen.answers && held(drive) == wanted(drive) && seen.states[0] == WordState::good;
     }
     /// How long it takes until then, at most `limit`.

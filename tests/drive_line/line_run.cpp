@@ -12,12 +12,12 @@ namespace {
 constexpr Time kTick = 1ms;
 constexpr unsigned kMostWithoutTime = 1'000;
 
-std::vector<drive::UnitSettings>
+std::vector<drive::DriveSettings>
 settings_of(const SimulatedLine& line, const std::vector<drive::TagTable>& tables, const RunRules& rules)
 {
-    std::vector<drive::UnitSettings> all;
+    std::vector<drive::DriveSettings> all;
     for (std::size_t i = 0; i < line.drives.size(); ++i) {
-        drive::UnitSettings unit;
+        drive::DriveSettings unit;
         unit.address = {0, line.drives[i].unit};
         unit.tags = &tables[i];
         unit.output_refresh = rules.output_refresh;
@@ -25,6 +25,10 @@ settings_of(const SimulatedLine& line, const std::vector<drive::TagTable>& table
         unit.compare_outputs = rules.compare_outputs;
         unit.watched = rules.watched;
         unit.retries = rules.retries;
+        unit.loss = rules.loss;
+        unit.zeroes_on_return = unit.zero_after.has_value();
+        unit.decides_every = line.rules().timeout;
+        if (rules.loss.when != drive::WhenLost::hold) unit.probe_interval = 10 * line.rules().timeout;
         all.push_back(unit);
     }
     return all;
@@ -37,8 +41,10 @@ LineRun::LineRun(SimulatedLine& line, drive::Backend& backend, const std::vector
     : line_(line),
       backend_(backend),
       rules_(rules),
-      poller_(settings_of(line, tables, rules), backend.block_rule()),
+      settings_(settings_of(line, tables, rules)),
+      poller_(settings_, backend.block_rule()),
       judge_(line),
+      loss_judge_(line, rules.loss, rules.retries),
       masters_(line.drives.size()),
       words_(std::max<std::size_t>(backend.block_rule().max_tags, 1))
 {}
@@ -66,6 +72,7 @@ void LineRun::step(Instant until)
 {
     if (rules_.masters_act && line_.time >= act_at_) act();
     const Instant before = line_.time;
+    note_presence();
     const auto transaction = poller_.next(line_.time);
     if (transaction) carry_out(*transaction);
     publish();
@@ -73,11 +80,13 @@ void LineRun::step(Instant until)
         const Instant next =
             std::clamp(poller_.next_deadline(), line_.time + kTick / 10, line_.time + 10 * kTick);
         line_.pass_until(std::min(next, std::max(until, line_.time + 1us)));
+        backend_.listen(); // as when octets come on the port
     }
     without_time_ = line_.time > before ? 0 : without_time_ + 1;
     if (without_time_ > kMostWithoutTime)
         report_violation("the drive side is busy without end, and no time passes");
     if (judge_.violation()) report_violation(*judge_.violation());
+    if (loss_judge_.violation()) report_violation(*loss_judge_.violation());
 }
 
 void LineRun::carry_out(const drive::Transaction& transaction)
@@ -94,11 +103,15 @@ void LineRun::carry_out(const drive::Transaction& transaction)
             outcome.words = words;
             break;
         }
-        case Kind::write: outcome.error = backend_.write(address, *transaction.tag, transaction.words); break;
-        case Kind::probe:
-            outcome.error = backend_.probe(address) ? AccessError::none : AccessError::no_answer;
+        case Kind::write:
+            outcome.error = transaction.once
+                                ? backend_.write_once(address, *transaction.tag, transaction.words.first<1>())
+                                : backend_.write(address, *transaction.tag, transaction.words);
+            outcome.sent = backend_.has_sent();
             break;
+        case Kind::probe: outcome.error = backend_.probe(address); break;
     }
+    outcome.questions = backend_.questions();
     if (line_.traces())
         line_.trace(fmt::format("{:.1f} ms:    drive {} {} {} x{}: error {} {}",
                                 double(line_.time.time_since_epoch().count()) / 1e6, transaction.unit,
@@ -107,7 +120,10 @@ void LineRun::carry_out(const drive::Transaction& transaction)
                                                                   : "probe",
                                 transaction.tag != nullptr ? transaction.tag->number : 0, transaction.count,
                                 static_cast<int>(outcome.error), backend_.last_trouble()));
+    note_presence();
     poller_.done(outcome, line_.time);
+    if (outcome.error != AccessError::no_answer && outcome.error != AccessError::deferred)
+        loss_judge_.answered(transaction.unit);
     judge_.attempted(transaction, outcome.error, began);
     if (on_transaction) on_transaction(transaction, outcome.error, began);
 }
@@ -115,25 +131,44 @@ void LineRun::carry_out(const drive::Transaction& transaction)
 void LineRun::publish()
 {
     for (std::size_t i = 0; i < masters_.size(); ++i) {
-        if (const auto inputs = poller_.take_inputs(i)) judge_.shown(i, *inputs);
+        if (const auto inputs = poller_.take_inputs(i)) {
+            judge_.shown(i, *inputs);
+            loss_judge_.shown(i, masters_[i].image.layout, *inputs);
+        }
         while (const auto answer = poller_.take_demand_answer(i)) judge_.answered(i, *answer);
         judge_.shown(i, poller_.snapshot(i), rules_.watched);
     }
-    while (const auto answer = poller_.take_operate_answer()) judge_.answered(*answer);
+    while (const auto answer = poller_.take_operate_answer())
+        if (answer->number < kFirstSurvey) judge_.answered(*answer);
+    for (std::size_t i = 0; i < masters_.size(); ++i) {
+        loss_judge_.shown(i, poller_.snapshot(i));
+        if (poller_.snapshot(i).away) leave(i);
+    }
+    note_presence();
+}
+
+/// As the drive thread does it.
+void LineRun::note_presence()
+{
+    for (std::size_t i = 0; i < masters_.size(); ++i) {
+        const Instant at = backend_.counts({0, line_.drives[i].unit}).valid_at;
+        if (at != Instant{}) poller_.heard(i, at);
+    }
 }
 
 // ---- what the masters want
 
-void LineRun::enter(std::size_t drive, const std::vector<Parameter>& parameters)
+void LineRun::enter(std::size_t drive, const std::vector<LayoutEntry>& parameters)
 {
     Master& master = masters_[drive];
     master.image = {};
     master.image.layout.generation = ++generation_;
-    for (const Parameter& parameter : parameters)
+    for (const LayoutEntry& parameter : parameters)
         master.image.layout.parameters[master.image.layout.count++] = parameter;
     line_.trace(fmt::format("the master of drive {} chooses layout {}", drive, generation_));
     poller_.set_outputs(drive, master.image);
     judge_.set_outputs(drive, master.image);
+    loss_judge_.entered(drive);
 }
 
 void LineRun::change(std::size_t drive)
@@ -160,6 +195,7 @@ void LineRun::leave(std::size_t drive)
     const bool goes_to_zero = drive >= rules_.zero_after.size() || rules_.zero_after[drive].has_value();
     judge_.left(drive, goes_to_zero);
     poller_.left_data_exchange(drive, {master.image.layout.generation});
+    loss_judge_.left(drive, master.image, goes_to_zero);
     master.image = {};
     judge_.set_outputs(drive, master.image);
     poller_.set_outputs(drive, master.image);
@@ -176,6 +212,8 @@ void LineRun::act()
             line_.returns(i, chance.one_in(2));
         }
     const std::size_t drive = chance.below(masters_.size());
+    if (rules_.loss.when != drive::WhenLost::hold && chance.one_in(4)) return disturb_presence(drive);
+    if (poller_.snapshot(drive).away) return;
     const bool exchanges = masters_[drive].image.layout.generation != 0;
     if (!exchanges) return choose_layout(drive);
     switch (chance.below(40)) {
@@ -199,7 +237,7 @@ void LineRun::act()
 void LineRun::choose_layout(std::size_t drive)
 {
     if (masters_[drive].image.layout.generation != 0 && line_.chance().one_in(2)) leave(drive);
-    std::vector<Parameter> parameters;
+    std::vector<LayoutEntry> parameters;
     for (const SimulatedTag& tag : line_.drives[drive].tags) {
         if ((tag.use != TagUse::input && tag.use != TagUse::output) || line_.chance().one_in(3)) continue;
         const bool writes = tag.use == TagUse::output;
@@ -273,6 +311,37 @@ void LineRun::disturb(std::size_t drive)
     }
 }
 
+/// What must not make a station leave, and what has to.
+void LineRun::disturb_presence(std::size_t drive)
+{
+    Chance& chance = line_.chance();
+    SimulatedDrive& one = line_.drives[drive];
+    switch (chance.below(5)) {
+        case 0:
+        case 1:
+            if (!one.alive) return;
+            ++silences_;
+            line_.dies(drive);
+            masters_[drive].returns_at = line_.time + chance.between(50ms, 4 * rules_.loss.after);
+            return;
+        case 2:
+            if (one.answers_every == 0ns) ++silences_;
+            one.answers_every =
+                one.answers_every != 0ns ? 0ns : chance.between(rules_.loss.after / 4, rules_.loss.after);
+            return;
+        case 3: {
+            const SimulatedTag& tag = one.tags[chance.below(one.tags.size())];
+            poller_.survey(drive, ++surveys_, tag.number);
+            return;
+        }
+        default: { // a reload that changes nothing
+            std::vector<std::optional<std::size_t>> stays;
+            for (std::size_t i = 0; i < masters_.size(); ++i) stays.emplace_back(i);
+            poller_.exchange(settings_, stays, backend_.block_rule());
+        }
+    }
+}
+
 // ---- the end
 
 void LineRun::settle(Time limit)
@@ -288,6 +357,7 @@ void LineRun::settle(Time limit)
             if (tag.refuses) line_.refuses(tag, false);
         drive.live_until(line_.time, line_.words(), line_.chance());
         drive.stands_still();
+        drive.answers_every = {};
     }
     const Instant end = line_.time + limit;
     std::string wrong;

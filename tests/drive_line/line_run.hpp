@@ -4,6 +4,7 @@
 #pragma once
 
 #include "judge.hpp"
+#include "loss_judge.hpp"
 
 #include "dpslave/drive/poller.hpp"
 
@@ -20,6 +21,7 @@ struct RunRules {
     std::vector<drive::ZeroAfter> zero_after; ///< of each drive
     std::vector<std::uint16_t> watched;
     int retries = 2;
+    drive::LossRule loss; ///< not hold: drives fall silent and answer sparingly more often
 };
 
 class LineRun {
@@ -38,18 +40,24 @@ public:
     std::uint64_t transactions() const { return transactions_; }
     drive::Poller& poller() { return poller_; }
     Judge& judge() { return judge_; }
+    const LossJudge& loss_judge() const { return loss_judge_; }
 
     // What the master of a drive does.
-    void enter(std::size_t drive, const std::vector<Parameter>& parameters);
+    void enter(std::size_t drive, const std::vector<LayoutEntry>& parameters);
     void change(std::size_t drive);
     void leave(std::size_t drive);
     const OutputImage& image(std::size_t drive) const { return masters_[drive].image; }
-    const drive::UnitSnapshot& seen(std::size_t drive) const { return poller_.snapshot(drive); }
+    const drive::DriveSnapshot& seen(std::size_t drive) const { return poller_.snapshot(drive); }
+
+    /// How often a drive was made silent or sparing of answers.
+    std::uint64_t silences() const { return silences_; }
 
     /// Called after each transaction.
     std::function<void(const drive::Transaction&, AccessError, Instant began)> on_transaction;
 
 private:
+    static constexpr std::uint32_t kFirstSurvey = 1'000'000; ///< orders of the operator stay below
+
     struct Master {
         OutputImage image;
         std::uint32_t orders = 0;
@@ -64,19 +72,25 @@ private:
     void order(std::size_t drive);
     void operate(std::size_t drive);
     void disturb(std::size_t drive);
+    void disturb_presence(std::size_t drive);
+    void note_presence();
     void report_violation(const std::string& text);
 
     SimulatedLine& line_;
     drive::Backend& backend_;
     RunRules rules_;
+    std::vector<drive::DriveSettings> settings_;
     drive::Poller poller_;
     Judge judge_;
+    LossJudge loss_judge_;
     std::vector<Master> masters_;
     std::vector<std::uint16_t> words_;
     Generation generation_ = 0;
     std::uint32_t operates_ = 0;
     Instant act_at_{};
     std::uint64_t transactions_ = 0;
+    std::uint64_t silences_ = 0;
+    std::uint32_t surveys_ = kFirstSurvey;
     unsigned without_time_ = 0; ///< transactions in a row that took none
     std::optional<std::string> violation_;
 };

@@ -10,28 +10,6 @@ namespace {
 /// The receiver's rule for the end of what is no frame: 20 characters, at least 20 ms.
 constexpr Time kGap = 24ms;
 
-/// MODBUS over Serial Line V1.02, 6.2.2, bit by bit.
-std::uint16_t check_sum(const Octets& octets)
-{
-    unsigned sum = 0xFFFF;
-    for (const std::uint8_t octet : octets)
-        for (unsigned bit = 0; bit < 8; ++bit) {
-            const bool carries = ((sum ^ octet >> bit) & 1U) != 0;
-            sum >>= 1U;
-            if (carries) sum ^= 0xA001U;
-        }
-    return static_cast<std::uint16_t>(sum);
-}
-
-/// Low octet first.
-Octets with_check_sum(Octets frame)
-{
-    const std::uint16_t sum = check_sum(frame);
-    frame.push_back(static_cast<std::uint8_t>(sum & 0xFFU));
-    frame.push_back(static_cast<std::uint8_t>(sum >> 8U));
-    return frame;
-}
-
 bool are_good(const std::vector<::test::Character>& characters)
 {
     return std::all_of(characters.begin(), characters.end(), [](const auto& one) { return one.good; });
@@ -96,17 +74,17 @@ bool ModbusLineWithBitErrors::send(std::uint8_t unit, Bytes pdu)
     receiver_.sent(unit, pdu);
     Octets question(1 + pdu.size(), unit);
     std::copy(pdu.begin(), pdu.end(), question.begin() + 1);
-    question = with_check_sum(std::move(question));
+    question = with_checksum(std::move(question));
     const auto characters = there_.received(question);
     Octets arrived = octets_of(characters);
-    if (!are_good(characters) || arrived.size() < 4 || check_sum(arrived) != 0) return true; // not heard
+    if (!are_good(characters) || arrived.size() < 4 || checksum(arrived) != 0) return true; // not heard
     if (arrived != question) ++taken_for_good_;
     arrived.resize(arrived.size() - 2);
     return line_.send(arrived[0], Bytes{arrived}.subspan(1));
 }
 
 /// As the program's own line does it (src/modbus/rtu_line.cpp), on the simulated clock.
-modbus::FrameLine::Heard ModbusLineWithBitErrors::receive(Instant until)
+modbus::ModbusPort::Heard ModbusLineWithBitErrors::receive(Instant until)
 {
     using Found = modbus::FrameReceiver::Found;
     for (;;) {
@@ -114,7 +92,7 @@ modbus::FrameLine::Heard ModbusLineWithBitErrors::receive(Instant until)
         const bool in_frame = receiver_.in_frame();
         if (line_.receive(in_frame ? now() + kGap : until) == Heard::frame) {
             answered_.assign(line_.frame().begin(), line_.frame().end());
-            for (const auto& one : back_.received(with_check_sum(answered_))) waiting_.push_back(one);
+            for (const auto& one : back_.received(with_checksum(answered_))) waiting_.push_back(one);
             continue;
         }
         if (!in_frame) return Heard::silence;
@@ -126,7 +104,7 @@ modbus::FrameLine::Heard ModbusLineWithBitErrors::receive(Instant until)
 }
 
 /// silence: it is used up.
-modbus::FrameLine::Heard ModbusLineWithBitErrors::of_what_has_come()
+modbus::ModbusPort::Heard ModbusLineWithBitErrors::of_what_has_come()
 {
     using Found = modbus::FrameReceiver::Found;
     while (!waiting_.empty()) {

@@ -31,10 +31,10 @@ private:
     std::deque<std::uint8_t> waiting_;
 };
 
-/// Frames octet by octet with their check sum, 8N1 or 8E1. The program's receiver makes frames of what
-/// arrives; a check sum of this line's own says what a drive takes, and what was sent says whether the
+/// Frames octet by octet with their checksum, 8N1 or 8E1. The program's receiver makes frames of what
+/// arrives; a checksum of this line's own says what a drive takes, and what was sent says whether the
 /// receiver was right.
-class ModbusLineWithBitErrors final : public modbus::FrameLine {
+class ModbusLineWithBitErrors final : public modbus::ModbusPort {
 public:
     ModbusLineWithBitErrors(ModbusFrames& line, double errors, ::test::Parity parity);
 
@@ -51,7 +51,7 @@ public:
     std::uint64_t hits() const { return there_.hits() + back_.hits(); }
     std::uint64_t refused() const { return refused_; } ///< answers that the receiver has called broken
     /// Frames other than the drive has sent that the receiver gave, and questions other than the client has
-    /// sent whose check sum is right.
+    /// sent whose checksum is right.
     std::uint64_t taken_for_good() const { return taken_for_good_; }
 
 private:

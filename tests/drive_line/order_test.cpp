@@ -152,7 +152,7 @@ private:
 // ---- dead drives
 
 template <class Line, class Make>
-void expect_two_time_outs_at_most(const Make& make, bool is_modbus)
+void expect_two_timeouts_at_most(const Make& make, bool is_modbus)
 {
     const Time alone = Bench<Line>{calm_line(1), 1, make, is_modbus}.slowest_change(100);
     for (std::size_t dead = 1; dead <= 6; ++dead) {
@@ -163,12 +163,12 @@ void expect_two_time_outs_at_most(const Make& make, bool is_modbus)
 
 TEST(DeadDrivesOfAnEiAsciiLine, DelayAChangedOutputByTwoTimeOutsAtMost)
 {
-    expect_two_time_outs_at_most<EiLine>(ei_client, false);
+    expect_two_timeouts_at_most<EiLine>(ei_client, false);
 }
 
 TEST(DeadDrivesOfAModbusLine, DelayAChangedOutputByTwoTimeOutsAtMost)
 {
-    expect_two_time_outs_at_most<ModbusFrames>(modbus_client, true);
+    expect_two_timeouts_at_most<ModbusFrames>(modbus_client, true);
 }
 
 /// Three living drives with two inputs each; four are dead.
@@ -207,7 +207,7 @@ TEST(DeadDrivesOfAModbusLine, AreProbedOnceInARoundOfTheLivingOnesAtMost)
 
 // ---- function 8
 
-/// Time-out 200 ms, and one answer in fifteen later than that; the profile says function 8, and no
+/// Timeout 200 ms, and one answer in fifteen later than that; the profile says function 8, and no
 /// drive answers it.
 template <class Make>
 std::string shown_without_function_8(const Make& make)

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <deque>
 
 namespace dpslave::drive_line {
@@ -16,7 +17,7 @@ unsigned part(Chance& chance, unsigned most)
     return chance.one_in(2) ? 0 : static_cast<unsigned>(chance.below(most));
 }
 
-drive::TagTable table_of(const SimulatedDrive& drive)
+drive::TagTable table_of(const SimulatedDrive& drive, bool says_once)
 {
     std::vector<drive::Tag> rows;
     for (const SimulatedTag& tag : drive.tags) {
@@ -27,6 +28,7 @@ drive::TagTable table_of(const SimulatedDrive& drive)
         row.is_real = tag.is_ieee;
         row.decimals = static_cast<std::uint8_t>(tag.decimals);
         row.mnemonic = tag.mnemonic;
+        row.once = tag.counts && says_once;
         if (tag.is_ieee) row.modbus_register = static_cast<std::uint16_t>(0x8000 + 2 * tag.number);
         rows.push_back(row);
     }
@@ -40,6 +42,11 @@ RunResult run(std::uint64_t seed, const Make& make, bool is_modbus, RunOptions o
     Conditions conditions = drive_line::conditions(chance);
     if (options.calm) conditions.make_calm();
     if (options.late) conditions.make_late();
+    if (options.repeating) {
+        conditions.make_calm();
+        conditions.make_repeating();
+        conditions.line.wire_time = options.wire_time;
+    }
     Line line{conditions.line, chance};
     line.faults = conditions.faults;
     line.time = options.begins;
@@ -52,7 +59,8 @@ RunResult run(std::uint64_t seed, const Make& make, bool is_modbus, RunOptions o
         };
     }
     add_drives(line, conditions, is_modbus);
-    const std::vector<drive::TagTable> tables = tables_of(line);
+    if (options.counts) add_counting_tags(line);
+    const std::vector<drive::TagTable> tables = tables_of(line, options.says_once);
     const auto backend = make(line, conditions);
     RunRules rules;
     rules.compare_outputs = is_modbus;
@@ -62,10 +70,19 @@ RunResult run(std::uint64_t seed, const Make& make, bool is_modbus, RunOptions o
                                    : chance.one_in(3) ? drive::ZeroAfter{700ms}
                                                       : drive::ZeroAfter{0ns});
     if (conditions.tags_are_shared && chance.one_in(2)) rules.watched = {line.drives[0].tags[0].number};
+    if (options.silent) {
+        const Time times[] = {500ms, 1s, 2s};
+        line.faults.noise_of_the_dead = chance.one_in(2) ? 0 : chance.one_in(2) ? 10'000 : 2'000;
+        rules.loss = {.when = drive::WhenLost::silent, .after = times[chance.below(3)]};
+    }
     LineRun run{line, *backend, tables, rules};
     run.live(options.transactions);
     run.settle(kSettles);
-    return {run.violation().value_or(""), run.transactions(), {lines.begin(), lines.end()}};
+    return {.violation = run.violation().value_or(""),
+            .transactions = run.transactions(),
+            .silences = run.silences(),
+            .departures = run.loss_judge().departures(),
+            .trace = {lines.begin(), lines.end()}};
 }
 
 } // namespace
@@ -74,7 +91,8 @@ void Conditions::make_calm()
 {
     faults = {};
     line.echo = false;
-    echo = drive::EchoMode::off;
+    line.wire_time = true;
+    echo = EchoMode::off;
     line.port_holds = 0ns;
 }
 
@@ -90,16 +108,27 @@ void Conditions::make_late()
     faults.duplicate = 3'000;
 }
 
+void Conditions::make_repeating()
+{
+    drives = 2;
+    tags_are_shared = true;
+    baud = 19'200;
+    line.character = Time{10'000'000'000 / baud};
+    line.turnaround = 4ms;
+    faults.isolated = 3'000;
+    faults.isolated_to = 10ms;
+}
+
 std::string Conditions::text() const
 {
     return fmt::format(
-        "{} drives, tags {}, {} bit/s, time-out {} ms, the port holds octets {} ms, echo {} ({}); parts of "
+        "{} drives, tags {}, {} bit/s, timeout {} ms, the port holds octets {} ms, echo {} ({}); parts of "
         "10000: late {} and {}, never {}, questions lost {} and spoilt {}, answers lost {} and spoilt {}, "
-        "twice {}, noise {}",
+        "twice {}, noise {}, twice apart {}",
         drives, tags_are_shared ? "shared" : "of their own", baud, line.timeout.count() / 1'000'000,
         line.port_holds.count() / 1'000'000, line.echo ? "heard" : "not heard", static_cast<int>(echo),
         faults.late, faults.a_little_late, faults.never, faults.question_lost, faults.question_spoilt,
-        faults.answer_lost, faults.answer_spoilt, faults.duplicate, faults.noise);
+        faults.answer_lost, faults.answer_spoilt, faults.duplicate, faults.noise, faults.isolated);
 }
 
 Conditions conditions(Chance& chance)
@@ -113,9 +142,7 @@ Conditions conditions(Chance& chance)
     one.line.character = Time{10'000'000'000 / one.baud};
     one.line.port_holds = chance.one_in(4) ? (chance.one_in(2) ? Time{16ms} : Time{1ms}) : Time{0};
     one.line.echo = chance.one_in(4);
-    one.echo = chance.one_in(3) ? drive::EchoMode::automatic
-               : one.line.echo  ? drive::EchoMode::on
-                                : drive::EchoMode::off;
+    one.echo = chance.one_in(3) ? EchoMode::automatic : one.line.echo ? EchoMode::on : EchoMode::off;
     one.drives = 1 + chance.below(4);
     one.tags_are_shared = !chance.one_in(4);
     const unsigned most = chance.one_in(3) ? 2'500 : chance.one_in(2) ? 600 : 150;
@@ -128,6 +155,9 @@ Conditions conditions(Chance& chance)
     one.faults.answer_spoilt = part(chance, most);
     one.faults.duplicate = part(chance, most);
     one.faults.noise = part(chance, most);
+    Chance kinds = chance; // the same seeds have the same other faults as before
+    one.faults.isolated = one.line.port_holds <= 1ms ? part(kinds, most) : 0;
+    one.line.wire_time = one.faults.isolated != 0 || !kinds.one_in(4);
     return one;
 }
 
@@ -166,11 +196,38 @@ void add_drives(SimulatedLine& line, const Conditions& conditions, bool is_modbu
     }
 }
 
-std::vector<drive::TagTable> tables_of(const SimulatedLine& line)
+void add_counting_tags(SimulatedLine& line)
+{
+    for (SimulatedDrive& drive : line.drives) {
+        SimulatedTag tag;
+        tag.number = static_cast<std::uint16_t>(drive.tags.front().number + 13);
+        tag.use = TagUse::output;
+        tag.mnemonic = {'#', static_cast<char>('A' + tag.number % 26)};
+        tag.is_word = true;
+        tag.counts = true;
+        tag.history.push_back({line.time, line.words().take(), false});
+        drive.tags.push_back(tag);
+    }
+}
+
+std::vector<drive::TagTable> tables_of(const SimulatedLine& line, bool says_once)
 {
     std::vector<drive::TagTable> tables;
-    for (const SimulatedDrive& drive : line.drives) tables.push_back(table_of(drive));
+    for (const SimulatedDrive& drive : line.drives) tables.push_back(table_of(drive, says_once));
     return tables;
+}
+
+std::string story(const RunResult& result)
+{
+    std::string text = result.violation + "\n";
+    for (const std::string& line : result.trace) text += line + "\n";
+    return text;
+}
+
+std::uint64_t number_of(const char* variable, std::uint64_t otherwise)
+{
+    const char* const text = std::getenv(variable);
+    return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
 }
 
 std::unique_ptr<drive::Backend> ei_client(EiLine& line, const Conditions& conditions)
@@ -181,7 +238,7 @@ std::unique_ptr<drive::Backend> ei_client(EiLine& line, const Conditions& condit
 std::unique_ptr<drive::Backend> ei_client_on(drive::SerialLine& port, const EiLine& line,
                                              const Conditions& conditions)
 {
-    std::vector<drive::EiUnit> units;
+    std::vector<drive::EiDrive> units;
     for (const SimulatedDrive& drive : line.drives)
         units.push_back({{0, drive.unit}, drive::MnemonicRule::none});
     drive::EiTiming timing;
@@ -197,7 +254,7 @@ std::unique_ptr<drive::Backend> modbus_client(ModbusFrames& line, const Conditio
     return modbus_client_on(line, line, conditions);
 }
 
-std::unique_ptr<drive::Backend> modbus_client_on(modbus::FrameLine& port, const ModbusFrames& line,
+std::unique_ptr<drive::Backend> modbus_client_on(modbus::ModbusPort& port, const ModbusFrames& line,
                                                  const Conditions& conditions)
 {
     modbus::ClientSettings settings;

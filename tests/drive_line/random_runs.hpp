@@ -18,9 +18,9 @@ namespace dpslave::drive_line {
 
 /// What a seed makes of a line; the rest comes from its Chance while it runs.
 struct Conditions {
-    LineRules line;
+    LineTiming line;
     Faults faults;
-    drive::EchoMode echo = drive::EchoMode::off; ///< as configured
+    EchoMode echo = EchoMode::off; ///< as configured
     std::uint32_t baud = 9600;
     int bits_of_a_character = 10; ///< as configured
     std::size_t drives = 1;
@@ -28,20 +28,29 @@ struct Conditions {
     void make_calm(); ///< no faults but those of the drives themselves
     /// Three drives that share tags, often late, with duplicates and losses: where owed answers decide most.
     void make_late();
+    /// Two drives that share tags, at 19200 bit/s, with duplicates 1 to 10 ms behind an answer.
+    void make_repeating();
     std::string text() const;
 };
 Conditions conditions(Chance& chance);
 
 /// Drives with inputs, outputs and tags for orders.
 void add_drives(SimulatedLine& line, const Conditions& conditions, bool is_modbus);
+/// One more output to each, of which each write counts.
+void add_counting_tags(SimulatedLine& line);
 /// The tables that describe them.
-std::vector<drive::TagTable> tables_of(const SimulatedLine& line);
+std::vector<drive::TagTable> tables_of(const SimulatedLine& line, bool says_once = true);
 
 struct RunResult {
     std::string violation; ///< empty: everything was true
     std::uint64_t transactions = 0;
-    std::vector<std::string> trace; ///< the last lines, if they were wanted
+    std::uint64_t silences = 0, departures = 0; ///< of drives and of their stations
+    std::vector<std::string> trace;             ///< the last lines, if they were wanted
 };
+
+std::string story(const RunResult& result);
+/// Of an environment variable.
+std::uint64_t number_of(const char* variable, std::uint64_t otherwise);
 
 using MakeEiBackend = std::function<std::unique_ptr<drive::Backend>(EiLine&, const Conditions&)>;
 using MakeModbusBackend = std::function<std::unique_ptr<drive::Backend>(ModbusFrames&, const Conditions&)>;
@@ -52,14 +61,19 @@ std::unique_ptr<drive::Backend> ei_client(EiLine& line, const Conditions& condit
 std::unique_ptr<drive::Backend> ei_client_on(drive::SerialLine& port, const EiLine& line,
                                              const Conditions& conditions);
 std::unique_ptr<drive::Backend> modbus_client(ModbusFrames& line, const Conditions& conditions);
-std::unique_ptr<drive::Backend> modbus_client_on(modbus::FrameLine& port, const ModbusFrames& line,
+std::unique_ptr<drive::Backend> modbus_client_on(modbus::ModbusPort& port, const ModbusFrames& line,
                                                  const Conditions& conditions);
 
 struct RunOptions {
     std::uint64_t transactions = 2'000;
     bool calm = false;
     bool late = false;
+    bool repeating = false;
+    bool wire_time = true; ///< false, with `repeating`: the client is told that nothing takes time
     bool traces = false;
+    bool counts = false;   ///< one more output, of which each write counts
+    bool says_once = true; ///< false, with `counts`: the tables do not say so
+    bool silent = false;   ///< when_drive_lost, with drives that often fall silent
     Instant begins{std::chrono::hours{1}};
 };
 

@@ -54,6 +54,7 @@ struct SimulatedTag {
     unsigned decimals = 0; ///< EI-ASCII, of a number
     bool is_ieee = false;  ///< Modbus: two registers of the IEEE area
     bool read_only = false;
+    bool counts = false;         ///< each write of it does something: none may come twice
     bool refuses = false;        ///< writes, as a value out of range, for the time being
     std::vector<Held> history;   ///< never empty
     Instant changes_at = kNever; ///< by itself
@@ -85,6 +86,11 @@ public:
     std::deque<Question> questions; ///< in the order in which they were asked
     Instant last_carried_out{};
     Instant last_answered{};
+    Time answers_every{}; ///< answers that would come sooner after its last one get lost
+    Instant spoke_at{};   ///< its last whole answer could be read
+    /// The same of one that names it, with no noise right before it and no question at the same time; and of
+    /// the one before that.
+    Instant named_at{}, named_before{};
     Time change_every = 200ms;
 
     SimulatedTag* find(std::uint16_t number)

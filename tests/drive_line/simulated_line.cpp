@@ -13,6 +13,8 @@ void SimulatedLine::ask(std::size_t index, Octets octets, Instant heard)
 {
     SimulatedDrive& drive = drives[index];
     ++questions_;
+    if (!drive.alive && chance_.happens(faults.noise_of_the_dead))
+        say({heard + chance_.between(rules_.turnaround, rules_.timeout), noise(), -1, true, false});
     if (!drive.alive) return;
     if (chance_.happens(faults.question_lost)) return trace("  the question is lost");
     SimulatedDrive::Question question;
@@ -26,12 +28,22 @@ void SimulatedLine::ask(std::size_t index, Octets octets, Instant heard)
     question.answered = heard + delay;
     question.carried_out = heard + chance_.between(0ns, delay);
     question.answer_is_lost = chance_.happens(faults.never) || chance_.happens(faults.answer_lost);
-    // one after the other, and none later than ten time-outs
+    const bool is_sparing =
+        drive.answers_every != 0ns && heard + delay < drive.spoke_at + drive.answers_every;
+    question.answer_is_lost = question.answer_is_lost || is_sparing;
+    // one after the other, and none later than ten timeouts
     const Instant after_last = drive.last_answered + chance_.between(0ns, rules_.turnaround);
     const Instant latest = std::max(drive.last_answered, heard + rules_.timeout * 10);
     question.answered = drive.last_answered = std::min(std::max(question.answered, after_last), latest);
     question.carried_out = drive.last_carried_out = std::max(question.carried_out, drive.last_carried_out);
     drive.questions.push_back(std::move(question));
+}
+
+/// It begins before a question, or before the question that is under way has left: by the times at which its
+/// octets can be read.
+bool SimulatedLine::is_refused_by_time(Instant begins) const
+{
+    return begins + rules_.port_holds + rules_.character < question_ends_;
 }
 
 void SimulatedLine::say(Speech speech)
@@ -75,9 +87,48 @@ void SimulatedLine::happen(Instant at)
     const Speech speech = std::move(speeches_.front());
     speeches_.erase(speeches_.begin());
     const Instant begins = std::max(speech.begins, wire_free_);
+    const bool is_before_a_question = speech.is_repeat && question_ends_ < speech.original_begun;
+    if (speech.is_repeat && !is_before_a_question && !faults.beyond_time && !is_refused_by_time(begins))
+        return;
     const std::size_t characters = speech.octets.size() * (speech.is_twice ? 2 : 1);
     wire_free_ = begins + rules_.character * static_cast<std::int64_t>(characters);
     heard(speech, begins);
+    note_spoken(speech, begins);
+    const bool is_whole = speech.drive >= 0 && !speech.is_broken && !speech.is_twice && !speech.is_repeat;
+    if (!is_whole || faults.isolated == 0 || !kinds_.happens(faults.isolated)) return;
+    Speech again = speech;
+    again.is_repeat = true;
+    again.original_begun = begins;
+    again.begins = wire_free_ + kinds_.between(faults.isolated_from, faults.isolated_to);
+    say(std::move(again));
+}
+
+/// What began before a question had left names no drive for certain, nor what is not parted from noise or
+/// from a lone EOT, ACK or NAK.
+void SimulatedLine::note_spoken(const Speech& speech, Instant begins)
+{
+    // longer than the pauses by which the clients part frames
+    const Time pause = 25ms + 40 * rules_.character + 2 * rules_.port_holds;
+    const bool is_whole = speech.drive >= 0 && !speech.is_broken;
+    const bool is_named = is_whole && begins > noise_ended_ + pause && names_its_drive(speech);
+    if (!is_named) noise_ended_ = wire_free_; // what comes close behind it is not parted from it
+    if (!is_whole) return;
+    SimulatedDrive& drive = drives[static_cast<std::size_t>(speech.drive)];
+    drive.spoke_at = wire_free_ + rules_.port_holds;
+    if (!is_named || speech.is_repeat || is_refused_by_time(begins)) return;
+    drive.named_before = drive.named_at;
+    drive.named_at = drive.spoke_at;
+}
+
+/// An answer that is still under way then is disturbed by it.
+void SimulatedLine::question_on_the_wire(Instant ends)
+{
+    question_ends_ = ends;
+    for (SimulatedDrive& drive : drives) {
+        if (drive.named_at <= time) continue;
+        drive.named_at = drive.named_before <= time ? drive.named_before : Instant{}; // both may be under way
+        noise_ended_ = wire_free_;
+    }
 }
 
 void SimulatedLine::pass_until(Instant until)

@@ -102,13 +102,13 @@ Octets UnjudgedModbusClient::asked(drive::UnitAddress unit, const Octets& pdu, s
 {
     // 3.5 characters of silence before each request: the standard wants them of every master
     while (line_.receive(line_.now() + line_.rules().character * 7 / 2) !=
-           modbus::FrameLine::Heard::silence) {
+           modbus::ModbusPort::Heard::silence) {
     }
     line_.send(unit.unit, pdu);
     const Instant until = line_.now() + line_.rules().timeout +
                           line_.rules().character * static_cast<std::int64_t>(pdu.size() + length + 6);
     while (line_.now() < until) {
-        if (line_.receive(until) != modbus::FrameLine::Heard::frame) continue;
+        if (line_.receive(until) != modbus::ModbusPort::Heard::frame) continue;
         const Bytes frame = line_.frame();
         if (frame.size() < 3 || frame[0] != unit.unit || (frame[1] & 0x7FU) != pdu[0]) continue;
         if (frame.size() == (frame[1] == pdu[0] ? length + 1 : 3)) return {frame.begin() + 1, frame.end()};
@@ -167,9 +167,9 @@ AccessError UnjudgedModbusClient::write(drive::UnitAddress unit, const drive::Ta
     return answer[1] == 2 ? AccessError::invalid_tag : AccessError::out_of_range;
 }
 
-bool UnjudgedModbusClient::probe(drive::UnitAddress unit)
+AccessError UnjudgedModbusClient::probe(drive::UnitAddress unit)
 {
-    return !asked(unit, {3, 0, 1, 0, 1}, 4).empty();
+    return asked(unit, {3, 0, 1, 0, 1}, 4).empty() ? AccessError::no_answer : AccessError::none;
 }
 
 std::unique_ptr<drive::Backend> unjudged_ei(EiLine& line, const Conditions&)

@@ -16,11 +16,14 @@ public:
     AccessError read(drive::UnitAddress unit, const drive::Tag& tag, std::span<std::uint16_t> words) override;
     AccessError write(drive::UnitAddress unit, const drive::Tag& tag,
                       std::span<const std::uint16_t> words) override;
-    bool probe(drive::UnitAddress unit) override { return !asked(unit, "V0").empty(); }
+    AccessError probe(drive::UnitAddress unit) override
+    {
+        return asked(unit, "V0").empty() ? AccessError::no_answer : AccessError::none;
+    }
     std::string last_trouble() const override { return {}; }
 
 private:
-    /// What came until the time-out: one octet, or from STX to the block check; empty: nothing.
+    /// What came until the timeout: one octet, or from STX to the block check; empty: nothing.
     std::string answer();
     std::string asked(drive::UnitAddress unit, const std::string& mnemonic);
     AccessError reason(drive::UnitAddress unit);
@@ -35,7 +38,7 @@ public:
     AccessError read(drive::UnitAddress unit, const drive::Tag& tag, std::span<std::uint16_t> words) override;
     AccessError write(drive::UnitAddress unit, const drive::Tag& tag,
                       std::span<const std::uint16_t> words) override;
-    bool probe(drive::UnitAddress unit) override;
+    AccessError probe(drive::UnitAddress unit) override;
     std::string last_trouble() const override { return {}; }
 
 private:

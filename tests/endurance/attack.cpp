@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// What users of the machine can do to the control socket, and what bus, service manager and memory notice of
 /// it. The daemon and the null responder of tests/bench answer in turn under the same attacks: what the
-/// machine does to a reply meets both alike. tools/attack runs it, and tells what is judged.
+/// machine does to a reply meets both alike. tools/run attack runs it, and tells what is judged.
 #include "bench/responder.hpp"
 #include "bus_master.hpp"
 #include "installation.hpp"

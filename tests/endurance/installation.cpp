@@ -81,13 +81,14 @@ std::string Installation::config(bool visitor, unsigned refresh_s) const
     std::string text = fmt::format(
         "[bus]\nport = \"{}\"\nbaud = 1500000\ndirection = \"none\"\nmax_tsdr = {}\n[realtime]\ncpu = {}\n"
         "[control]\nsocket = \"{}\"\n"
-        "[[line]]\nname = \"p3\"\nport = \"{}\"\nprotocol = \"ei-ascii\"\nbaud = 38400\n",
+        "[[line]]\nname = \"p3\"\nport = \"{}\"\nprotocol = \"ei-ascii\"\nbaud = 38400\n"
+        "wire_time = \"yes\"\n",
         setup_.bus_port, setup_.max_tsdr, setup_.cpu, socket().string(),
         (folder_ / "drive-gateway").string());
     for (unsigned unit = 0; unit < (visitor ? 3U : 2U); ++unit)
         text += fmt::format(
             "[[station]]\nname = \"station{0}\"\naddress = {0}\nprofile = \"590\"\nline = \"p3\"\n"
-            "unit = \"0{1}\"\ntags = \"{2}\"\noutput_refresh_s = {3}\n",
+            "unit = \"0{1}\"\ntags = \"{2}\"\noutput_refresh_s = {3}\nwhen_drive_lost = \"hold\"\n",
             kFirst + unit, unit, (kConfigFolder / "tags/example.csv").string(), refresh_s);
     return text;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// How long the station is off the bus when the daemon is killed, when one of its threads hangs, and when the
 /// machine has lost its power. A simulated service manager restarts the daemon as dpslaved.service says:
-/// WatchdogSec=, ExecStopPost=, RestartSec=. tools/recovery runs it.
+/// WatchdogSec=, ExecStopPost=, RestartSec=. tools/run recovery runs it.
 #include "bus_master.hpp"
 #include "installation.hpp"
 #include "service_manager.hpp"

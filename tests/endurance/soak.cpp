@@ -2,7 +2,7 @@
 /// The daemon for hours on a segment that never pauses, with reloads, faults of the drives and clients that
 /// come and go. In rounds of some seconds. After each round the bus stands still, and the daemon's counters
 /// must equal the master's: every octet and request was heard, and each answer that is missing is counted.
-/// tools/soak runs it.
+/// tools/run soak runs it.
 #include "bus_master.hpp"
 #include "installation.hpp"
 
@@ -146,7 +146,7 @@ private:
 
     void disturb_the_drives()
     {
-        static constexpr std::array kFaults{"silence", "slow 50", "late 300", "spoil 1/3", "nak"};
+        static constexpr std::array kFaults{"silence", "slow 50ms", "late 300ms", "spoil 1/3", "nak"};
         installation_.drive().send_line(kFaults[round_ % kFaults.size()]);
         std::this_thread::sleep_for(some(200, 1500));
         installation_.drive().send_line("ok");

@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include <tuple>
+
 namespace dpslave::test {
 namespace {
 
@@ -24,7 +26,10 @@ TEST_P(RowOfADrive, F01_WhoseCableIsPulledForAMomentHoldsTheLastValueAndNoOlderO
         EXPECT_TRUE(master_stays_in_data_exchange());
         if (pulled == std::string{"5s"}) { // longer than any reading with its repeats
             EXPECT_TRUE(gateway->word_becomes(55, "state", "stale"));
+            EXPECT_EQ(gateway->word(55).at("raw"), value);
             EXPECT_THAT(gateway->dpctl({"io"}).out, HasSubstr("stale"));
+            EXPECT_THAT(gateway->dpctl({"diag"}).out, HasSubstr("the drive does not answer"));
+            EXPECT_EQ(gateway->station().at("drive").at("link"), "silent");
         }
         gateway->drive_line().send_line("restore");
         fault_ends();
@@ -43,6 +48,100 @@ TEST_P(RowOfADrive, F01_WhoseCableIsPulledForAMomentHoldsTheLastValueAndNoOlderO
     EXPECT_TRUE(never_an_older_one(taken()));
     EXPECT_TRUE(never_an_older_one(seen()));
 }
+
+/// Two drives on one line, and a master for the second one.
+TEST_F(FaultRow, F01_OfOneDriveLeavesTheOtherOnItsLineAtWork)
+{
+    installs({.units = {"00", "01"}});
+    Process& drive = gateway->drive();
+    {
+        Master first{*gateway, {"--tags", "55,56w", "--no-watchdog"}, 5}; // the slave keeps its last words
+        ASSERT_TRUE(first.does("start 30s"));
+        EXPECT_TRUE(first.does("out 1 = 500"));
+        EXPECT_TRUE(drive.says("unit 00: tag 56 written 5.00"));
+        EXPECT_TRUE(first.does("stop"));
+        EXPECT_TRUE(first.leaves());
+    }
+    master.emplace(*gateway, Arguments{"--tags", "55,56w"}, 6);
+    ASSERT_TRUE(master->does("start 30s"));
+    EXPECT_TRUE(gateway->exchange_ends_with(0)) << "both are";
+
+    drive.send_line("unit 00");
+    drive.send_line("silence");
+    EXPECT_TRUE(gateway->daemon().says("unwinder: the drive does not answer"));
+    drive.send_line("unit 01");
+    for (const char* const value : {"11", "12", "13", "14", "15"}) {
+        drive.send_line(std::string{"set 55 "} + value);
+        EXPECT_TRUE(master->does(std::string{"wait 30s for in 1 = "} + value + "00"));
+        EXPECT_TRUE(master->does(std::string{"out 1 = "} + value + "00"));
+        EXPECT_TRUE(drive.says(std::string{"unit 01: tag 56 written "} + value + ".00"));
+    }
+    EXPECT_EQ(gateway->station(0).at("drive").at("link"), "silent");
+    EXPECT_EQ(gateway->station(0).at("state"), "Data_Exch");
+    EXPECT_EQ(gateway->station(1).at("drive").at("link"), "answers");
+    EXPECT_EQ(gateway->station(1).at("drive").at("losses"), 0);
+
+    drive.skip();
+    drive.send_line("unit 00");
+    drive.send_line("ok");
+    fault_ends();
+    EXPECT_TRUE(drive.says("unit 00: tag 56 written 5.00"));
+    recovered();
+}
+
+/// The same with the values of when_drive_lost by which something follows from it.
+class RowOfALostDrive : public FaultRow,
+                        public ::testing::WithParamInterface<std::tuple<const char*, const char*>> {
+protected:
+    bool is_silent() const { return std::string{std::get<1>(GetParam())} == "silent"; }
+    std::string state() const { return gateway->station().at("state"); }
+};
+
+TEST_P(RowOfALostDrive, F01_WhoseCableIsPulledForLongIsNoValuesForTheMasterUntilTheyAreReadAgain)
+{
+    const auto& [protocol, when_lost] = GetParam();
+    Wiring wiring = wiring_of(protocol);
+    wiring.when_drive_lost = when_lost;
+    begins(std::move(wiring), master_of(protocol));
+    for (const char* const pulled : {"10ms", "100ms", "1s"}) {
+        SCOPED_TRACE(pulled);
+        gateway->drive_line().send_line("cut");
+        EXPECT_TRUE(master->does(std::string{"wait "} + pulled));
+        gateway->drive_line().send_line("restore");
+        EXPECT_TRUE(master->does("wait 500ms"));
+        EXPECT_TRUE(master_stays_in_data_exchange());
+    }
+    gateway->drive_line().send_line("cut");
+    drive_shows(2);
+    EXPECT_TRUE(gateway->daemon().says("The drive is gone"));
+    if (is_silent()) {
+        EXPECT_TRUE(eventually([&] { return state() == "Power_On"; }));
+        EXPECT_TRUE(master->does("try wait 1s for in 1 = 2"));
+    } else {
+        EXPECT_TRUE(master->does("wait 30s for diag stat-diag"));
+        EXPECT_EQ(state(), "Data_Exch");
+    }
+    EXPECT_EQ(gateway->station().at("drive").at("link"), "gone");
+    EXPECT_TRUE(doctor_names("drive.silent"));
+
+    gateway->drive_line().send_line("restore");
+    fault_ends();
+    EXPECT_TRUE(exchange_is_back(is_silent()));
+    EXPECT_TRUE(master_sees(2));
+    EXPECT_TRUE(master_wants(3));
+    EXPECT_TRUE(drive_takes(3));
+    recovered();
+    EXPECT_EQ(gateway->station().at("drive").at("link"), "answers");
+    EXPECT_TRUE(never_an_older_one(seen()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Over, RowOfALostDrive,
+                         ::testing::Combine(::testing::Values("ei-ascii", "modbus-rtu"),
+                                            ::testing::Values("silent", "diagnosis")),
+                         [](const auto& one) {
+                             const std::string protocol{std::get<0>(one.param)};
+                             return protocol.substr(0, protocol.find('-')) + "_" + std::get<1>(one.param);
+                         });
 
 /// A fault of the answers while both sides change: what came through was true, and afterwards everything is.
 class RowOfAnswers : public RowOfADrive {
@@ -75,7 +174,7 @@ protected:
 
 TEST_P(RowOfAnswers, F03_ThatAreLateAreNeverTakenForThoseToTheNextQuestion)
 {
-    goes_through("late 900", "late 1300", "drive.late");
+    goes_through("late 900ms", "late 1300ms", "drive.late");
 }
 
 TEST_P(RowOfAnswers, F04_ThatAreTruncatedAreNotRead)
@@ -100,6 +199,7 @@ TEST_P(RowOfRefusals, F06_OfADriveAreShownAndTheValueIsOfferedUntilItIsTaken)
     EXPECT_TRUE(master_wants(2));
     EXPECT_TRUE(eventually([&] { return gateway->word(56).at("state") == "out_of_range"; }));
     EXPECT_TRUE(doctor_names("station.range"));
+    EXPECT_THAT(gateway->dpctl({"diag"}).out, HasSubstr("tag 56: "));
     drive_shows(2);
     EXPECT_TRUE(master_sees(2)) << "what can be read is read";
     EXPECT_TRUE(master_stays_in_data_exchange());
@@ -112,6 +212,7 @@ TEST_P(RowOfRefusals, F06_OfADriveAreShownAndTheValueIsOfferedUntilItIsTaken)
     recovered();
     EXPECT_TRUE(never_an_older_one(taken()));
     EXPECT_TRUE(eventually([&] { return gateway->word(56).at("state") == "good"; }));
+    EXPECT_TRUE(is_modbus() || eventually([&] { return gateway->diagnosis().at("trouble").empty(); }));
     EXPECT_TRUE(doctor_names("station.range", false));
 }
 

@@ -70,6 +70,13 @@ protected:
     ::testing::AssertionResult doctor_names(const std::string& rule, bool named = true) const;
     ::testing::AssertionResult status_says(const std::string& words) const;
 
+    /// X-51 "silent" or "diagnosis", when the drive is back: the master starts its station, or is told.
+    ::testing::AssertionResult exchange_is_back(bool is_silent)
+    {
+        if (!is_silent) return master->does("wait 30s for diag not stat-diag");
+        return master->does("start 30s");
+    }
+
     // --- The order of values. A row sends rising ones, so an older one is a smaller one.
 
     /// What tag 56 was written to, in this order; from place `from` on.

@@ -63,7 +63,7 @@ protected:
 
 TEST_F(RowOfAPort, F22_OfTheBusThatHangsUpIsOpenedAgainAndTheWatchdogWorksMeanwhile)
 {
-    begins(wiring_of("ei-ascii"), master_of("ei-ascii", {"--watchdog", "500"}));
+    begins(wiring_of("ei-ascii"), master_of("ei-ascii", {"--watchdog", "500ms"}));
     gateway->unplug_bus();
     EXPECT_TRUE(gateway->daemon().says("bus-gateway is missing"));
     EXPECT_TRUE(drive_takes(0)) << "the watchdog works without a port as well";
@@ -82,9 +82,42 @@ TEST_F(RowOfAPort, F23_OfADriveLineThatHangsUpIsOpenedAgain)
     drive_line_comes_back();
 }
 
+/// With the values of when_drive_lost by which something follows from it.
+class RowOfALostLine : public RowOfAPort, public ::testing::WithParamInterface<const char*> {
+protected:
+    bool is_silent() const { return std::string{GetParam()} == "silent"; }
+    std::string state() const { return gateway->station().at("state"); }
+};
+
+TEST_P(RowOfALostLine, F23_ThatHangsUpIsNoValuesForTheMasterUntilTheyAreReadAgain)
+{
+    Wiring wiring = wiring_of("ei-ascii");
+    wiring.when_drive_lost = GetParam();
+    begins(std::move(wiring), master_of("ei-ascii"));
+    gateway->unplug_drive();
+    EXPECT_TRUE(gateway->daemon().says("drive-gateway is missing"));
+    EXPECT_TRUE(gateway->daemon().says("The drive is gone"));
+    EXPECT_TRUE(eventually([&] { return state() == (is_silent() ? "Power_On" : "Data_Exch"); }));
+    EXPECT_TRUE(is_silent() || master->does("wait 30s for diag stat-diag"));
+    EXPECT_TRUE(doctor_names("drive.gone"));
+    gateway->plug_drive();
+    fault_ends();
+    drive_shows(9);
+    EXPECT_TRUE(exchange_is_back(is_silent()));
+    EXPECT_TRUE(master_sees(9));
+    EXPECT_TRUE(master_wants(5));
+    EXPECT_TRUE(drive_takes(5));
+    recovered();
+    EXPECT_TRUE(never_an_older_one(seen()));
+    EXPECT_TRUE(doctor_names("drive.gone", false));
+}
+
+INSTANTIATE_TEST_SUITE_P(When, RowOfALostLine, ::testing::Values("silent", "diagnosis"),
+                         [](const auto& one) { return std::string{one.param}; });
+
 TEST_F(RowOfAPort, F24_ThatComesBackAsAnotherTerminalBehindTheSameLinkIsOpenedAgain)
 {
-    begins(wiring_of("ei-ascii"), master_of("ei-ascii", {"--watchdog", "500"}));
+    begins(wiring_of("ei-ascii"), master_of("ei-ascii", {"--watchdog", "500ms"}));
     const auto bus_before = terminal_of("bus-gateway"), drive_before = terminal_of("drive-gateway");
     const KeptOpen old_bus{bus_before}, old_drive_line{drive_before};
     gateway->unplug_drive();

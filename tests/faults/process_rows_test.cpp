@@ -55,7 +55,7 @@ TEST_F(RowOfTheProcess, F18_WhoseBusThreadStandsStillSendsNoLateReplyAndIsReport
     ServiceManager manager{folder / "notify"};
     Wiring wiring = wiring_of("ei-ascii");
     wiring.environment = {{"NOTIFY_SOCKET", folder / "notify"}, {"WATCHDOG_USEC", "400000"}};
-    begins(std::move(wiring), master_of("ei-ascii", {"--watchdog", "20000"}));
+    begins(std::move(wiring), master_of("ei-ascii", {"--watchdog", "20s"}));
     ASSERT_TRUE(master_wants(7));
     ASSERT_TRUE(drive_takes(7));
     ASSERT_TRUE(manager.hears("WATCHDOG=1"));
@@ -91,7 +91,7 @@ protected:
         wiring.direction = fmt::format("direction = \"gpio\"\ngpio_chip = \"{}\"\ngpio_line = {}\n",
                                        chip.path().string(), kLine);
         wiring.environment = {{"LD_LIBRARY_PATH", GPIO_STAND_IN_FOLDER}};
-        begins(std::move(wiring), master_of("ei-ascii", {"--watchdog", "20000"}));
+        begins(std::move(wiring), master_of("ei-ascii", {"--watchdog", "20s"}));
     }
     void goes_on()
     {

@@ -15,7 +15,7 @@ import sys
 
 ROW = re.compile(r"^\| (F\d\d) \|.*\| ([^|]*) \|$")
 MEASURED = re.compile(r"^Measured .*$", re.M)
-COMMAND = "tools/faults --docs"
+COMMAND = "tools/run faults --docs"
 
 
 def in_words(ms):

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the tests of layer 2 stand on: a SAP user that writes down how it was called, and a slave 5 on a bus.
+/// The tests of layer 2 use this: a SAP user that writes down how it was called, and a slave 5 on a bus.
 #pragma once
 
 #include "support/bus.hpp"

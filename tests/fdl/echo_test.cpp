@@ -9,7 +9,6 @@
 
 using namespace dpslave;
 using fdl::Echo;
-using fdl::EchoMode;
 using std::chrono::microseconds;
 using test::Octets;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// How often what is no telegram counts: one damaged piece of the stream is one flaw, however many octets it
-/// has. `dpctl doctor` judges the line by it.
+/// Tests how often what is no telegram counts: one damaged piece of the stream is one flaw, however many
+/// octets it has. `dpctl doctor` judges the line by it.
 #include "bench.hpp"
 
 using namespace dpslave;

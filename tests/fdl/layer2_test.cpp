@@ -76,7 +76,7 @@ TEST_F(Edge, SaysWhoseReplyItGaveLast)
         station.on_time(kRead + bits(11));
         ASSERT_TRUE(station.take_transmit());
 
-        EXPECT_EQ(station.answered_address(), address);
+        EXPECT_EQ(station.sent()->sa, address);
     }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the receiver does with noise, with unfinished telegrams and with other slaves' replies (wire
+/// Tests what the receiver does with noise, with unfinished telegrams and with other slaves' replies (wire
 /// reference 1.5).
 #include "bench.hpp"
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// When the driver may be let go: T_bit arithmetic, the UART's word and the guard (wire reference 11.3,
+/// Tests when the driver may be let go: T_bit arithmetic, the UART's word and the guard (wire reference 11.3,
 ///
 #include "dpslave/fdl/transmission.hpp"
 
 #include <gtest/gtest.h>
 
 using namespace dpslave;
-using fdl::Transmission;
 using std::chrono::microseconds;
 using std::chrono::nanoseconds;
 
@@ -16,7 +15,7 @@ constexpr Instant kFirstWrite{std::chrono::seconds{7}};
 
 TEST(Transmission, IsIdleBeforeTheFirstReply)
 {
-    Transmission idle;
+    fdl::Transmission idle;
 
     EXPECT_FALSE(idle.is_running());
     EXPECT_EQ(idle.ends_at(), kNever);
@@ -27,7 +26,7 @@ TEST(Transmission, IsIdleBeforeTheFirstReply)
 
 TEST(Transmission, EndsAfterElevenBitTimesAnOctet)
 {
-    Transmission one, longest;
+    fdl::Transmission one, longest;
     one.begin(1, kFirstWrite, Baud::k1500);
     longest.begin(255, kFirstWrite, Baud::k9_6);
 
@@ -37,7 +36,7 @@ TEST(Transmission, EndsAfterElevenBitTimesAnOctet)
 
 TEST(Transmission, IsOverWithTheLastStopBitWhereTheUartReportsNothing)
 {
-    Transmission reply;
+    fdl::Transmission reply;
     reply.begin(10, kFirstWrite, Baud::k500); // 220 us
 
     EXPECT_FALSE(reply.is_over(kFirstWrite + microseconds{220} - nanoseconds{1}, std::nullopt));
@@ -48,7 +47,7 @@ TEST(Transmission, IsOverWithTheLastStopBitWhereTheUartReportsNothing)
 
 TEST(Transmission, UsesArithmeticBeforeTheUart)
 {
-    Transmission reply;
+    fdl::Transmission reply;
     reply.begin(10, kFirstWrite, Baud::k500);
 
     // Right after the write some drivers call a transmitter empty that has not begun.
@@ -58,7 +57,7 @@ TEST(Transmission, UsesArithmeticBeforeTheUart)
 
 TEST(Transmission, WaitsForAUartThatIsNotEmptyAndAsksAgainAfterAQuarterOfACharacter)
 {
-    Transmission reply;
+    fdl::Transmission reply;
     reply.begin(10, kFirstWrite, Baud::k500);
     const Instant first = reply.ends_at();
 
@@ -71,7 +70,7 @@ TEST(Transmission, WaitsForAUartThatIsNotEmptyAndAsksAgainAfterAQuarterOfACharac
 
 TEST(Transmission, IsGuardedAtTwiceTheLongestTelegram)
 {
-    Transmission reply;
+    fdl::Transmission reply;
     reply.begin(1, kFirstWrite, Baud::k1500);
     EXPECT_EQ(reply.guard_at() - kFirstWrite, microseconds{3740}); // 2 * 255 * 11 bits at 1.5 Mbit/s
     EXPECT_EQ(fdl::transmission_guard(Baud::k9_6), microseconds{584375});
@@ -85,7 +84,7 @@ TEST(Transmission, IsGuardedAtTwiceTheLongestTelegram)
 
 TEST(Transmission, IsNotTheGuardsMeritWhenTheUartSaysItIsEmptyAfterTheGuard)
 {
-    Transmission late, silent;
+    fdl::Transmission late, silent;
     late.begin(1, kFirstWrite, Baud::k1500);
     silent.begin(1, kFirstWrite, Baud::k1500);
 
@@ -96,7 +95,7 @@ TEST(Transmission, IsNotTheGuardsMeritWhenTheUartSaysItIsEmptyAfterTheGuard)
 
 TEST(Transmission, OfASecondReplyComesBehindTheFirst)
 {
-    Transmission both;
+    fdl::Transmission both;
     both.begin(10, kFirstWrite, Baud::k500);                    // until 220 us
     both.begin(10, kFirstWrite + microseconds{50}, Baud::k500); // until 440 us
 
@@ -108,7 +107,7 @@ TEST(Transmission, OfASecondReplyComesBehindTheFirst)
 
 TEST(Transmission, IsGuardedFromTheFirstReplyOnHoweverManyFollow)
 {
-    Transmission many;
+    fdl::Transmission many;
     many.begin(255, kFirstWrite, Baud::k500);
     const Instant guard = many.guard_at();
     many.begin(255, kFirstWrite + microseconds{1}, Baud::k500);
@@ -122,7 +121,7 @@ TEST(Transmission, IsGuardedFromTheFirstReplyOnHoweverManyFollow)
 
 TEST(Transmission, StopsWhenThePortGoes)
 {
-    Transmission reply;
+    fdl::Transmission reply;
     reply.begin(10, kFirstWrite, Baud::k500);
     reply.stop();
 

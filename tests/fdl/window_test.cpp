@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// When a reply may start: not before min T_SDR, not after the deadline (wire reference 1.3, 1.5).
+/// Tests when a reply may start: not before min T_SDR, not after the deadline (wire reference 1.3, 1.5).
 #include "bench.hpp"
 
 using namespace dpslave;
@@ -55,7 +55,7 @@ protected:
         all[index_of(Baud::k187_5)] = max_tsdr;
         station->attach(kUs, user, all);
         station->on_time(kRead);
-        station->may_have_lain(unread);
+        station->assume_backlog(unread);
         station->on_bytes(octets("10 05 02 49 50 16"), kRead);
         return *station;
     }
@@ -117,7 +117,7 @@ TEST_F(ReplyWindow, HasPassedWhereTheRequestMayHaveLainLonger)
 TEST_F(ReplyWindow, IsWholeAgainForWhatIsReadInTime)
 {
     fdl::Layer2& s = station_with(100_tbit, {}, std::chrono::seconds{1});
-    s.may_have_lain({});
+    s.assume_backlog({});
     s.on_bytes(octets("10 05 02 49 50 16"), kRead + bits(500));
     s.on_time(kRead + bits(600));
 

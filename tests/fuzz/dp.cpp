@@ -189,7 +189,7 @@ private:
             std::size_t at = after.demand_data ? 8 : 0;
             demand(reply.size() >= at, "Demand Data stands in front");
             for (std::size_t i = 0; i < after.layout.count; ++i) {
-                const Parameter& one = after.layout.parameters[i];
+                const LayoutEntry& one = after.layout.parameters[i];
                 if (!(outputs ? one.writes : one.reads)) continue;
                 demand(reply.size() >= at + 2, "a reply has a word of each parameter");
                 const std::uint16_t word = outputs ? after.outputs[i] : input_word(i, after);

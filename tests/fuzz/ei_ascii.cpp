@@ -283,7 +283,7 @@ void judge_client(fuzz::Input& input)
     const drive::EiTiming timing{
         .baud = 9600,
         .timeout = 200ms,
-        .rules = {.settle = 0ns, .hold_back = 0ns, .echo = static_cast<drive::EchoMode>(mode % 3)}};
+        .rules = {.settle = 0ns, .hold_back = 0ns, .echo = static_cast<EchoMode>(mode % 3)}};
     drive::EiAsciiClient client{line, timing, {{{0, 0}}, {{0, 1}}}};
     for (int calls = 0; calls < 24 && !input.at_end(); ++calls) {
         const std::uint8_t what = input.octet();
@@ -310,7 +310,7 @@ void judge_client(fuzz::Input& input)
                 }
                 break;
             default:
-                if (client.probe(unit))
+                if (client.probe(unit) == AccessError::none)
                     demand(!frames_in(line.heard).empty(), "a drive that is there was heard");
                 break;
         }

@@ -4,15 +4,15 @@
 
 #include "input.hpp"
 
-#include "dpslave/toml/fault.hpp"
+#include "dpslave/input/fault.hpp"
 
 namespace fuzz {
 
-inline void judge_faults(std::string_view text, const dpslave::toml::Faults& faults)
+inline void judge_faults(std::string_view text, const dpslave::input::Faults& faults)
 {
     const auto lines = static_cast<std::size_t>(
         1 + std::ranges::count_if(text, [](char c) { return c == '\n' || c == '\r'; }));
-    demand(faults.size() <= dpslave::toml::kMaxFaults + 1, "the list of faults has its length");
+    demand(faults.size() <= dpslave::input::kMaxFaults + 1, "the list of faults has its length");
     for (const auto& fault : faults) {
         demand(!fault.what.empty() && !fault.file.empty(), "a fault says where and what");
         demand(fault.line <= lines, "a fault has its line in the text");

@@ -200,7 +200,7 @@ private:
     }
 
     /// The requests to one of our addresses that heard_ ends with and that have to be answered. There is more
-    /// than one where the data of a request end like another one, whose check sum and end are the same
+    /// than one where the data of a request end like another one, whose checksum and end are the same
     /// octets.
     std::vector<test::Heard> heard_requests() const
     {

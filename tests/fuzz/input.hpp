@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What every fuzz target uses: the input taken piece by piece, and the end of the program where a judgement
+/// Every fuzz target uses this: the input taken piece by piece, and the end of the program where a judgement
 /// fails.
 #pragma once
 

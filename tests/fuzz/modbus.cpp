@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Answers of Modbus drives: the receiver of frames, and the client on a line where any frame comes at any
-/// time. Judged: a frame is what was heard, with a right check sum; a value is only taken from an answer of
+/// time. Judged: a frame is what was heard, with a right checksum; a value is only taken from an answer of
 /// this unit with this function and length that was heard in this call; a write counts only by the answer
 /// to it.
 #include "input.hpp"
@@ -26,7 +26,7 @@ using drive::UnitAddress;
 using fuzz::demand;
 using Octets = std::vector<std::uint8_t>;
 
-/// The check sum of MODBUS, bit by bit: over octets and their own check sum it is 0.
+/// The checksum of MODBUS, bit by bit: over octets and their own checksum it is 0.
 std::uint16_t check(const Octets& octets)
 {
     unsigned sum = 0xFFFF;
@@ -45,18 +45,21 @@ void judge_receiver(fuzz::Input& input)
 {
     modbus::FrameReceiver receiver;
     Octets since_silence;
-    bool fault = false;
+    std::size_t behind_fault = 0; // the place behind the last bad character of them
+    bool is_broken = false;
     while (!input.at_end()) {
         const std::uint8_t form = input.octet();
         if (form % 8 == 0) {
             receiver.silence();
             since_silence.clear();
-            fault = false;
+            behind_fault = 0;
+            is_broken = false;
             continue;
         }
         if (form % 8 == 1) {
-            receiver.fault();
-            fault = true;
+            is_broken |= receiver.fault() == modbus::FrameReceiver::Found::broken;
+            since_silence.push_back(0);
+            behind_fault = since_silence.size();
             continue;
         }
         if (form % 8 == 2) {
@@ -72,21 +75,25 @@ void judge_receiver(fuzz::Input& input)
         }
         for (const std::uint8_t octet : octets) {
             since_silence.push_back(octet);
-            if (receiver.feed(octet) != modbus::FrameReceiver::Found::frame) continue;
-            demand(!fault, "after a bad character there is no frame before the line was silent");
+            const auto found = receiver.feed(octet);
+            demand(found != modbus::FrameReceiver::Found::frame || !is_broken,
+                   "behind something broken there is no frame before the line was silent");
+            is_broken |= found == modbus::FrameReceiver::Found::broken;
+            if (found != modbus::FrameReceiver::Found::frame) continue;
             const Bytes frame = receiver.frame();
             demand(frame.size() >= 2 && frame.size() + 2 <= since_silence.size(), "a frame has its length");
+            demand(frame.size() + 2 <= since_silence.size() - behind_fault, "no bad character is in a frame");
             const Octets with_sum{since_silence.end() - static_cast<std::ptrdiff_t>(frame.size() + 2),
                                   since_silence.end()};
             demand(std::ranges::equal(frame, Bytes{with_sum}.first(frame.size())),
                    "a frame is what was heard");
-            demand(check(with_sum) == 0, "a frame has its check sum");
+            demand(check(with_sum) == 0, "a frame has its checksum");
         }
     }
 }
 
 /// The other end: which frame comes to a request, and when, comes from the input. Time passes only here.
-class Line final : public modbus::FrameLine {
+class Line final : public modbus::ModbusPort {
 public:
     explicit Line(fuzz::Input& input) : input_(input) {}
 
@@ -223,7 +230,7 @@ void judge_client(fuzz::Input& input)
         20s; // some exchanges of 600 ms, and the line that has to fall silent before them
     Line line{input};
     modbus::ClientSettings settings;
-    settings.rules.echo = static_cast<drive::EchoMode>(input.octet() % 3);
+    settings.rules.echo = static_cast<EchoMode>(input.octet() % 3);
     settings.units = {{.unit = 1, .reads_by_4 = true, .has_loopback = true}, {.unit = 2}};
     modbus::ModbusClient client{line, settings};
     for (int calls = 0; calls < 24 && !input.at_end(); ++calls) {
@@ -250,7 +257,7 @@ void judge_client(fuzz::Input& input)
                 }
                 break;
             default:
-                if (client.probe(unit))
+                if (client.probe(unit) == AccessError::none)
                     demand(std::ranges::any_of(line.heard,
                                                [&](const auto& frame) { return frame[0] == unit.unit; }),
                            "a drive that is there was heard");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A capture file: read as it is; or packets of the input, written and read. Judged: a packet has its
-/// interface, its octets come from the file; what is written is read as it was; and a file that is cut gives
-/// what is whole.
+/// A capture file: read as it is; or packets of the input, written and read, in the form pcap by this target.
+/// Judged: a packet has its interface, its octets come from the file; what is written is read as it was; a
+/// file that is cut gives what is whole; and each packet of a bus gets a direction.
 #include "dpslave/pcapng/pcapng.hpp"
 
 #include "input.hpp"
@@ -11,10 +11,23 @@ namespace {
 using namespace dpslave;
 using fuzz::demand;
 
+void judge_directions(pcapng::Capture& capture)
+{
+    const auto has_none = [&](const pcapng::Packet& packet) {
+        return pcapng::is_profibus(capture.interfaces[packet.interface].link_type) &&
+               !packet.octets.empty() && packet.direction == pcapng::Direction::unknown;
+    };
+    const auto without = static_cast<std::size_t>(std::ranges::count_if(capture.packets, has_none));
+    const pcapng::Assumed assumed = pcapng::assume_directions(capture);
+    demand(assumed.packets == without, "each packet without a direction is counted");
+    demand(std::ranges::none_of(capture.packets, has_none), "each packet of a bus has a direction");
+    if (without != 0) demand(!pcapng::in_words(assumed).empty(), "what was assumed has words");
+}
+
 void judge_reading(Bytes file)
 {
     bool is_cut = false;
-    const auto capture = pcapng::read(file, &is_cut);
+    auto capture = pcapng::read(file, &is_cut);
     if (!capture) {
         demand(!capture.error().empty() && capture.error().find('\n') == std::string::npos,
                "why is one line");
@@ -33,6 +46,7 @@ void judge_reading(Bytes file)
     demand(octets + capture->comment.size() <= file.size(), "what is read lies in the file");
     demand((capture->packets.size() + capture->interfaces.size()) * 16 <= file.size(),
            "a block is no less than that");
+    judge_directions(*capture);
 }
 
 std::string text_of(fuzz::Input& input)
@@ -103,14 +117,53 @@ void judge_writing(fuzz::Input& input)
     judge_prefix(Bytes{file}.first(length), packets, whole);
 }
 
+/// A pcap file of the input, in either byte order and unit of time, cut anywhere.
+void judge_pcap(fuzz::Input& input)
+{
+    const std::uint8_t form = input.octet();
+    const bool is_big = (form & 1) != 0, is_in_ns = (form & 2) != 0;
+    pcapng::Octets file;
+    const auto number = [&](std::uint32_t value, int size) {
+        for (int i = 0; i < size; ++i)
+            file.push_back(static_cast<std::uint8_t>(value >> 8 * (is_big ? size - 1 - i : i)));
+    };
+    number(is_in_ns ? 0xA1B23C4D : 0xA1B2C3D4, 4);
+    number(2, 2);
+    number(4, 2);
+    for (int i = 0; i < 3; ++i) number(input.word(), 4);
+    number(257, 4);
+    const std::size_t head = file.size(), cut = input.word();
+    std::vector<pcapng::Packet> packets;
+    std::vector<std::size_t> ends;
+    while (!input.at_end() && packets.size() < 50) {
+        const std::uint32_t seconds = input.word(), fraction = input.word();
+        const auto octets = input.octets(input.octet());
+        number(seconds, 4);
+        number(fraction, 4);
+        number(static_cast<std::uint32_t>(octets.size()), 4);
+        number(input.word(), 4);
+        file.insert(file.end(), octets.begin(), octets.end());
+        pcapng::Packet packet{.unix_ns = seconds * 1'000'000'000LL + fraction * (is_in_ns ? 1LL : 1000LL)};
+        packet.octets.assign(octets.begin(), octets.end());
+        packets.push_back(std::move(packet));
+        ends.push_back(file.size());
+    }
+    judge_prefix(file, packets, packets.size());
+    const std::size_t length = head + cut % (file.size() - head + 1);
+    const auto whole = static_cast<std::size_t>(
+        std::ranges::count_if(ends, [length](std::size_t end) { return end <= length; }));
+    judge_prefix(Bytes{file}.first(length), packets, whole);
+    judge_reading(file);
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     if (size == 0) return 0;
-    if (data[0] == 0) {
+    if (data[0] == 0 || data[0] == 2) {
         fuzz::Input input{data + 1, size - 1};
-        judge_writing(input);
+        data[0] == 0 ? judge_writing(input) : judge_pcap(input);
     } else {
         judge_reading({data + 1, size - 1});
     }

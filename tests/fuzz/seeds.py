@@ -118,6 +118,12 @@ def pcapng():
         statistics = block(5, struct.pack(order + "IIIHHQ", 0, 1, 2, 4, 8, 3))
         simple_packet = block(3, struct.pack(order + "I", 1) + b"\x10\0\0\0")
         yield b"\x01" + section + interface + packet + statistics + simple_packet
+        for magic in 0xA1B2C3D4, 0xA1B23C4D:
+            head = struct.pack(order + "IHHiIII", magic, 2, 4, 0, 0, 65535, 257)
+            telegram = b"\x10\x05\x02\x49\x50\x16"
+            yield b"\x01" + head + struct.pack(order + "IIII", 1, 2, 1, 1) + b"\xE5" + struct.pack(order + "IIII", 2, 3, 6, 6) + telegram
+    for form in range(4):
+        yield b"\x02" + bytes([form]) + bytes(6) + b"\x1F\x00" + b"\x01\x00\x02\x00\x03\xE5\x10\x02\x05\x00" * 4
     yield bytes([0, 3, 5]) + b"bus" + bytes([6, 0x10, 5, 2, 0x49, 0x50, 0x16, 3, 2, 0x41, 0x42]) + bytes(range(40))
 
 

@@ -5,9 +5,9 @@
 #include "faults.hpp"
 
 #include "dpslave/base/printable.hpp"
+#include "dpslave/input/text_source.hpp"
 #include "dpslave/profile/profile.hpp"
 #include "dpslave/profile/survey.hpp"
-#include "dpslave/toml/text_source.hpp"
 
 #include <array>
 #include <set>
@@ -46,7 +46,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!table) {
         demand(!table.error().empty(), "a table that is refused has a fault");
         fuzz::judge_faults(text, table.error());
-        demand(text.empty() || text == toml::kByteOrderMark || !merged, "a survey refuses what is no table");
+        demand(text.empty() || text == input::kByteOrderMark || !merged, "a survey refuses what is no table");
         return 0;
     }
     // Rows that are not changed keep their octets: what is no UTF-8 is judged once more as it is.

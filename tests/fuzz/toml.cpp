@@ -4,8 +4,8 @@
 /// for; a profile that is accepted keeps the limits of PROFIBUS-DP; the same text has the same faults.
 #include "faults.hpp"
 
+#include "dpslave/input/document.hpp"
 #include "dpslave/profile/profile.hpp"
-#include "dpslave/toml/document.hpp"
 
 #include <vector>
 
@@ -14,7 +14,7 @@ namespace {
 using namespace dpslave;
 using fuzz::demand;
 
-std::vector<std::string> lines_of(const toml::Faults& faults)
+std::vector<std::string> lines_of(const input::Faults& faults)
 {
     std::vector<std::string> lines;
     for (const auto& fault : faults) lines.push_back(to_string(fault));
@@ -22,7 +22,7 @@ std::vector<std::string> lines_of(const toml::Faults& faults)
 }
 
 /// Asks for keys of each kind, in each table. True: every key of the table is one of them.
-bool question(toml::Table table, int depth)
+bool question(input::Table table, int depth)
 {
     if (const auto text = table.text("text"))
         demand(!text->empty() && text->find('\x1b') == std::string::npos,
@@ -51,12 +51,12 @@ bool question(toml::Table table, int depth)
 
 std::vector<std::string> judge_document(std::string_view text)
 {
-    const toml::TextSource source = [text](const std::string&) -> Result<std::string, Unreadable> {
+    const input::TextSource source = [text](const std::string&) -> Result<std::string, Unreadable> {
         return std::string{text};
     };
-    toml::Document document{source, "a.toml"};
+    input::Document document{source, "a.toml"};
     const bool all_known = question(document.root(), 3);
-    const toml::Faults faults = document.faults();
+    const input::Faults faults = document.faults();
     fuzz::judge_faults(text, faults);
     if (!document.readable()) {
         demand(!faults.empty(), "a text that is no TOML has a fault");
@@ -70,7 +70,7 @@ std::vector<std::string> judge_profile(std::string_view text)
 {
     constexpr std::string_view kTags{
         "tag,name,type,decimals,min,max\n7,SPEED,INT,2,-100.00,100.00\n9,MODE,ENUM,,,\n"};
-    const toml::TextSource source = [&](const std::string& name) -> Result<std::string, Unreadable> {
+    const input::TextSource source = [&](const std::string& name) -> Result<std::string, Unreadable> {
         return std::string{name.ends_with(".csv") ? kTags : text};
     };
     const auto profile = profile::load_profile(source, "profiles", "a");

@@ -109,7 +109,7 @@ public:
     void judge(const trace::Entry& entry)
     {
         if (entry.what == trace::Entry::What::telegram)
-            demand(is_telegram(entry.octets), "a telegram has its form and its check sum");
+            demand(is_telegram(entry.octets), "a telegram has its form and its checksum");
         const auto words = dpctl::words_of(entry);
         demand(!words.service.empty(), "an entry has a name");
         demand(is_one_line(line_of(entry, words, kOffset, std::nullopt)), "an entry is one line");

@@ -15,6 +15,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -25,8 +26,9 @@ using fuzz::demand;
 
 constexpr gid_t kOperators = 4242;
 bool operates = false; ///< whether the caller of this input is an operator
-int token = 0;
 bool waits = false;
+control::ReplyTo read;
+std::vector<control::ReplyTo> watches;
 
 /// The parameters of each method after its description, by hand: name, type, may be left out.
 struct Described {
@@ -48,8 +50,8 @@ constexpr std::array kDescribed{
     Described{"GetEvents", "station?s after?i", false},
     Described{"FindTags", "station?s name?s", false},
     Described{"ReadTag", "station?s tag!i", false},
-    Described{"GetSurveyScope", "station?s", false},
-    Described{"Survey", "station?s tag!i", true},
+    Described{"GetSurveyScope", "station?s rule?s", false},
+    Described{"Survey", "station?s tag!i rule?s", true},
     Described{"WriteTag", "station?s tag!i value!s", true},
     Described{"ProbeDrive", "station?s yes?b", true},
     Described{"SetTec", "station?s parameter!s value!s yes?b", true},
@@ -83,24 +85,31 @@ void judge_parameters(const Described& method, const Json& parameters)
     demand(found == parameters.size(), "there are only the parameters that are described");
 }
 
-control::Handlers handlers()
+control::Reply answer(const Described& method, const Json& parameters, const control::Caller& caller)
 {
-    control::Handlers all;
+    demand(!method.is_operation || operates, "only an operator operates");
+    demand(caller.operates == operates, "a caller has its rights");
+    judge_parameters(method, parameters);
+    if (std::string_view{method.name} == "Watch") {
+        watches.push_back(caller.reply_to);
+        return control::Stream{};
+    }
+    if (std::string_view{method.name} == "ReadTag" && !waits) {
+        waits = true;
+        read = caller.reply_to;
+        return control::Later{};
+    }
+    return control::Done{};
+}
+
+control::Methods methods()
+{
+    control::Methods all;
     for (const Described& method : kDescribed)
-        all[method.name] = [&method](const Json& parameters,
-                                     const control::Caller& caller) -> control::Reply {
-            demand(!method.is_operation || operates, "only an operator operates");
-            demand(caller.operates == operates, "a caller has its rights");
-            judge_parameters(method, parameters);
-            if (std::string_view{method.name} == "Watch")
-                return control::Stream{.stream = 1000u + static_cast<unsigned>(++token),
-                                       .first = Json::object()};
-            if (std::string_view{method.name} == "ReadTag" && !waits) {
-                waits = true;
-                return control::Later{.token = 1};
-            }
-            return control::Done{};
-        };
+        all[method.name] = {method.is_operation ? control::Right::operate : control::Right::look,
+                            [&method](const Json& parameters, const control::Caller& caller) {
+                                return answer(method, parameters, caller);
+                            }};
     return all;
 }
 
@@ -121,7 +130,7 @@ public:
             if (operates) caller.groups.push_back(kOperators);
             return caller;
         };
-        auto opened = control::Server::open(std::move(settings), handlers());
+        auto opened = control::Server::open(std::move(settings), methods());
         demand(static_cast<bool>(opened), "the server listens");
         server_ = *std::move(opened);
     }
@@ -149,7 +158,7 @@ public:
         for (pollfd ready{server_->fd(), POLLIN, 0}; ::poll(&ready, 1, 0) > 0;) {
             server_->on_ready();
             if (waits) {
-                server_->complete(1, control::Done{});
+                read.end(control::Done{});
                 waits = false;
             }
         }
@@ -285,7 +294,8 @@ void judge_server(Bench& bench, const std::vector<std::string>& pieces)
     demand(!Bench::take(next, lost).empty() && !lost, "the next caller is served");
     ::close(next);
     bench.settle();
-    for (const auto stream : bench.server().streams()) bench.server().push(stream, Json::object());
+    for (const control::ReplyTo& watch : std::exchange(watches, {}))
+        demand(!watch.send(Json::object()), "who has gone gets no further reply");
     demand(bench.server().clients() == 0, "who has gone is forgotten");
 }
 

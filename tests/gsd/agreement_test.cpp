@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The GSD is the contract with the master: what the files say, the profiles must do, key by key and in both
-// directions. The files are read by the tests' own small reader.
+// directions. The files are read by a second hand (reader.hpp).
 #include "second_hand.hpp"
 
 #include <gmock/gmock.h>
@@ -105,7 +105,7 @@ TEST_P(MadeGsd, HasAModuleForEachIdentifierOfTheProfileAndNoOther)
         wanted.emplace_back(each.reads && each.writes ? profile_.gsd.in_out_module
                             : each.reads              ? profile_.gsd.in_module
                                                       : profile_.gsd.out_module,
-                            std::vector{each.octet});
+                            std::vector{each.form[0]});
     EXPECT_EQ(found, wanted);
 }
 

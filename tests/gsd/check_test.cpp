@@ -53,6 +53,14 @@ Info_Text = "both ways"
 EndModule
 )";
 
+/// So many octets of empty slots.
+std::string octets(std::size_t count)
+{
+    std::string text = "0";
+    for (std::size_t i = 1; i < count; ++i) text += i % 20 == 0 ? ",\\\n0" : ",0";
+    return text;
+}
+
 std::string crlf(const std::string& text)
 {
     std::string out;
@@ -79,7 +87,7 @@ TEST(GsdCheck, TakesTheDecimalAndTheHexadecimalFormForTheSame)
 struct Bad {
     const char* name;
     const char* from;
-    const char* to;
+    std::string to;
     const char* finding; ///< begins so
 };
 void PrintTo(const Bad& bad, std::ostream* out)
@@ -110,9 +118,8 @@ INSTANTIATE_TEST_SUITE_P(
             "18: error: Max_Diag_Data_Len = 245 is out of range: it may be 6 to 244."},
         Bad{"TextWithoutQuotes", "\"EXAMPLE\"", "EXAMPLE", "3: error: Vendor_Name is a text"},
         Bad{"TextOf33Characters", "\"EXAMPLE\"", "\"012345678901234567890123456789012\"",
-            "3: error: the text of Vendor_Name has 33 characters: the standard allows 32."},
-        Bad{"QuoteInAText", "\"EXAMPLE\"", "\"EX\"AMPLE",
-            "3: error: AMPLE stands behind the text of Vendor_Name"},
+            "3: error: the text of Vendor_Name has 33 characters: 32 are allowed."},
+        Bad{"QuoteInAText", "\"EXAMPLE\"", "\"EX\"AMPLE", "3: error: AMPLE follows the text of Vendor_Name"},
         Bad{"UnknownFamily", "3@Example@Words", "13",
             "15: error: Slave_Family = 13: write a number from 0 to 12"},
         Bad{"OctetTooLarge", "0x01,2", "0x101,2", "21: error: User_Prm_Data is a list of octets"},
@@ -143,12 +150,15 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"RateWithoutMaxTsdr", "MaxTsdr_500 = 100\n", "",
             "12: error: 500_supp = 1, but MaxTsdr_500 is missing"},
         Bad{"MaxTsdrWithoutRate", "500_supp = 1\n", "",
-            "13: warning: MaxTsdr_500 stands here, but 500_supp is not 1"},
+            "13: warning: MaxTsdr_500 is here, but 500_supp is not 1"},
         Bad{"MaxTsdrThatNoSlaveMayKeep", "MaxTsdr_500 = 100", "MaxTsdr_500 = 10",
+            "14: warning: MaxTsdr_500 is below 11 bit times"},
+        Bad{"MaxTsdrOfZero", "MaxTsdr_500 = 100", "MaxTsdr_500 = 0",
             "14: warning: MaxTsdr_500 is below 11 bit times"},
         Bad{"NoMaxModule", "Max_Module = 2\n", "",
             "23: error: Max_Module is missing, which a modular station needs"},
-        Bad{"DataBelowInput", "Max_Data_Len = 16", "Max_Data_Len = 7", "27: error: Max_Data_Len is below"},
+        Bad{"DataBelowInput", "Max_Data_Len = 16", "Max_Data_Len = 7",
+            "27: warning: Max_Data_Len is below Max_Input_Len or Max_Output_Len"},
         Bad{"DataAboveBoth", "Max_Data_Len = 16", "Max_Data_Len = 17",
             "27: warning: Max_Data_Len is above Max_Input_Len and Max_Output_Len together: write 16 or "
             "less."},
@@ -183,14 +193,16 @@ INSTANTIATE_TEST_SUITE_P(
             "28: error: the module \"a word in\" has 10 input octets, more than Max_Input_Len"},
         Bad{"OutputLongerThanTheDevice", "0x50", "0x64",
             "28: error: the module \"a word in\" has 10 output octets, more than Max_Output_Len"},
-        Bad{"EighteenIdentifiers", "0x50", "0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0x50",
-            "28: warning: the module \"a word in\" has 18 identifier octets: the standard allows 17."},
+        Bad{"MoreIdentifiersThanATelegramHas", "0x50", octets(244) + ",0x50",
+            "28: error: the module \"a word in\" has 245 identifier octets: 244 are allowed."},
         Bad{"CompactStationWithTwoModules", "Modular_Station = 1\nMax_Module = 2",
             "Modular_Station = 0\nMax_Module = 1", "31: warning: a compact station has one module"},
         Bad{"UnknownKeywordInAModule", "Info_Text", "Infotext", "33: warning: unknown keyword \"Infotext\""},
         Bad{"LongTextInAModule", "Info_Text = \"both ways\"",
             "Channel_Diag(16) = \"012345678901234567890123456789012\"",
-            "33: error: the text of Channel_Diag has 33 characters"}),
+            "33: error: the text of Channel_Diag has 33 characters"},
+        Bad{"DataAreaWithoutEnd", "Info_Text", "Data_Area_Beg\nInfo_Text",
+            "31: warning: the module has Data_Area_Beg without Data_Area_End"}),
     [](const auto& one) { return std::string{one.param.name}; });
 
 TEST(GsdCheck, ReportsMorePresetModulesThanAllowed)
@@ -238,6 +250,27 @@ TEST(GsdCheck, WarnsWhereAStrictReaderRefuses)
                                                                 StartsWith("16: error: unknown keyword")));
 }
 
+TEST(GsdCheck, NamesTheBeginOrTheEndOfABlockThatWasMeant)
+{
+    EXPECT_THAT(findings_of(file("Module = \"four", "Moduel = \"four")),
+                Contains("31: warning: unknown keyword \"Moduel\": the standard spells it \"Module\"."));
+    EXPECT_THAT(
+        findings_of(file("both ways\"\nEndModule", "both ways\"\nEndModul")),
+        Contains("34: error: \"EndModul\" is neither the module's reference number nor Keyword = value: the "
+                 "standard spells it \"EndModule\"."));
+}
+
+/// Wire reference 9.2: 17 octets in revision 0, 244 from revision 1 on.
+TEST(GsdCheck, AllowsMoreThan17IdentifierOctetsInAModuleFromRevision1On)
+{
+    const std::string long_module = with(kGood, "0x50", octets(17) + ",0x50");
+    EXPECT_THAT(findings_of(crlf(long_module)), IsEmpty());
+    EXPECT_THAT(
+        findings_of(crlf(with(long_module, "GSD_Revision = 3\n", ""))),
+        Contains("27: warning: the module \"a word in\" has 18 identifier octets: 17 are allowed without "
+                 "GSD_Revision. Split it."));
+}
+
 TEST(GsdCheck, LetsAFileWithoutRevisionPassWithAWarning)
 {
     EXPECT_THAT(findings_of(file("GSD_Revision = 3\n", "")),
@@ -255,15 +288,76 @@ TEST(GsdCheck, PutsFindingsInTheOrderOfTheirLines)
 TEST(GsdCheck, DoesNotAskAMasterForWhatASlaveNeeds)
 {
     std::string text = with(kGood, "Station_Type = 0", "Station_Type = 1");
-    text = text.substr(0, text.find("Slave_Family"));
-    EXPECT_THAT(findings_of(crlf(text)), IsEmpty());
+    text = text.substr(0, text.find("Slave_Family")) + "Master_Freeze_Mode_supp = 1\nMax_Lsdu_MS = 240\n";
+    EXPECT_THAT(findings_of(crlf(text)),
+                ElementsAre(HasSubstr("warning: Station_Type = 1: this is the file of a master")));
+}
+
+/// Of the PROFIsafe profile and of the extensions of DP: no other keyword is suggested for them.
+TEST(GsdCheck, LeavesKeywordsOfProfisafeAndOfExtensionsAlone)
+{
+    EXPECT_THAT(findings_of(file() + "X_Ext_Module_Prm_Data_Len = 9\r\nX_Unit_Diag_Bit(7) = \"a\"\r\n"
+                                     "DXB_Max_Link_Count = 1\r\n"),
+                IsEmpty());
+    EXPECT_THAT(findings_of(file() + "F_Ext_User_Prm_Data_Ref(0) = 1\r\nF_ParamDescCRC = 0x1234\r\n"),
+                IsEmpty());
+}
+
+/// Wire reference 9.2: the keywords between its two lines are those of data exchange between slaves.
+TEST(GsdCheck, LeavesTheDataAreasOfAModuleAlone)
+{
+    for (const char* const begin : {"Data_Area_Beg", "Data_Area_Beg = 1", "data_area_beg ="}) {
+        const std::string areas =
+            std::string{"Info_Text = \"both ways\"\n"} + begin +
+            "\nRelated_CFG_Identifier = 1\nIO_Direction = 0\nLength = 2\n7\nData_Area_End\n" + begin +
+            "\nIO_Direction = 1\nLength = 2\nData_Area_End";
+        EXPECT_THAT(findings_of(file("Info_Text = \"both ways\"", areas)), IsEmpty()) << begin;
+    }
+    const auto document = gsd::parse(file("0x73\n2", "0x73\nData_Area_Beg\n7\nData_Area_End\n2"));
+    EXPECT_EQ(document.modules.at(1).reference, 2U) << "no number of the area is the module's";
+}
+
+TEST(GsdCheck, TakesTheTextsOfDiagnosisBitsThatAreNotSet)
+{
+    const std::string bits = "Unit_Diag_Bit(7) = \"tripped\"\nUnit_Diag_Bit_Help(7) = \"reset it\"\n"
+                             "Unit_Diag_Not_Bit(7) = \"ready\"\nUnit_Diag_Not_Bit_Help(7) = \"start it\"";
+    EXPECT_THAT(findings_of(file("Unit_Diag_Bit(7) = \"tripped\"", bits)), IsEmpty());
+    EXPECT_THAT(findings_of(file("Unit_Diag_Bit(7)", "Unit_Diag_Not_Bit")),
+                ElementsAre(StartsWith("19: error: Unit_Diag_Not_Bit needs a number")));
+}
+
+TEST(GsdCheck, TakesATextForANegativeValue)
+{
+    EXPECT_THAT(
+        findings_of(file("GSD_Revision", "PrmText = 1\nText(-1) = \"down\"\nEndPrmText\nGSD_Revision")),
+        IsEmpty());
 }
 
 TEST(GsdCheck, SaysOnlyThatThereIsNoSectionWhereThereIsNone)
 {
     EXPECT_THAT(findings_of("MZ this is a program\r\n"),
-                ElementsAre(StartsWith("0: error: there is no line #Profibus_DP"),
-                            StartsWith("1: warning: text before")));
+                ElementsAre(StartsWith("0: error: there is no line #Profibus_DP")));
+}
+
+/// What a command that opens the file has to say: the program goes on without these lines.
+TEST(GsdCheck, MarksTheLinesThatAreNotUnderstood)
+{
+    const auto unread = [](const std::string& from, const std::string& to) {
+        std::vector<unsigned> lines;
+        for (const gsd::Finding& one : gsd::check(gsd::parse(file(from, to)), Reading::tolerant))
+            if (one.unread) lines.push_back(one.line);
+        return lines;
+    };
+    EXPECT_THAT(unread("Max_Module = 2", "Max_Modul = 2"), ElementsAre(24U));
+    EXPECT_THAT(unread("Max_Module = 2", "Max_Module 2"), ElementsAre(24U));
+    EXPECT_THAT(unread("Max_Module = 2", "Max_Module = two"), ElementsAre(24U));
+    EXPECT_THAT(unread("Modular_Station = 1", "Modular_Station = yes"), ElementsAre(23U));
+    EXPECT_THAT(unread("\"EXAMPLE\"", "EXAMPLE"), ElementsAre(3U));
+    EXPECT_THAT(unread("0x01,2", "0x01.2"), ElementsAre(21U));
+    EXPECT_THAT(unread("0x73", "0y73"), ElementsAre(31U));
+    EXPECT_THAT(unread("Module = \"four", "Moduel = \"four"), Contains(31U));
+    EXPECT_THAT(unread("Fail_Safe = 0", "Colour = 5"), IsEmpty()) << "it may be of a standard that is newer";
+    EXPECT_THAT(unread("MaxTsdr_500 = 100\n", ""), IsEmpty()) << "every line was read";
 }
 
 TEST(GsdCheck, ComparesTheFilesNameWithTheIdent)

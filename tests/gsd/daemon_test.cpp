@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The daemon accepts exactly what `dpctl gsd make` wrote (C-048): a master that goes by the file is accepted,
-// one that deviates by one octet is not. What the master sends is taken from the file by the tests' own
-// reader.
+// one that deviates by one octet is not. What the master sends is taken from the file by the master of dpsim,
+// which shares nothing with the project's own reader.
+#include "dpsim/master/gsd_station.hpp"
 #include "second_hand.hpp"
 
 #include "dpslave/dp/chk_cfg.hpp"
@@ -20,19 +21,13 @@ struct Master {
     Octets prm; ///< Set_Prm: seven octets, then User_Prm_Data
     Octets cfg;
 
-    explicit Master(const std::string& gsd)
+    explicit Master(const std::string& gsd, const std::vector<std::string>& modules = {})
     {
-        const test::SecondHand file = test::second_hand(gsd);
-        const int ident = file.number("Ident_Number");
-        prm = {
-            0x88, 10, 10, 11, static_cast<std::uint8_t>(ident >> 8), static_cast<std::uint8_t>(ident & 0xFF),
-            0};
-        if (file.number("User_Prm_Data_Len") > 0) {
-            const Octets user = file.octets("User_Prm_Data");
-            EXPECT_EQ(user.size(), static_cast<std::size_t>(file.number("User_Prm_Data_Len")));
-            prm.insert(prm.end(), user.begin(), user.end());
-        }
-        cfg = file.cfg();
+        auto telegrams = sim::gsd_telegrams(gsd, modules);
+        EXPECT_TRUE(telegrams) << (telegrams ? "" : telegrams.error());
+        if (!telegrams) return;
+        prm = std::move(telegrams->set_prm);
+        cfg = std::move(telegrams->chk_cfg);
     }
 };
 
@@ -73,7 +68,7 @@ protected:
     bool is_identifier(std::uint8_t octet) const
     {
         for (const dp::Identifier& each : personality_.identifiers)
-            if (each.octet == octet) return true;
+            if (each.form[0] == octet) return true;
         return false;
     }
 
@@ -87,7 +82,7 @@ TEST_P(Daemon, AcceptsWhatTheFileSaysAndTakesTheTagsInTheirOrder)
     ASSERT_TRUE(taken);
     const Selection& selection = GetParam().selection;
     EXPECT_EQ(taken->demand, selection.demand);
-    std::vector<Parameter> wanted;
+    std::vector<LayoutEntry> wanted;
     for (const std::uint16_t tag : selection.in) wanted.push_back({tag, true, false});
     for (const std::uint16_t tag : selection.out) wanted.push_back({tag, false, true});
     for (const std::uint16_t tag : selection.in_out) wanted.push_back({tag, true, true});
@@ -133,7 +128,7 @@ TEST_P(Daemon, RefusesATagThatIsMissingAmongThem)
 TEST_P(Daemon, RefusesAnIdentifierMoreOrLess)
 {
     Octets cfg = master_->cfg;
-    cfg.push_back(personality_.identifiers.at(0).octet);
+    cfg.push_back(personality_.identifiers.at(0).form[0]);
     EXPECT_FALSE(accepts(master_->prm, cfg));
     for (std::size_t i = 0; i < master_->cfg.size(); ++i) {
         cfg = master_->cfg;
@@ -161,11 +156,11 @@ std::vector<Case> cases()
     std::vector<Case> out;
     for (const std::string& profile : test::kProfiles) {
         out.push_back({profile, "InAndOut", {.in = {11, 1127}, .out = {13}}});
-        out.push_back({profile, "WithDemandData", {.in = {11}, .out = {12, 2047}, .demand = true}});
+        out.push_back({profile, "WithDemandData", {.in = {11}, .out = {13, 2047}, .demand = true}});
         out.push_back({profile, "DemandDataAlone", {.demand = true}});
         out.push_back({profile,
                        "AsManyAsAnOptionBoardHas",
-                       {.in = test::tags(100, 6), .out = test::tags(300, 6), .demand = true}});
+                       {.in = test::tags(100, 6), .out = test::tags(1500, 6), .demand = true}});
     }
     for (const char* profile : {"2408f", "2404f"}) { // without tags they have their own mapping, EURD2400
         for (Case& one : out)
@@ -174,11 +169,11 @@ std::vector<Case> cases()
         out.push_back({profile, "GainScheduling", {.in = {1}, .out = {6, 8, 9, 18, 17}}});
         out.push_back({profile,
                        "With117Words",
-                       {.in = test::tags(500, 54), .out = test::tags(300, 55), .demand = true}});
+                       {.in = test::tags(500, 54), .out = test::tags(1500, 55), .demand = true}});
     }
     for (const char* profile : {"584sv", "590plus", "605", "690plus"}) {
         out.push_back(
-            {profile, "BothWays", {.in = {271}, .out = {269}, .in_out = {272, 255}, .demand = true}});
+            {profile, "BothWays", {.in = {271}, .out = {269}, .in_out = {270, 255}, .demand = true}});
         out.push_back({profile,
                        "With30Parameters",
                        {.in = test::tags(1, 10),
@@ -198,25 +193,18 @@ TEST(DaemonAndModularFile, AcceptEachOtherWhenTagsAndModulesAgree)
 {
     for (const char* name : {"584s", "590", "620", "605"}) {
         const profile::Profile profile = test::load(name);
-        const test::SecondHand file =
-            test::second_hand(test::content_of(test::kSource / "gsd" / name / profile.gsd.file));
-        Octets prm{0x88,
-                   10,
-                   10,
-                   11,
-                   static_cast<std::uint8_t>(*profile.ident >> 8),
-                   static_cast<std::uint8_t>(*profile.ident & 0xFF),
-                   0};
-        const Octets user = file.octets("User_Prm_Data");
-        prm.insert(prm.end(), user.begin(), user.end());
-        const Octets demand{0x73};
-        EXPECT_TRUE(accepted(profile.personality, prm, demand))
+        const std::string gsd = test::content_of(test::kSource / "gsd" / name / profile.gsd.file);
+        const Master with_demand{gsd, {"#1"}};
+        EXPECT_TRUE(accepted(profile.personality, with_demand.prm, with_demand.cfg))
             << name << ": as it comes, with Demand Data alone";
 
+        const Master with_words{gsd, {"#1", "#2", "#3"}};
+        Octets prm = with_words.prm;
         const std::size_t at = dp::kPrmHeader + profile.personality.prm.tags_at;
         prm[at + 1] = 55;
         prm[at + 3] = 56;
-        EXPECT_TRUE(accepted(profile.personality, prm, {0x73, 0x50, 0x60})) << name;
+        EXPECT_EQ(with_words.cfg, (Octets{0x73, 0x50, 0x60}));
+        EXPECT_TRUE(accepted(profile.personality, prm, with_words.cfg)) << name;
         EXPECT_FALSE(accepted(profile.personality, prm, {0x73, 0x50})) << name;
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `dpctl gsd make` puts into a file: mappings, limits, sentences (B-004, B-071, C-010 to C-012, C-022,
-// C-042, C-043, C-046, C-048).
+// Tests what `dpctl gsd make` puts into a file: mappings, limits, sentences (B-004, B-071, C-010 to C-012,
+// C-022, C-042, C-043, C-046, C-048).
 #include "second_hand.hpp"
 
 #include "dpslave/io/file.hpp"
@@ -130,17 +130,18 @@ TEST(GsdMake, MakesDemandDataAloneWhereNothingElseIsChosen)
 
 TEST(GsdMake, MakesDemandDataAloneOfAControllerWhereTheListIsEmpty)
 {
-    const std::string file = made(load("2408f"), {.list = std::vector<profile::Parameter>{}, .demand = true});
+    const std::string file =
+        made(load("2408f"), {.list = std::vector<profile::GsdParameter>{}, .demand = true});
     const auto gsd = second_hand(file);
     EXPECT_THAT(gsd.cfg(), ElementsAre(0x73));
     EXPECT_FALSE(gsd.keys.contains("User_Prm_Data"));
-    EXPECT_THAT(file, HasSubstr("dpctl gsd make --profile 2408f --list none --demand"));
+    EXPECT_THAT(file, HasSubstr("dpctl gsd make --profile 2408f --order none --demand"));
 }
 
 TEST(GsdMake, MakesNoFileOfAControllerWithoutParametersAndWithoutDemandData)
 {
     const auto device =
-        device_of(load("2408f"), {.list = std::vector<profile::Parameter>{}, .ident = 0x1652});
+        device_of(load("2408f"), {.list = std::vector<profile::GsdParameter>{}, .ident = 0x1652});
     ASSERT_FALSE(device);
     EXPECT_THAT(device.error(), ElementsAre(HasSubstr("none is chosen")));
 }
@@ -210,12 +211,12 @@ TEST(GsdMake, KeepsInputsAndOutputsInTheOrderOfTheList)
     using profile::Direction;
     const std::string file =
         made(load("605"),
-             {.list = std::vector<profile::Parameter>{
+             {.list = std::vector<profile::GsdParameter>{
                   {Direction::out, 3}, {Direction::in, 1}, {Direction::in_out, 9}, {Direction::out, 2}}});
     const auto gsd = second_hand(file);
     EXPECT_THAT(gsd.octets("User_Prm_Data"), ElementsAre(0, 0, 0, 0, 3, 0, 1, 0, 9, 0, 2));
     EXPECT_THAT(gsd.cfg(), ElementsAre(0x60, 0x50, 0x70, 0x60));
-    EXPECT_THAT(file, HasSubstr("--list out:3,in:1,in-out:9,out:2\r\n"));
+    EXPECT_THAT(file, HasSubstr("--order out:3,in:1,in-out:9,out:2\r\n"));
 }
 
 TEST(GsdDraft, HasTheOctetsAlsoWhereTheFileIsRefusedAndNamesTheParameter)
@@ -236,7 +237,7 @@ TEST(GsdDraft, OfAnySelectionIsMadeToItsEnd)
         for (const std::size_t count : {0U, 1U, 12U, 13U, 118U, 119U, 200U, 400U}) {
             const profile::Draft draft = profile::draft_of(
                 load(name),
-                {.in = tags(1, count), .list = std::vector<profile::Parameter>{{Direction::in_out, 0}}});
+                {.in = tags(1, count), .list = std::vector<profile::GsdParameter>{{Direction::in_out, 0}}});
             EXPECT_THAT(draft.parameters, SizeIs(count + 1)) << name;
         }
 }
@@ -259,39 +260,52 @@ TEST(GsdMake, RefusesWhereNoIdentIsKnownAndSaysWhereToFindIt)
     }
 }
 
+TEST(GsdDraft, NamesTheParameterThatTheStationWouldRefuse)
+{
+    const profile::Draft draft = profile::draft_of(load("590"), {.in = {5, 2048}});
+    ASSERT_THAT(draft.notes, SizeIs(1));
+    EXPECT_EQ(draft.notes[0].code, "prm_tag_too_large");
+    EXPECT_EQ(draft.notes[0].at, 1U);
+}
+
 TEST(GsdMake, AllowsTwelveParametersOnAnOptionBoardAndNotThirteen)
 {
     EXPECT_THAT(refusals("590", {.in = tags(1, 12), .demand = true}), IsEmpty());
     EXPECT_THAT(refusals("590", {.in = tags(1, 7), .out = tags(8, 6)}),
-                ElementsAre(HasSubstr("13 parameters are more than a 590 has, 12")));
+                ElementsAre(HasSubstr(
+                    "Set_Prm would be refused: User_Prm_Data has a wrong length, expected 24 octets of "
+                    "User_Prm_Data, got 26")));
 }
 
 TEST(GsdMake, AllowsThirtyParametersOnATechnologyBoxAndNotThirtyOne)
 {
     EXPECT_THAT(refusals("605", {.in_out = tags(1, 30), .demand = true}), IsEmpty());
     EXPECT_THAT(refusals("605", {.in_out = tags(1, 31)}),
-                ElementsAre(HasSubstr("31 parameters are more than a 605")));
+                ElementsAre(HasSubstr("expected 63 octets of User_Prm_Data, got 65")));
 }
 
 TEST(GsdMake, Allows117WordsOnAControllerDemandDataIncluded)
 {
-    EXPECT_THAT(refusals("2408f", {.in = tags(500, 60), .out = tags(20, 57), .ident = 1}), IsEmpty());
-    EXPECT_THAT(refusals("2408f", {.in = tags(500, 60), .out = tags(20, 58), .ident = 1}),
-                Contains(HasSubstr("118 words in and out are more than a 2408f has, 117: remove 1.")));
-    EXPECT_THAT(refusals("2408f", {.in = tags(500, 55), .out = tags(20, 54), .demand = true, .ident = 1}),
+    EXPECT_THAT(refusals("2408f", {.in = tags(500, 60), .out = tags(1500, 57), .ident = 1}), IsEmpty());
+    EXPECT_THAT(refusals("2408f", {.in = tags(500, 60), .out = tags(1500, 58), .ident = 1}),
+                Contains(HasSubstr("expected 234 octets of User_Prm_Data, got 236")));
+    EXPECT_THAT(refusals("2408f", {.in = tags(500, 55), .out = tags(1500, 54), .demand = true, .ident = 1}),
                 IsEmpty());
     EXPECT_THAT(
-        refusals("2408f", {.in = tags(500, 55), .out = tags(20, 55), .demand = true, .ident = 1}),
+        refusals("2408f", {.in = tags(500, 55), .out = tags(1500, 55), .demand = true, .ident = 1}),
         ElementsAre(HasSubstr(
-            "118 words in and out, 8 of them Demand Data, are more than a 2408f has, 117: remove 1.")));
+            "Chk_Cfg would be refused: Cfg_Data has too many identifiers, octet 111, expected at most 110")));
 }
 
 TEST(GsdMake, RefusesTagsThatAreNone)
 {
     EXPECT_THAT(refusals("590", {.in = {2048}}),
-                ElementsAre("tag 2048 is not a tag: tags of the profile 590 go from 1 to 2047."));
-    EXPECT_THAT(refusals("590", {.out = {0}}), ElementsAre(HasSubstr("tag 0 is not a tag")));
-    EXPECT_THAT(refusals("2408f", {.in = {16384}, .ident = 1}), ElementsAre(HasSubstr("go from 1 to 16383")));
+                ElementsAre(HasSubstr(
+                    "a tag in User_Prm_Data is too large, octet 8, expected a tag up to 2047, got 2048")));
+    EXPECT_THAT(refusals("590", {.out = {0}}),
+                ElementsAre(HasSubstr("more identifiers than User_Prm_Data has tags")));
+    EXPECT_THAT(refusals("2408f", {.in = {16384}, .ident = 1}),
+                ElementsAre(HasSubstr("expected a tag up to 16383, got 16384")));
 }
 
 TEST(GsdMake, RefusesATagTwiceInOneDirectionAndAllowsItInBoth)
@@ -314,12 +328,20 @@ TEST(GsdMake, RefusesToWriteWhatMustNeverBeWritten)
                 ElementsAre(HasSubstr("tag 199 must never be written")));
 }
 
+TEST(GsdMake, RefusesAMeasuredValueAsAnOutputAndTakesItAsAnInput)
+{
+    EXPECT_THAT(refusals("2408f", {.out = {5}, .ident = 1}),
+                ElementsAre(HasSubstr("tag 5 (Working setpoint) is read only, so it cannot be an output")));
+    EXPECT_THAT(refusals("605", {.in_out = {5}}), IsEmpty());
+    EXPECT_THAT(refusals("2408f", {.in = {5}, .ident = 1}), IsEmpty());
+}
+
 TEST(GsdMake, RefusesTextsThatDoNotFit)
 {
     EXPECT_THAT(refusals("590", {.model = std::string(33, 'm')}),
                 ElementsAre(HasSubstr("the model has 33 characters")));
-    EXPECT_THAT(refusals("590", {.description = std::string(57, 'd')}),
-                ElementsAre(HasSubstr("the description has 57 characters: a GSD has room for 56.")));
+    EXPECT_THAT(refusals("590", {.description = std::string(257, 'd')}),
+                ElementsAre(HasSubstr("the description has 257 characters: a GSD has room for 256.")));
     EXPECT_THAT(refusals("590", {.description = std::string(56, 'd'), .model = std::string(32, 'm')}),
                 IsEmpty());
 }
@@ -344,11 +366,23 @@ TEST(GsdMake, WarnsOfWhatIsLegalButProbablyNotMeant)
     EXPECT_THAT(warnings("590", {}), IsEmpty());
     EXPECT_THAT(warnings("590", {.ident = 0x1234}),
                 ElementsAre(HasSubstr("write ident = 0x1234 into the station")));
-    EXPECT_THAT(warnings("2408f", {.out = {5}, .ident = 1}),
-                ElementsAre(HasSubstr("tag 5 (Working setpoint) is read only")));
     EXPECT_THAT(warnings("590", {.max_tsdr = 1001}), ElementsAre(HasSubstr("above 1000 bit times")));
     EXPECT_THAT(warnings("590", {.description = "5 \xE2\x84\xA6"}),
                 ElementsAre(HasSubstr("becomes a question mark")));
+}
+
+TEST(GsdMake, WarnsOfAnOutputWhoseAccessNoSourceStates)
+{
+    auto box = load("605");
+    box.tags = *profile::read_tags("tag,name,type,access\n7,Known,INT,rw\n8,Open,INT,\n", "own.csv");
+    const auto warnings = [&](const Selection& selection) {
+        const auto device = device_of(box, selection);
+        return device ? device->warnings : std::vector<std::string>{"refused"};
+    };
+    EXPECT_THAT(warnings({.out = {7}}), IsEmpty());
+    EXPECT_THAT(warnings({.in = {8, 9}}), IsEmpty());
+    EXPECT_THAT(warnings({.out = {8}}), ElementsAre(HasSubstr("tag 8 (Open) may be read only")));
+    EXPECT_THAT(warnings({.in_out = {9}}), ElementsAre(HasSubstr("tag 9 is in no tag table")));
 }
 
 /// A profile that was never written as a file: what the maker does is in the data, not in names.

@@ -83,12 +83,12 @@ TEST(IoMap, HasAParameterOfBothDirectionsInBothLists)
 
 TEST(IoMap, GoesThroughThePresetModulesInTheirOrder)
 {
-    const IoMap map =
-        io_map(section("Modular_Station = 1\r\nUser_Prm_Data_Len = 4\r\nUser_Prm_Data = 0,1,0,2\r\n"
-                       "Module = \"a\" 0x50\r\nPreset = 1\r\nEndModule\r\n"
-                       "Module = \"not plugged\" 0x50\r\nEndModule\r\n"
-                       "Module = \"b\" 0x50\r\nPreset = 1\r\nEndModule\r\n"),
-               {});
+    const IoMap map = io_map(section("Modular_Station = 1\r\nFixPresetModules = 1\r\n"
+                                     "User_Prm_Data_Len = 4\r\nUser_Prm_Data = 0,1,0,2\r\n"
+                                     "Module = \"a\" 0x50\r\nPreset = 1\r\nEndModule\r\n"
+                                     "Module = \"not plugged\" 0x50\r\nEndModule\r\n"
+                                     "Module = \"b\" 0x50\r\nPreset = 1\r\nEndModule\r\n"),
+                             {});
     EXPECT_THAT(in_words(map.inputs), ElementsAre("0-1 tag 1 tag 1", "2-3 tag 2 tag 2"));
 }
 

@@ -148,13 +148,11 @@ TEST(ManualGsd, OfThe584SAnd590IsReadByTheMastersTools)
 
 TEST(ManualGsd, OfThe620LacksMaxDiagDataLenWhereMinSlaveIntervallIsRepeated)
 {
-    EXPECT_THAT(
-        findings_of(shipped("620"), gsd::Reading::tolerant, "EURO0533.GSD"),
-        ElementsAre(
-            StartsWith("0: warning: GSD_Revision is missing"),
-            StartsWith("0: warning: Max_Diag_Data_Len is missing: add Max_Diag_Data_Len = 6"),
-            "37: warning: Min_Slave_Intervall is here a second time (first in line 30): tools take the "
-            "last one. Remove one of them."));
+    EXPECT_THAT(findings_of(shipped("620"), gsd::Reading::tolerant, "EURO0533.GSD"),
+                ElementsAre(StartsWith("0: warning: GSD_Revision is missing"),
+                            StartsWith("0: warning: Max_Diag_Data_Len is missing: add Max_Diag_Data_Len = 6"),
+                            "37: warning: Min_Slave_Intervall is here a second time (first in line 30): "
+                            "remove one of them."));
 }
 
 TEST(ManualGsd, SpellsUserPrmDataLenAsNoStandardDoesWhichStrictReadingReports)

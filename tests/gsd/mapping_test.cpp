@@ -61,15 +61,15 @@ TEST(MappingFile, WithAnEmptyListSaysThatThereIsNoParameter)
 
 TEST(MappingFile, HasAListWhoseDirectionsMayAlternate)
 {
-    using profile::Direction, profile::Parameter;
+    using profile::Direction, profile::GsdParameter;
     const Folder folder;
     const auto mapping = load_mapping(
         io::read_regular_file,
         folder.write("m.toml", "profile = \"605\"\nlist = [\"out:3\", \"in:1\", \"in-out:65535\"]\n"));
     ASSERT_TRUE(mapping);
     EXPECT_THAT(mapping->selection.parameters(),
-                ElementsAre(Parameter{Direction::out, 3}, Parameter{Direction::in, 1},
-                            Parameter{Direction::in_out, 65535}));
+                ElementsAre(GsdParameter{Direction::out, 3}, GsdParameter{Direction::in, 1},
+                            GsdParameter{Direction::in_out, 65535}));
 }
 
 TEST(MappingFile, HasNoListBesideInAndOutAndNoOtherWordsInIt)

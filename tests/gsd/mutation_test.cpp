@@ -3,6 +3,7 @@
 #include "second_hand.hpp"
 
 #include "dpslave/gsd/io_map.hpp"
+#include "dpslave/gsd/sent.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,7 @@ std::size_t digest(const std::string& content)
 {
     const gsd::Document document = gsd::parse(content);
     const std::size_t lines = static_cast<std::size_t>(std::count(content.begin(), content.end(), '\n')) + 1;
-    std::size_t sum = document.user_prm_data().size();
+    std::size_t sum = gsd::sent_by_master(document, gsd::plugged_modules(document)).user.octets.size();
     for (const auto reading : {gsd::Reading::tolerant, gsd::Reading::strict})
         for (const gsd::Finding& finding : gsd::check(document, reading, "EURO0533.GSD")) {
             EXPECT_LE(finding.line, lines);

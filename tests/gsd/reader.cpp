@@ -3,39 +3,22 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <sstream>
-
 namespace dpslave::test {
-namespace {
-
-std::string without_blanks(std::string text)
-{
-    text.erase(std::remove(text.begin(), text.end(), ' '), text.end());
-    return text;
-}
-
-std::vector<std::uint8_t> list(const std::string& text)
-{
-    std::vector<std::uint8_t> out;
-    std::istringstream parts{text};
-    for (std::string part; std::getline(parts, part, ',');)
-        out.push_back(static_cast<std::uint8_t>(std::stoi(part, nullptr, 0)));
-    return out;
-}
-
-} // namespace
 
 int SecondHand::number(const std::string& key) const
 {
-    EXPECT_TRUE(keys.count(key)) << key;
-    return keys.count(key) ? std::stoi(keys.at(key), nullptr, 0) : -1;
+    const auto found = keys.find(key);
+    const auto number = found == keys.end() ? std::nullopt : sim::gsd_number(found->second);
+    EXPECT_TRUE(number) << key;
+    return static_cast<int>(number.value_or(-1));
 }
 
 std::vector<std::uint8_t> SecondHand::octets(const std::string& key) const
 {
-    EXPECT_TRUE(keys.count(key)) << key;
-    return keys.count(key) ? list(keys.at(key)) : std::vector<std::uint8_t>{};
+    const auto found = keys.find(key);
+    const auto octets = found == keys.end() ? std::nullopt : sim::gsd_octets(found->second);
+    EXPECT_TRUE(octets) << key;
+    return octets.value_or(std::vector<std::uint8_t>{});
 }
 
 std::vector<std::uint8_t> SecondHand::cfg() const
@@ -49,31 +32,17 @@ std::vector<std::uint8_t> SecondHand::cfg() const
 
 SecondHand second_hand(const std::string& content)
 {
-    std::string joined = content;
-    for (auto at = joined.find("\\\r\n"); at != std::string::npos; at = joined.find("\\\r\n"))
-        joined.erase(at, 3);
-    SecondHand found;
-    std::istringstream lines{joined};
-    for (std::string line; std::getline(lines, line);) {
-        line = line.substr(0, line.find_first_of(";\r"));
-        const auto equals = line.find('=');
-        if (equals == std::string::npos) continue;
-        const std::string key = without_blanks(line.substr(0, equals));
-        std::string value = line.substr(equals + 1);
-        if (key == "Module") {
-            const auto open = value.find('"');
-            const auto close = value.find('"', open + 1);
-            found.modules.push_back({value.substr(open + 1, close - open - 1),
-                                     list(without_blanks(value.substr(close + 1))), false});
-        } else if (key == "Preset") {
-            found.modules.back().preset = without_blanks(value) == "1";
-        } else if (value.find('"') != std::string::npos) {
-            found.keys[key] = value.substr(value.find('"'));
-        } else {
-            found.keys[key] = without_blanks(value);
-        }
+    SecondHand out;
+    const auto file = sim::parse_gsd(content);
+    EXPECT_TRUE(file) << (file ? "" : file.error());
+    if (!file) return out;
+    for (const sim::GsdEntry& entry : file->entries.all)
+        out.keys[entry.at ? entry.key + '(' + std::to_string(*entry.at) + ')' : entry.key] = entry.value;
+    for (const sim::GsdModule& module : file->modules) {
+        EXPECT_EQ(module.fault, "");
+        out.modules.push_back({module.name, module.identifiers, module.entries.is_on("Preset")});
     }
-    return found;
+    return out;
 }
 
 } // namespace dpslave::test

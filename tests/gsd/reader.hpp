@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A small GSD reader of the tests' own, so that files and devices are judged by a second hand.
+/// Files and devices are judged by a second hand: the reader of dpsim, which shares nothing with the
+/// project's own. Here a key that is not there is a failure of the test.
 #pragma once
 
-#include <cstdint>
+#include "dpsim/common/gsd_file.hpp"
+
 #include <map>
-#include <string>
-#include <vector>
 
 namespace dpslave::test {
 

@@ -228,5 +228,33 @@ TEST_F(OnAUart, ToFindOutWhetherTheDriverCouldSwitchChangesNothing)
     EXPECT_THAT(uart.edges, ElementsAre());
 }
 
+TEST_F(OnAUart, TheModeThatAnotherProgramLeftIsEndedUnlessTheKernelIsToSwitch)
+{
+    uart.takes_rs485 = true;
+    for (const Direction direction : {Direction::none, Direction::rts}) {
+        uart.rs485.flags = SER_RS485_ENABLED | SER_RS485_RTS_ON_SEND;
+        DriverEnable driver = opened(direction);
+
+        EXPECT_EQ(driver.attach(*tty), std::nullopt);
+
+        EXPECT_EQ(uart.rs485.flags & SER_RS485_ENABLED, 0U) << text(direction);
+    }
+    uart.rs485.flags = SER_RS485_ENABLED | SER_RS485_RTS_AFTER_SEND;
+    DriverEnable driver = opened(Direction::kernel);
+    EXPECT_EQ(driver.attach(*tty), std::nullopt);
+    EXPECT_EQ(uart.rs485.flags, SER_RS485_ENABLED | SER_RS485_RTS_ON_SEND) << "set anew";
+}
+
+TEST_F(OnAUart, AModeThatTheDriverKeepsIsSaid)
+{
+    uart.rs485.flags = SER_RS485_ENABLED; // and it takes no order
+    DriverEnable driver = opened(Direction::none);
+
+    const auto trouble = driver.attach(*tty);
+
+    ASSERT_TRUE(trouble);
+    EXPECT_THAT(*trouble, AllOf(HasSubstr("stays in the RS-485 mode"), HasSubstr("direction = \"kernel\"")));
+}
+
 } // namespace
 } // namespace dpslave::io

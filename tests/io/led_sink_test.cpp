@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Lamps in a folder that looks like sysfs.
+#include "support/folder.hpp"
+
 #include "dpslave/io/led_sink.hpp"
 
 #include <gmock/gmock.h>
@@ -21,14 +23,6 @@ constexpr Instant kAtFirst{1h};
 
 class LedSinks : public testing::Test {
 protected:
-    void SetUp() override
-    {
-        std::string name = (fs::temp_directory_path() / "dpslave-sysfs-XXXXXX").string();
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        sysfs = name;
-    }
-    void TearDown() override { fs::remove_all(sysfs); }
-
     void put(const fs::path& file, const std::string& text)
     {
         fs::create_directories((sysfs / file).parent_path());
@@ -60,7 +54,8 @@ protected:
         put("class/leds/" + name + "/brightness", "3");
     }
 
-    fs::path sysfs;
+    dpslave::test::Folder kept;
+    fs::path sysfs = kept.path();
 };
 
 TEST_F(LedSinks, APinBecomesADarkOutputThenFollows)

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the service manager hears, with a socket of the test in its place.
+/// Tests what the service manager hears, with a socket of the test in its place.
+#include "support/folder.hpp"
+
 #include "dpslave/io/fd.hpp"
 #include "dpslave/io/notify.hpp"
 
@@ -9,7 +11,6 @@
 #include <unistd.h>
 
 #include <cstdlib>
-#include <filesystem>
 
 namespace dpslave::io {
 namespace {
@@ -20,9 +21,6 @@ class ServiceManager : public testing::Test {
 protected:
     void SetUp() override
     {
-        std::string name = (std::filesystem::temp_directory_path() / "dpslave-notify-XXXXXX").string();
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder = name;
         const std::string path = folder / "notify";
         sockaddr_un address{};
         address.sun_family = AF_UNIX;
@@ -37,7 +35,6 @@ protected:
     void TearDown() override
     {
         for (const char* name : {"NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID"}) ::unsetenv(name);
-        std::filesystem::remove_all(folder);
     }
 
     /// The next message; empty: none came.
@@ -48,7 +45,7 @@ protected:
         return got > 0 ? std::string(text, static_cast<std::size_t>(got)) : std::string{};
     }
 
-    std::filesystem::path folder;
+    dpslave::test::Folder folder;
     Fd socket;
     Notifier notifier;
 };

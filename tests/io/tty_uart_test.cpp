@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What is concluded from the UART behind a tty: the rate on the wire, and how soon it hands octets on. The
-/// UARTs are made of what the kernel says of them: no such hardware is at hand.
+/// Tests what is concluded from the UART behind a tty: the rate on the wire, and how soon it hands octets on.
+/// The UARTs are made of what the kernel says of them: no such hardware is at hand.
 #include "io/tty/uart.hpp"
 #include "pty.hpp"
+#include "support/folder.hpp"
 
 #include "dpslave/io/tty.hpp"
 
@@ -121,10 +122,6 @@ public:
     /// `driver`: of the device. `serial_core`: with the two devices that newer kernels put in between.
     FakeSysfs(const std::string& tty, const std::string& driver, bool serial_core = false)
     {
-        std::string name = fs::temp_directory_path() / "dpslave-sysfs-XXXXXX";
-        if (::mkdtemp(name.data()) == nullptr)
-            throw std::system_error{errno, std::system_category(), "mkdtemp"};
-        root_ = name;
         fs::path device = root_ / "devices/pnp0/00:01";
         drive(device, driver);
         if (serial_core) {
@@ -141,9 +138,6 @@ public:
             folder_, root_ / "dev/char" /
                          (std::to_string(major(info.st_rdev)) + ":" + std::to_string(minor(info.st_rdev))));
     }
-    ~FakeSysfs() { fs::remove_all(root_); }
-    FakeSysfs(const FakeSysfs&) = delete;
-    FakeSysfs& operator=(const FakeSysfs&) = delete;
 
     const fs::path& root() const { return root_; }
     void write(const std::string& attribute, const std::string& text) const
@@ -173,7 +167,8 @@ private:
         fs::create_directory_symlink(root_ / "bus/drivers" / driver, device / "driver");
     }
 
-    fs::path root_, folder_;
+    dpslave::test::Folder made_;
+    fs::path root_ = made_.path(), folder_;
 };
 
 constexpr TtySettings kPrompt{.baud = 187'500, .mark_errors = true, .prompt = true};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What threads wait with: clock, epoll, bells and signals.
+/// Tests what threads wait with: clock, epoll, bells and signals.
 #include "dpslave/io/clock.hpp"
 #include "dpslave/io/epoll.hpp"
 #include "dpslave/io/event_fd.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Which answer belongs to which request: the pure client on a line whose slave says what the test has
+/// Tests which answer belongs to which request: the pure client on a line whose slave says what the test has
 /// written down, as late as the test wants. The line has the only clock.
 #include "dpslave/modbus/modbus_client.hpp"
 
@@ -27,8 +27,8 @@ Octets octets(const std::string& text)
     return out;
 }
 
-/// Frames without check sum, unit first.
-class WrittenLine final : public FrameLine {
+/// Frames without checksum, unit first.
+class WrittenLine final : public ModbusPort {
 public:
     struct Saying {
         std::string frame; ///< empty: something broken
@@ -101,7 +101,7 @@ Tag tag(std::uint16_t number)
 
 class ModbusAnswers : public testing::Test {
 protected:
-    explicit ModbusAnswers(ModbusUnit unit = {.unit = 1}, drive::EchoMode echo = drive::EchoMode::off)
+    explicit ModbusAnswers(ModbusDrive unit = {.unit = 1}, EchoMode echo = EchoMode::off)
     {
         ClientSettings settings;
         settings.timeout = 600ms;
@@ -132,11 +132,11 @@ protected:
 };
 class ModbusEcho : public ModbusAnswers {
 protected:
-    ModbusEcho() : ModbusAnswers({.unit = 1}, drive::EchoMode::on) { line.echoes = true; }
+    ModbusEcho() : ModbusAnswers({.unit = 1}, EchoMode::on) { line.echoes = true; }
 };
 class ModbusEchoAuto : public ModbusAnswers {
 protected:
-    ModbusEchoAuto() : ModbusAnswers({.unit = 1}, drive::EchoMode::automatic) {}
+    ModbusEchoAuto() : ModbusAnswers({.unit = 1}, EchoMode::automatic) {}
 };
 
 TEST_F(ModbusAnswers, AnAnswerThatIs1300MsLateIsNotTakenForAnotherRegister)
@@ -270,14 +270,24 @@ TEST_F(ModbusAnswersWithLoopback, AWriteIsNotAskedWhileOneIsOwed)
     EXPECT_THAT(line.asked, ElementsAre("01 06 00 01 00 05", "01 08 00 00 00 01", "01 06 00 01 00 06"));
 }
 
+TEST_F(ModbusAnswers, SaysOfAWriteWhetherItWasSent)
+{
+    line.is_silent();
+    EXPECT_EQ(write(1, 5), AccessError::no_answer);
+    EXPECT_TRUE(client->has_sent());
+    EXPECT_EQ(write(1, 5), AccessError::deferred) << "an answer of this form is owed";
+    EXPECT_FALSE(client->has_sent());
+    EXPECT_EQ(line.asked.size(), 1u);
+}
+
 TEST_F(ModbusAnswers, AUnitIsBackOnAnyFrameOfItsOwn)
 {
     line.answers("01 03 02 11 11", 700ms);
     ASSERT_EQ(read(5), AccessError::no_answer);
     line.is_silent();
 
-    EXPECT_TRUE(client->probe({.unit = 1})) << "a late one is one";
-    EXPECT_FALSE(client->probe({.unit = 1}));
+    EXPECT_EQ(client->probe({.unit = 1}), AccessError::none) << "a late one is one";
+    EXPECT_NE(client->probe({.unit = 1}), AccessError::none);
 }
 
 TEST_F(ModbusEcho, IsNotTakenForTheAnswerToAWrite)
@@ -288,7 +298,7 @@ TEST_F(ModbusEcho, IsNotTakenForTheAnswerToAWrite)
     EXPECT_EQ(write(1, 5), AccessError::none) << "the second copy is the answer";
     line.answers("01 03 02 22 22");
     EXPECT_EQ(read(2), AccessError::none);
-    EXPECT_FALSE(client->probe({.unit = 1})) << "an echo is no sign of life";
+    EXPECT_NE(client->probe({.unit = 1}), AccessError::none) << "an echo is no sign of life";
 }
 
 TEST_F(ModbusAnswers, ARequestThatComesBackThoughThereIsNoEchoIsCounted)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What each exception means for the access (EI-ASCII and Modbus reference, section 4), and which octets are
-/// no answer at all.
+/// Tests what each exception means for the access (EI-ASCII and Modbus reference, section 4), and which
+/// octets are no answer at all.
 #include "modbus/pdu.hpp"
 #include "scripted_slave.hpp"
 
@@ -47,6 +47,8 @@ TEST_P(ModbusException, OfAReadHasAName)
 
     EXPECT_EQ(line.word(), kUntouched);
     EXPECT_EQ(line.drive().last_trouble(), GetParam().words);
+    EXPECT_EQ(line.drive().last_answer().empty(), GetParam().on_read != AccessError::invalid_tag);
+    EXPECT_THAT(GetParam().words, StartsWith(std::string{line.drive().last_answer()}));
 }
 
 TEST_P(ModbusException, OfABlockHasTheSameName)
@@ -80,7 +82,7 @@ TEST_P(ModbusException, ToAProbeIsAnAnswerUnlessAGatewaySpeaks)
 {
     line.slave().answers(answer("83"));
 
-    EXPECT_EQ(line.drive().probe({.unit = 1}), GetParam().on_read != kNoAnswer);
+    EXPECT_EQ(line.drive().probe({.unit = 1}) == AccessError::none, GetParam().on_read != kNoAnswer);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -149,16 +151,16 @@ INSTANTIATE_TEST_SUITE_P(
     Frames, ModbusNoAnswer,
     testing::Values(
         NoAnswer{"Silence", {}, "no answer"},
-        NoAnswer{"WrongCheckSum", octets("01 03 02 00 B7 F8 33"), "an answer with a wrong check sum"},
+        NoAnswer{"WrongCheckSum", octets("01 03 02 00 B7 F8 33"), "an answer with a wrong checksum"},
         NoAnswer{"CheckSumTheWrongWayRound", octets("01 03 02 00 B7 32 F8"),
-                 "an answer with a wrong check sum"},
-        NoAnswer{"OneBitWrong", octets("01 03 02 00 A7 F8 32"), "an answer with a wrong check sum"},
+                 "an answer with a wrong checksum"},
+        NoAnswer{"OneBitWrong", octets("01 03 02 00 A7 F8 32"), "an answer with a wrong checksum"},
         NoAnswer{"OneOctet", octets("01"),
-                 "an answer with a wrong check sum or parity, or one that broke off"},
+                 "an answer with a wrong checksum or parity, or one that broke off"},
         NoAnswer{"HalfAnAnswer", octets("01 03 02 00"),
-                 "an answer with a wrong check sum or parity, or one that broke off"},
+                 "an answer with a wrong checksum or parity, or one that broke off"},
         NoAnswer{"WithoutItsLastOctet", octets("01 03 02 00 B7 F8"),
-                 "an answer with a wrong check sum or parity, or one that broke off"},
+                 "an answer with a wrong checksum or parity, or one that broke off"},
         NoAnswer{"AnotherUnit", framed("02 03 02 00 B7"), "an answer of unit 2"},
         NoAnswer{"TheBroadcastUnit", framed("00 03 02 00 B7"), "an answer of unit 0"},
         NoAnswer{"AnotherFunction", framed("01 04 02 00 B7"), "an answer that does not fit the request: 04"},
@@ -169,8 +171,8 @@ INSTANTIATE_TEST_SUITE_P(
         NoAnswer{"ExceptionOfAnotherFunction", framed("01 86 02"),
                  "an answer that does not fit the request: 86 02"},
         NoAnswer{"LongerThanAnyFrame", octets(long_answer("01 03 FF", 300)),
-                 "an answer with a wrong check sum"},
-        NoAnswer{"Noise", octets("00 FF 7F 00 55 AA 00 00 12"), "an answer"}),
+                 "an answer with a wrong checksum"},
+        NoAnswer{"Noise", octets("00 FF 7F 00 55 AA 00 00 12"), "noise and no answer"}),
     [](const auto& what) { return what.param.name; });
 
 TEST(ModbusNoAnswerToARead, IsOneWhoseCountAndLengthDoNotAgree)
@@ -195,6 +197,26 @@ TEST(ModbusNoAnswerToAWrite, IsTheEchoOfAnotherRegisterOrCount)
     line.slave().answers("01 10 00 02 00 01");
     EXPECT_EQ(line.drive().write({.unit = 1}, number(2), words), kNoAnswer);
     EXPECT_THAT(line.drive().last_trouble(), HasSubstr("does not fit the request: 10 00 02 00 01"));
+}
+
+// ---- a question of a search
+
+TEST(ModbusLook, AsksOneRegisterAndTakesAnExceptionForAnAnswerButNotThatOfAGateway)
+{
+    using Kind = drive::Sight::Kind;
+    Bench line;
+    line.slave().answers("01 03 02 24 80");
+    line.slave().answers("01 83 02");
+    line.slave().answers("01 83 0B"); // the gateway speaks for a unit that is silent
+    const auto look = [&] {
+        return line.drive().look({.group = 0, .unit = 1}, {.mnemonic = {}, .reg = 122});
+    };
+
+    EXPECT_EQ(look().text, ">2480");
+    EXPECT_EQ(look().kind, Kind::denied);
+    EXPECT_EQ(look().kind, Kind::silence);
+    for (const std::string& one : line.slave().requested(3))
+        EXPECT_THAT(one, StartsWith("01 03 00 7A 00 01"));
 }
 
 } // namespace

@@ -17,11 +17,10 @@ namespace dpslave::modbus::test {
 namespace {
 
 using namespace std::chrono_literals;
-using drive::EchoMode;
-using drive::LineFrame;
+using drive::TracedFrame;
 using testing::ElementsAre;
 using testing::IsEmpty;
-using Heard = FrameLine::Heard;
+using Heard = ModbusPort::Heard;
 
 constexpr std::uint32_t kBaud = 10'000; ///< 1 ms for each character
 constexpr auto kTimeOut = 600ms;
@@ -30,14 +29,15 @@ constexpr auto kAnswer = 7ms;  ///< of one word
 constexpr auto kSilence = 3500us;
 
 /// On it comes what the test has written down.
-class ExchangeLine final : public FrameLine {
+class ExchangeLine final : public ModbusPort {
 public:
     Instant time{1h};
     Instant asked_at{};
     std::vector<std::string> asked; ///< unit and request
     bool is_gone = false;
+    std::chrono::nanoseconds send_waits{}; ///< as where the port switches a driver
 
-    /// `frame`: without check sum, unit first.
+    /// `frame`: without checksum, unit first.
     void comes(const std::string& frame, std::chrono::nanoseconds after)
     {
         coming_.push_back({Heard::frame, octets(frame), time + after});
@@ -51,6 +51,7 @@ public:
         if (is_gone) return false;
         asked_at = time;
         asked.push_back(hex(Bytes{&unit, 1}) + " " + hex(pdu));
+        time += send_waits;
         return true;
     }
     Heard receive(Instant until) override
@@ -85,15 +86,15 @@ private:
 
 class FrameNames final : public drive::FrameListener {
 public:
-    void on_frame(const LineFrame& frame) override
+    void on_frame(const TracedFrame& frame) override
     {
         EXPECT_EQ(frame.protocol, drive::LineProtocol::modbus_rtu);
         begun = frame.begun;
         at = frame.at;
         switch (frame.what) {
-            case LineFrame::What::sent: lines.emplace_back("sent"); break;
-            case LineFrame::What::heard: lines.emplace_back(drive::name(frame.judgement)); break;
-            case LineFrame::What::silence: lines.emplace_back("silence"); break;
+            case TracedFrame::What::sent: lines.emplace_back("sent"); break;
+            case TracedFrame::What::heard: lines.emplace_back(drive::name(frame.judgement)); break;
+            case TracedFrame::What::silence: lines.emplace_back("silence"); break;
         }
     }
     std::vector<std::string> lines;
@@ -103,7 +104,7 @@ public:
 class ModbusExchange : public testing::Test {
 protected:
     explicit ModbusExchange(EchoMode echo = EchoMode::off) { open(kBaud, {.echo = echo}); }
-    void open(std::uint32_t baud, const drive::LineRules& rules)
+    void open(std::uint32_t baud, const drive::LineTiming& rules)
     {
         ClientSettings settings;
         settings.baud = baud;
@@ -143,6 +144,14 @@ TEST_F(ModbusExchange, WaitsOneTimeOutAndTheTimeOfTheAnswerFromTheEndOfTheReques
     EXPECT_EQ(line.time, begun + kRequest + kTimeOut + kAnswer);
     EXPECT_EQ(client->last_trouble(), "no answer");
     EXPECT_THAT(recorder.lines, ElementsAre("sent", "silence"));
+}
+
+TEST_F(ModbusExchange, WaitsAsLongWhereTheSendItselfWaitsForTheWire)
+{
+    line.send_waits = 9ms; // the request and the release of the driver
+    const Instant begun = line.time;
+    EXPECT_EQ(read(1), AccessError::no_answer);
+    EXPECT_EQ(line.time, begun + 9ms + kTimeOut + kAnswer);
 }
 
 TEST_F(ModbusExchange, AnAnswerBehindAForeignOneThatEndsWithTheWaitIsLate)
@@ -311,7 +320,7 @@ TEST_F(ModbusExchange, AnAnswerToFunction8WithoutItsTokenIsForeign)
 TEST_F(ModbusExchange, AnAnswerHasTheTimesOfItsFirstAndItsLastCharacter)
 {
     const Instant begun = line.time;
-    line.comes("01 03 02 00 05", 50ms); // its check sum is not shown
+    line.comes("01 03 02 00 05", 50ms); // its checksum is not shown
     ASSERT_EQ(read(1), AccessError::none);
     EXPECT_EQ(recorder.begun, begun + 50ms - 5ms);
     EXPECT_EQ(recorder.at, begun + 50ms);
@@ -323,12 +332,12 @@ TEST_F(ModbusExchange, AFrameOfAnotherUnitOrOneThatAnswersNothingBringsNoUnitBac
 {
     for (const char* frame : {"02 03 02 00 05", "01 04 02 00 05", "01 83 0A", "01 83 0B"}) {
         line.comes(frame, 50ms);
-        EXPECT_FALSE(client->probe({.unit = 1})) << frame;
+        EXPECT_NE(client->probe({.unit = 1}), AccessError::none) << frame;
         line.time += 1h;
     }
     for (const char* frame : {"01 03 02 00 05", "01 83 02", "01 83 04"}) {
         line.comes(frame, 50ms);
-        EXPECT_TRUE(client->probe({.unit = 1})) << frame;
+        EXPECT_EQ(client->probe({.unit = 1}), AccessError::none) << frame;
         line.time += 1h;
     }
 }
@@ -337,7 +346,7 @@ TEST_F(ModbusExchange, ALateFrameOfAnotherUnitBringsNoUnitBack)
 {
     ASSERT_EQ(read(1, 2), AccessError::no_answer);
     line.comes("02 03 02 00 05", 50ms);
-    EXPECT_FALSE(client->probe({.unit = 1}));
+    EXPECT_NE(client->probe({.unit = 1}), AccessError::none);
 }
 
 // ---- the echo
@@ -349,6 +358,25 @@ TEST_F(ModbusExchange, SaysThatTheLineHearsItsOwnRequest)
     EXPECT_EQ(read(1), AccessError::no_answer);
     EXPECT_EQ(client->last_trouble(), "the line hears its own request: set echo = \"on\" for it");
     EXPECT_EQ(counts().came_back, 1U);
+}
+
+TEST_F(ModbusExchange, TheOwnRequestIsNoSignOfLifeOfTheUnit)
+{
+    line.comes("01 03 00 01 00 01", 10ms);
+    EXPECT_EQ(read(1), AccessError::no_answer);
+    EXPECT_EQ(counts().valid_at, Instant{});
+    EXPECT_THAT(recorder.lines, ElementsAre("sent", "echo", "silence"));
+}
+
+TEST_F(ModbusExchange, WhatAGatewaySaysForTheUnitIsNoSignOfLifeOfIt)
+{
+    line.comes("01 83 0B", 10ms);
+    EXPECT_EQ(read(1), AccessError::no_answer);
+    EXPECT_EQ(counts().valid_at, Instant{});
+    line.time += 1h;
+    line.comes("01 83 02", 10ms);
+    EXPECT_EQ(read(1), AccessError::invalid_tag);
+    EXPECT_NE(counts().valid_at, Instant{});
 }
 
 TEST_F(ModbusExchange, TheAnswerToAWriteIsNoRequestThatCameBack)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Octets of a Modbus RTU line become frames. The check sums are those of a second hand (scripted_slave).
+/// Octets of a Modbus RTU line become frames. The checksums are those of a second hand (scripted_slave).
 #include "modbus/frame_receiver.hpp"
 #include "scripted_slave.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What goes over the line, octet by octet. The frames of the 2000 series handbook (HA026230) are known
-/// by their printed check sums; the others were computed by another program.
+/// Tests what goes over the line, octet by octet. The frames of the 2000 series handbook (HA026230) are known
+/// by their printed checksums; the others were computed by another program.
 #include "scripted_slave.hpp"
 
 #include <gmock/gmock.h>
@@ -171,7 +171,7 @@ TEST(ModbusCall, SendsToTheUnits1To247Only)
     for (const std::uint8_t unit : octets("00 F8 FF")) {
         EXPECT_EQ(line.read(number(1), unit), AccessError::no_answer);
         EXPECT_EQ(line.write(number(1), 5, unit), AccessError::no_answer);
-        EXPECT_FALSE(line.drive().probe({.unit = unit}));
+        EXPECT_NE(line.drive().probe({.unit = unit}), AccessError::none);
         EXPECT_EQ(line.drive().last_trouble(),
                   "unit " + std::to_string(unit) + " is no Modbus address (1 to 247)");
     }
@@ -184,7 +184,7 @@ TEST(ModbusProbe, ReadsRegister1)
     Bench line;
     line.slave().answers("01 03 02 00 B7");
 
-    EXPECT_TRUE(line.drive().probe({.unit = 1}));
+    EXPECT_EQ(line.drive().probe({.unit = 1}), AccessError::none);
 
     EXPECT_THAT(line.slave().requested(), ElementsAre("01 03 00 01 00 01 D5 CA"));
 }
@@ -193,7 +193,7 @@ TEST(ModbusProbe, FindsNoDriveOnASilentLine)
 {
     Bench line{20ms};
 
-    EXPECT_FALSE(line.drive().probe({.unit = 1}));
+    EXPECT_NE(line.drive().probe({.unit = 1}), AccessError::none);
 
     EXPECT_EQ(line.drive().last_trouble(), "no answer");
     EXPECT_THAT(line.slave().requested(1), ElementsAre("01 03 00 01 00 01 D5 CA"));

@@ -76,10 +76,24 @@ TEST(ModbusIeee, SaysWhichValueDoesNotFit)
     Bench line;
     line.slave().answers("01 03 04 46 FF FF 00"); // 32767.5
 
-    EXPECT_EQ(line.read(ieee(0)), AccessError::out_of_range);
+    EXPECT_EQ(line.read(ieee(0)), AccessError::does_not_fit) << "the drive's, not that of a master";
 
     EXPECT_EQ(line.word(), kUntouched);
-    EXPECT_EQ(line.drive().last_trouble(), "tag 2 is 32767.5, which with 0 decimals does not fit 16 bits");
+    EXPECT_EQ(line.drive().last_trouble(),
+              "the drive itself has 32767.5 in tag 2, which with 0 decimals does not fit 16 bits");
+}
+
+TEST(ModbusIeee, SaysThatTheDriveHasNoNumberOrAnInfiniteOne)
+{
+    Bench line;
+    line.slave().answers("01 03 04 7F C0 00 00");
+    line.slave().answers("01 03 04 FF 80 00 00");
+
+    EXPECT_EQ(line.read(ieee(0)), AccessError::does_not_fit);
+    EXPECT_EQ(line.drive().last_trouble(), "the drive itself has no number in tag 2 (NaN)");
+    EXPECT_EQ(line.read(ieee(0)), AccessError::does_not_fit);
+    EXPECT_EQ(line.drive().last_trouble(), "the drive itself has an infinite value in tag 2");
+    EXPECT_EQ(line.word(), kUntouched);
 }
 
 TEST(ModbusIeee, HasTheExceptionsOfOneTag)

@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 using testing::ElementsAre;
 using testing::SizeIs;
 
-/// The time-out of the late answers: the slave of a test answers within it, or after it.
+/// The timeout of the late answers: the slave of a test answers within it, or after it.
 constexpr auto kLateTimeout = 400ms;
 
 TEST(ModbusLateAnswer, IsNotTakenForTheOneToTheNextRequest)

@@ -4,7 +4,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <termios.h>
+#include <unistd.h>
 
 #include <array>
 #include <filesystem>
@@ -97,6 +99,26 @@ TEST(ModbusPort, GivesEveryOctetThroughUnchanged)
     EXPECT_THAT(line.slave().requested()[0], StartsWith("01 03 0D 0A 00 04"));
 }
 
+TEST(ModbusPort, ThatBabblesWithoutEndDoesNotHoldACallForEver)
+{
+    io::Pty cable;
+    std::atomic<bool> is_open{false};
+    const auto drive = ModbusRtu::open({.port = cable.path(), .baud = 115'200, .timeout = 50ms}, is_open);
+    ASSERT_TRUE(drive) << drive.error();
+    const std::jthread babbler{[&](const std::stop_token& stop) {
+        const Octets noise(64, 0x55);
+        while (!stop.stop_requested()) {
+            pollfd line{.fd = cable.fd(), .events = POLLOUT, .revents = 0};
+            ::poll(&line, 1, 1);
+            if ((line.revents & POLLOUT) != 0 && ::write(cable.fd(), noise.data(), noise.size()) < 0) return;
+        }
+    }};
+    std::uint16_t word = 0;
+
+    EXPECT_NE((*drive)->read({.unit = 1}, number(1), {&word, 1}), AccessError::none);
+    EXPECT_NE((*drive)->read({.unit = 1}, number(1), {&word, 1}), AccessError::none);
+}
+
 TEST(ModbusPort, ThatDoesNotTakeTheRequestIsStillThere)
 {
     Socket socket;
@@ -130,7 +152,7 @@ TEST(ModbusPort, IsUsedAgainWhenItReturns)
     EXPECT_EQ((*drive)->read({.unit = 1}, number(1), {&word, 1}), AccessError::no_answer);
     EXPECT_FALSE(is_open);
     EXPECT_EQ((*drive)->last_trouble(), socket.path() + " is missing");
-    EXPECT_FALSE((*drive)->probe({.unit = 1})); // still gone
+    EXPECT_NE((*drive)->probe({.unit = 1}), AccessError::none); // still gone
     EXPECT_FALSE(is_open);
 
     socket.plug();
@@ -165,13 +187,25 @@ TEST(ModbusPort, IsTriedAgainOnlyAfterAWhile)
     const auto drive = ModbusRtu::open({.port = socket.path(), .timeout = 20s, .reopen_after = 1h}, is_open);
     ASSERT_TRUE(drive) << drive.error();
     socket.pull();
-    EXPECT_FALSE((*drive)->probe({.unit = 1}));
+    EXPECT_NE((*drive)->probe({.unit = 1}), AccessError::none);
     socket.plug();
 
-    EXPECT_FALSE((*drive)->probe({.unit = 1}));
+    EXPECT_NE((*drive)->probe({.unit = 1}), AccessError::none);
 
     EXPECT_FALSE(is_open);
     EXPECT_TRUE(socket.slave().requests().empty());
+}
+
+/// At 1200 bit/s a request takes 67 ms; on a pty its answer is there at once.
+TEST(ModbusPort, APtyTakesNoWireTimeUnlessTheLineSaysSo)
+{
+    for (const auto wire_time : {drive::WireTime::automatic, drive::WireTime::no, drive::WireTime::yes}) {
+        Bench line{500ms, 1'200, wire_time};
+        line.slave().answers("01 03 02 00 B7");
+        const bool is_refused = wire_time == drive::WireTime::yes;
+        EXPECT_EQ(line.read(number(1)), is_refused ? AccessError::no_answer : AccessError::none);
+        EXPECT_EQ(line.drive().counts({.unit = 1}).early, is_refused ? 1U : 0U);
+    }
 }
 
 } // namespace

@@ -14,7 +14,7 @@ namespace {
 constexpr std::chrono::seconds kLimit{20};
 
 /// Bit by bit, as the protocol's annex describes it; the library has a table.
-std::uint16_t check_sum(const Octets& octets)
+std::uint16_t checksum(const Octets& octets)
 {
     std::uint16_t sum = 0xFFFF;
     for (const std::uint8_t octet : octets) {
@@ -37,7 +37,7 @@ std::string text(const Octets& octets)
     return out.str();
 }
 
-/// Octets of a request with its check sum; 0: too few are known.
+/// Octets of a request with its checksum; 0: too few are known.
 std::size_t length_of(const Octets& request)
 {
     if (request.size() < 2) return 0;
@@ -58,7 +58,7 @@ Octets octets(const std::string& text)
 Octets framed(const std::string& text)
 {
     Octets frame = octets(text);
-    const std::uint16_t sum = check_sum(frame);
+    const std::uint16_t sum = checksum(frame);
     frame.push_back(static_cast<std::uint8_t>(sum & 0xFF));
     frame.push_back(static_cast<std::uint8_t>(sum >> 8));
     return frame;
@@ -151,9 +151,10 @@ void ScriptedSlave::hear(Clock::time_point now)
     if (!answer.empty() && ::write(fd_, answer.data(), answer.size()) < 0) ends_ = true;
 }
 
-Bench::Bench(std::chrono::milliseconds timeout, std::uint32_t baud)
+Bench::Bench(std::chrono::milliseconds timeout, std::uint32_t baud, drive::WireTime wire_time)
 {
-    auto opened = ModbusRtu::open({.port = cable_.path(), .baud = baud, .timeout = timeout}, is_open_);
+    auto opened = ModbusRtu::open(
+        {.port = cable_.path(), .baud = baud, .timeout = timeout, .wire_time = wire_time}, is_open_);
     if (!opened) throw std::runtime_error{opened.error()};
     drive_ = *std::move(opened);
     slave_ = std::make_unique<ScriptedSlave>(cable_.fd());

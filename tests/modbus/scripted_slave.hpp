@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The other end of the line: a Modbus RTU slave by an independent hand, with its own framing and check sum.
+/// The other end of the line: a Modbus RTU slave by an independent hand, with its own framing and checksum.
 /// It says what the test has written down, and writes down what it was asked.
 #pragma once
 
@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 
 /// "01 03 02 00 B7" as octets.
 Octets octets(const std::string& text);
-/// The same with its check sum behind it, low octet first.
+/// The same with its checksum behind it, low octet first.
 Octets framed(const std::string& text);
 
 class ScriptedSlave {
@@ -34,7 +34,7 @@ public:
     ScriptedSlave& operator=(const ScriptedSlave&) = delete;
 
     /// What it says to the next request that is not provided for yet. Nothing provided for: silence.
-    void answers(const std::string& without_check_sum) { says(framed(without_check_sum)); }
+    void answers(const std::string& without_checksum) { says(framed(without_checksum)); }
     void says(Octets exactly);
     void is_silent() { says({}); }
     /// Without being asked, `after` this call; spoke_at() waits for it and returns its time.
@@ -45,7 +45,7 @@ public:
         std::string octets; ///< "01 03 00 01 00 01 D5 CA"
         Clock::time_point came{}, answered{};
     };
-    /// All requests so far, once there are `at_least` so many. One that has no good check sum, or more than
+    /// All requests so far, once there are `at_least` so many. One that has no good checksum, or more than
     /// itself in it, is none.
     std::vector<Request> requests(std::size_t at_least = 0) const;
     std::vector<std::string> requested(std::size_t at_least = 0) const; ///< their octets
@@ -71,8 +71,8 @@ private:
 /// long.
 class Bench {
 public:
-    explicit Bench(std::chrono::milliseconds timeout = std::chrono::seconds{20},
-                   std::uint32_t baud = 115'200);
+    explicit Bench(std::chrono::milliseconds timeout = std::chrono::seconds{20}, std::uint32_t baud = 115'200,
+                   drive::WireTime wire_time = drive::WireTime::automatic);
 
     ScriptedSlave& slave() { return *slave_; }
     ModbusRtu& drive() { return *drive_; }

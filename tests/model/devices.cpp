@@ -97,6 +97,10 @@ std::vector<model::Device> make_devices()
     box.tries_outputs = true;
     box.longest_diag = 20;
     all.push_back(box);
+    model::Device waits = example();
+    waits.name = "example that waits for its drive";
+    waits.waits_for_drive = true;
+    all.push_back(waits);
     return all;
 }
 
@@ -126,11 +130,14 @@ dpslave::dp::Personality personality_of(const model::Device& device)
     p.ident = static_cast<std::uint16_t>(device.ident);
     p.max_tsdr.fill(Tbit{static_cast<std::uint32_t>(device.max_tsdr)});
     for (const model::Identifier& one : device.identifiers)
-        p.identifiers.push_back({static_cast<std::uint8_t>(one.octet), one.reads, one.writes});
+        p.identifiers.push_back({static_cast<std::uint8_t>(one.octet),
+                                 one.reads ? std::uint8_t{1} : std::uint8_t{0},
+                                 one.writes ? std::uint8_t{1} : std::uint8_t{0}});
     p.demand_identifier = static_cast<std::uint8_t>(device.demand_identifier);
     p.max_parameters = static_cast<std::size_t>(device.most_parameters);
     p.max_words = static_cast<std::size_t>(device.most_words);
     p.tries_outputs = device.tries_outputs;
+    p.waits_for_drive = device.waits_for_drive;
     p.prm = {.tags_at = static_cast<std::size_t>(device.tags_at),
              .min_length = static_cast<std::size_t>(device.shortest_prm),
              .max_length = static_cast<std::size_t>(device.longest_prm),

@@ -296,8 +296,9 @@ void Generator::give_inputs(const model::Slave& slave, Step& step)
 {
     step.kind = Kind::inputs;
     step.numbers[0] = one_in(8) ? static_cast<int>(below(4)) : 0;
-    step.numbers[1] = one_in(3) ? 0 : 1;
+    step.numbers[1] = (one_in(3) ? 0 : 1) + (one_in(3) ? 2 : 0);
     step.numbers[2] = slave.device.tries_outputs && one_in(3) ? 1 : 0;
+    if (slave.device.waits_for_drive && one_in(4)) step.numbers[2] += 2;
     for (std::size_t i = 0; i < slave.parameters.size(); ++i) {
         step.push(octet());
         step.push(octet());

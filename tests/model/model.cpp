@@ -26,7 +26,10 @@ void Slave::stop()
 void Slave::leave()
 {
     if (state == data_exch) left.push_back(layout);
-    if (state == data_exch && demand && standing.kind != Order::cancel) order(Order::cancel, 0, 0);
+    if (state == data_exch && demand && (standing.kind != Order::cancel || !orders.empty())) {
+        orders.clear(); // what nobody fetched is not done behind the safe state
+        order(Order::cancel, 0, 0);
+    }
     state = wait_prm;
     owner = kNobody;
     watchdog_on = false;
@@ -35,13 +38,14 @@ void Slave::leave()
     user_prm.clear();
     tags.clear();
     received = active = inputs = frozen = Image{};
-    has_outputs = may_write = false;
+    has_outputs = may_write = in_force = false;
+    outputs_at = -1;
     layout = 0;
     parameters.clear();
     demand = false;
     for (int i = 0; i < 4; ++i) demand_reply[i] = wanted[i] = 0;
     stat_diag = false;
-    scale_missing = false;
+    drive_found = {};
     pending = false;
 }
 
@@ -51,9 +55,10 @@ void Slave::tick(long long now)
 {
     if (state == power_on) return;
     if (watchdog_on && now >= owner_heard + watchdog) leave();
-    if (stat_diag && !waited_long_enough && now >= began + 1'000'000'000) {
+    if (outputs_at >= 0 && now > outputs_at + 2'000'000'000) outputs_at = -1;
+    if (stat_diag && !device.waits_for_drive && !waited_long_enough && now >= began + 1'000'000'000) {
         waited_long_enough = true;
-        if (!scale_missing) end_stat_diag();
+        if (!drive_found.holds && !drive_answers) end_stat_diag();
     }
 }
 
@@ -61,8 +66,10 @@ long long Slave::deadline() const
 {
     long long next = -1;
     if (watchdog_on) next = owner_heard + watchdog;
-    if (stat_diag && !waited_long_enough && (next < 0 || began + 1'000'000'000 < next))
+    if (stat_diag && !device.waits_for_drive && !waited_long_enough &&
+        (next < 0 || began + 1'000'000'000 < next))
         next = began + 1'000'000'000;
+    if (outputs_at >= 0 && (next < 0 || outputs_at + 2'000'000'001 < next)) next = outputs_at + 2'000'000'001;
     return next;
 }
 
@@ -323,27 +330,28 @@ bool Slave::cfg_is_good(const Request& asked, std::vector<Parameter>& found, boo
     return true;
 }
 
-void Slave::begin_exchange(const Request& asked, const std::vector<Parameter>& found, bool with_demand)
+void Slave::begin_exchange(const Request& asked, const std::vector<Parameter>& chosen, bool with_demand)
 {
     state = data_exch;
     layout = ++layouts;
-    parameters = found;
+    parameters = chosen;
     demand = with_demand;
     in_length = out_length = with_demand ? 8 : 0;
-    bool something_to_try = device.tries_outputs && !found.empty();
-    for (const Parameter& one : found) {
+    bool something_to_try = device.tries_outputs && !chosen.empty();
+    for (const Parameter& one : chosen) {
         if (one.reads) in_length += 2;
         if (one.writes) out_length += 2;
         if (one.reads) something_to_try = true;
     }
     cfg_fault = false;
     received = active = inputs = frozen = Image{};
-    has_outputs = may_write = false;
-    scale_missing = false;
+    has_outputs = may_write = in_force = false;
+    outputs_at = -1;
+    drive_found = {};
     for (int i = 0; i < 4; ++i) demand_reply[i] = wanted[i] = 0;
     standing = Order{};
     stat_diag = something_to_try;
-    waited_long_enough = false;
+    waited_long_enough = has_begun = false;
     began = asked.at;
     if (stat_diag) pending = true;
 }

@@ -48,6 +48,7 @@ struct Device {
     bool freeze = false;
     bool fail_safe = false;
     bool tries_outputs = false;
+    bool waits_for_drive = false;
     int longest_diag = 6;
     int own_diag_octets = 0;
     int max_tsdr = 60;
@@ -103,7 +104,14 @@ struct Slave {
     void tick(long long now);
     long long deadline() const; // -1: none
 
-    void set_inputs(unsigned of_layout, bool every_one_tried, bool scale_missing, const int* words);
+    /// What the drive side has found out about the parameters.
+    struct Found {
+        bool every_one_tried = false;
+        bool answers = false; ///< the drive, or it was not found silent yet
+        bool holds = false;   ///< the start
+        bool gone = false;    ///< the drive
+    };
+    void set_inputs(unsigned of_layout, Found what, const int* words);
     void set_answer(unsigned number, Access how, int value);
     void set_ext_diag(const Octets& blocks, bool fault);
     void diagnosis(Octets& into) const;
@@ -126,6 +134,8 @@ struct Slave {
     bool prm_fault = false, not_supported = false, cfg_fault = false;
     bool stat_diag = false, pending = false;
     bool waited_long_enough = false;
+    bool has_begun = false;     ///< to exchange: nothing holds the start any more
+    bool drive_answers = false; ///< by what was said last, whatever the layout
     long long began = 0;
     Octets user_prm;
     std::vector<int> tags;
@@ -136,7 +146,10 @@ struct Slave {
     std::vector<Parameter> parameters;
     int in_length = 0, out_length = 0;
     Image received, active, inputs, frozen;
-    bool scale_missing = false;
+    Found drive_found{};
+    bool in_force = false; ///< outputs of this layout are
+    long long outputs_at =
+        -1; ///< of the last Data_Exchange while the start may be held; -1: none, or too old
     bool sync = false, freeze = false;
     bool has_outputs = false; // of the master, in this layout
     bool may_write = false;

@@ -38,6 +38,8 @@ void Slave::data_exchange(const Request& asked)
         sd1(asked, 0x03);
         return;
     }
+    const bool is_right = asked.length == out_length || (asked.length == 0 && device.fail_safe);
+    if (is_right && finding_scales()) outputs_at = asked.at;
     if (asked.length == out_length) {
         take_outputs(asked);
     } else if (asked.length == 0 && device.fail_safe) {
@@ -82,7 +84,8 @@ void Slave::take_outputs(const Request& asked)
 ///
 void Slave::outputs_are_in_force()
 {
-    if (finding_scales() || !has_outputs) return;
+    in_force = in_force || has_outputs;
+    if (finding_scales() || !in_force) return;
     may_write = true;
     look_at_registers();
 }
@@ -110,18 +113,31 @@ void Slave::append_inputs(Octets& into) const
         if (parameters[i].reads) push_word(into, shown.words[i]);
 }
 
-void Slave::set_inputs(unsigned of_layout, bool every_one_tried, bool missing, const int* words)
+void Slave::set_inputs(unsigned of_layout, Found what, const int* words)
 {
+    drive_answers = what.answers;
     if (layout == 0 || of_layout != layout) return;
     for (std::size_t i = 0; i < parameters.size(); ++i) inputs.words[i] = words[i];
-    scale_missing = missing;
-    if (stat_diag && !missing && (every_one_tried || waited_long_enough)) end_stat_diag();
+    drive_found = what;
+    if (what.gone) { // A4
+        if (stat_diag) return;
+        has_begun = true;
+        stat_diag = pending = true;
+        freeze = false;
+        return;
+    }
+    const bool time_is_over = waited_long_enough && !device.waits_for_drive;
+    const bool waits = !what.every_one_tried && (what.answers || !time_is_over);
+    if (stat_diag && (!what.holds || has_begun) && !waits) end_stat_diag();
 }
 
 void Slave::end_stat_diag()
 {
     stat_diag = false;
+    has_begun = true;
     pending = true;
+    if (outputs_at >= 0 && in_force) outputs_are_in_force();
+    outputs_at = -1;
 }
 
 // ----- 4.10
@@ -232,6 +248,8 @@ void Slave::look_at_registers()
 void Slave::order(Order::Kind kind, int tag, int value)
 {
     standing = Order{kind, tag, value, ++orders_given, layout};
+    // One that waits still: only the newest can be answered, but a write is carried out.
+    if (!orders.empty() && orders.back().kind != Order::write) orders.pop_back();
     orders.push_back(standing);
 }
 

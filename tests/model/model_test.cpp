@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Random steps for the real slave and for the model. MODEL_STEPS and MODEL_SEED choose how many, and from
-/// which seed on; tools/check-model sets them.
+/// which seed on; tools/run model sets them.
 #include "devices.hpp"
 #include "generator.hpp"
 #include "pair.hpp"
@@ -80,6 +80,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Property{"Dpv1Status", 2, [](model::Device& d) { d.dpv1_status = false; }},
                     Property{"FailSafe", 4, [](model::Device& d) { d.fail_safe = false; }},
                     Property{"Scales", 5, [](model::Device& d) { d.tries_outputs = false; }},
+                    Property{"WaitsForDrive", 8, [](model::Device& d) { d.waits_for_drive = false; }},
                     Property{"ErrorBase", 5, [](model::Device& d) { d.error_base = 0; }},
                     Property{"ExtendedReply", 6, [](model::Device& d) { d.replies_as_example = false; }}),
     [](const auto& one) { return std::string{one.param.name}; });

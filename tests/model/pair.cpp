@@ -26,10 +26,12 @@ Access access_of(AccessError error)
         case AccessError::not_stopped:
         case AccessError::not_config_mode: return Access::read_only;
         case AccessError::out_of_range:
+        case AccessError::does_not_fit:
         case AccessError::value_not_encoded: return Access::out_of_range;
         case AccessError::no_answer:
         case AccessError::deferred:
-        case AccessError::not_understood: break;
+        case AccessError::not_understood:
+        case AccessError::not_known: break;
     }
     return Access::no_code;
 }
@@ -117,15 +119,20 @@ void Pair::give_inputs(const Step& step)
 {
     const unsigned layout = model_.layouts - std::min(model_.layouts, static_cast<unsigned>(step.numbers[0]));
     InputImage image{.generation = layout,
-                     .every_input_tried = step.numbers[1] != 0,
-                     .scale_missing = step.numbers[2] != 0};
+                     .every_input_tried = (step.numbers[1] & 1) != 0,
+                     .drive_answers = (step.numbers[1] & 2) != 0,
+                     .hold = (step.numbers[2] & 1) != 0 ? StartHold::denied : StartHold::none,
+                     .drive_gone = (step.numbers[2] & 2) != 0};
     int words[117] = {};
     for (std::size_t i = 0; i + 1 < step.length; i += 2) {
         words[i / 2] = step.octets[i] * 256 + step.octets[i + 1];
         if (i / 2 < image.words.size()) image.words[i / 2] = static_cast<std::uint16_t>(words[i / 2]);
     }
     slave_.set_inputs(image);
-    model_.set_inputs(layout, step.numbers[1] != 0, step.numbers[2] != 0, words);
+    model_.set_inputs(
+        layout,
+        {image.every_input_tried, image.drive_answers, image.hold != StartHold::none, image.drive_gone},
+        words);
 }
 
 void Pair::give_answer(const Step& step)

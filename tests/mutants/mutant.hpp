@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Stands at the top of each source of the copy in which every mutant is (tools/mutants): which of them is in
-/// force. DPSLAVE_MUTANT=17 in the environment puts one in force. With DPSLAVE_MUTANTS_SERVE the program runs
-/// its tests again and again, each time in a process of its own: to start it anew would take longer than most
-/// tests.
+/// Stands at the top of each source of the copy in which every mutant is (tools/run mutants): which of them
+/// is in force. DPSLAVE_MUTANT=17 in the environment puts one in force. With DPSLAVE_MUTANTS_SERVE the
+/// program runs its tests again and again, each time in a process of its own: to start it anew would take
+/// longer than most tests.
 #pragma once
 
 #include <fcntl.h>

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Builds the copy with all mutants, runs the tests that come to each, and judges what is left alive (tools/mutants)."""
+"""Builds the copy with all mutants, runs the tests that come to each, and judges what is left alive (tools/run mutants)."""
 import argparse
 import collections
 import concurrent.futures
@@ -162,7 +162,7 @@ def make_copy(found, jobs):
         if len(left_out) + len(kept) == before:
             for one in errors[:20]:
                 print(*one)
-            sys.exit("tools/mutants: the copy does not compile")
+            sys.exit("tools/run mutants: the copy does not compile")
     with open(state, "wb") as file:
         pickle.dump((wanted, left_out, kept), file)
     return left_out
@@ -205,7 +205,7 @@ def build(jobs):
                          "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG", "-DCMAKE_CXX_FLAGS=-w -Wno-narrowing -D_GLIBCXX_ASSERTIONS"],
                         ["cmake", "--build", BUILD, "-j", str(jobs), "--target", *PROGRAMS]):
             if subprocess.run(command, env=env, stdout=log, stderr=subprocess.STDOUT).returncode != 0:
-                sys.exit(f"tools/mutants: the copy was not built. See {WORK}/build.log")
+                sys.exit(f"tools/run mutants: the copy was not built. See {WORK}/build.log")
 
 # --- running -----------------------------------------------------------------------------------------------------
 
@@ -228,7 +228,7 @@ class Server:
                 return "time" if -status in (signal.SIGXCPU, signal.SIGALRM, signal.SIGKILL) else status, failed, used / 1e6
             if line.startswith("[  FAILED  ] ") and not failed:
                 failed = line.split()[3].rstrip(",")
-        sys.exit("tools/mutants: a test program ended")
+        sys.exit("tools/run mutants: a test program ended")
 
 
 thread = threading.local()
@@ -260,7 +260,7 @@ def measure(program, test):
     status, _, _ = server(program).run(0, [test], 120, file)
     used = time.monotonic() - begin
     if status != 0:
-        sys.exit(f"tools/mutants: {program} fails without any mutant: {test}")
+        sys.exit(f"tools/run mutants: {program} fails without any mutant: {test}")
     reached = frozenset(map(int, read(file).split()))
     os.remove(file)
     return test, used, reached
@@ -345,7 +345,7 @@ class Results:
         csv.writer(self.file).writerow([key, self.sources[key.split(":")[0]], verdict, by])
 
 def main():
-    parser = argparse.ArgumentParser(prog="tools/mutants")
+    parser = argparse.ArgumentParser(prog="tools/run mutants")
     parser.add_argument("--file", action="append", help="only mutants of this source; may stand several times")
     parser.add_argument("--operator", action="append", help="only mutants of this operator; may stand several times")
     parser.add_argument("--list", action="store_true", help="only say what there is")

@@ -14,7 +14,7 @@ dpctl() {
     echo "$*" >"$asked"
     case "$*" in
         *"--json status") printf '{\n  "stations": [\n    {"name": "unwinder"},\n    {"name": "rewinder"}\n  ]\n}\n' ;;
-        *"--json read --list"*) printf '{\n  "station": "unwinder",\n  "tags": [\n    {\n      "name": "SPEED FEEDBACK",\n      "tag": 7\n    },\n    {"name": "TORQUE", "tag": 9}\n  ]\n}\n' ;;
+        *"--json read --names"*) printf '{\n  "station": "unwinder",\n  "tags": [\n    {\n      "name": "SPEED FEEDBACK",\n      "tag": 7\n    },\n    {"name": "TORQUE", "tag": 9}\n  ]\n}\n' ;;
         *) return 3 ;;
     esac
 }
@@ -34,7 +34,7 @@ expect 'SPEED\ FEEDBACK|TORQUE' read ''
 expect 'SPEED\ FEEDBACK' read SP
 expect TORQUE read 7 TO
 expect 'SPEED\ FEEDBACK|TORQUE' read --every 1s --station rewinder --socket /run/s ''
-grep -qx -e '--socket /run/s --timeout 1 --json read --list --station rewinder' "$asked" || { echo "asked: $(cat "$asked")" && exit 1; }
+grep -qx -e '--socket /run/s --timeout 1 --json read --names --station rewinder' "$asked" || { echo "asked: $(cat "$asked")" && exit 1; }
 expect 'unwinder|rewinder' read --station ''
 expect rewinder events re
 expect 'unwinder|rewinder' top --every 1s ''

@@ -24,8 +24,8 @@ offered() {
     "_$name"
     printf '%s\n' "${COMPREPLY[@]}" | sort -u
 }
-options_of() { "$program" "$@" --help | grep -oE '^ +(-h,)?--[a-z][a-z0-9-]*' | grep -oE -e '--[a-z0-9-]+' | sort -u; }
-commands_of() { "$program" "$@" --help | awk '/^(Subcommands|Look|Watch|Operate|Offline|Version):/ { on = 1; next } /^[^ ]|^$/ { on = 0 } on && /^  [a-z]/ { print $1 }'; }
+options_of() { "$program" "$@" --help | grep -oE '^  (-[a-z], )?--[a-z][a-z0-9-]*' | grep -oE -e '--[a-z0-9-]+' | sort -u; }
+commands_of() { "$program" "$@" --help | awk '/^(Commands|Look|Watch|Operate|Offline|Version):/ { on = 1; next } /^[^ ]|^$/ { on = 0 } on && /^  [a-z]/ { print $1 }'; }
 
 # compare MEANT IS WORDS...: two lists, one a line.
 compare() {

@@ -8,7 +8,7 @@ trap 'rm -rf "$work"' EXIT
 value() { sed -n "s/^$1=//p" "$unit"; }
 unit=$1
 command=$(value ExecStart)
-file=${command##*--write }
+file=${command##*--output }
 [ "$(value ReadWritePaths)" = "$(dirname "$file")" ] || { echo "may write $(value ReadWritePaths)" && exit 1; }
 [ "$(value ProtectSystem)" = strict ] || { echo "may write more" && exit 1; }
 case $file in

@@ -165,16 +165,16 @@ class Lists(screen.PageTest):
         self.assertEqual((self.tags("Inputs"), self.tags("Outputs")), ([1], [2]))
 
     def test_reorders_and_moves_with_the_keyboard(self):
-        self.fill(1, 2, 5)
+        self.fill(1, 2, 6)
         self.tab_to("listbox", "Inputs")
         self.keys("End", "Alt+Up", "Alt+Up")
-        self.assertEqual(self.tags("Inputs"), [5, 1, 2])
+        self.assertEqual(self.tags("Inputs"), [6, 1, 2])
         self.keys("Alt+Down")
-        self.assertEqual(self.tags("Inputs"), [1, 5, 2])
+        self.assertEqual(self.tags("Inputs"), [1, 6, 2])
         self.keys("Alt+Right")
-        self.assertEqual((self.tags("Inputs"), self.tags("Outputs")), ([1, 2], [5]))
+        self.assertEqual((self.tags("Inputs"), self.tags("Outputs")), ([1, 2], [6]))
         self.keys("Alt+Left")
-        self.assertEqual(sorted(self.tags("Inputs")), [1, 2, 5])
+        self.assertEqual(sorted(self.tags("Inputs")), [1, 2, 6])
 
     def test_undoes_and_redoes_each_step(self):
         self.fill(1, 2, 5)

@@ -168,7 +168,7 @@ class Start(screen.PageTest):
         self.keys("Control+Shift+s")
         self.js("document.querySelector('dialog[open] input[type=text]').focus()")
         self.assertEqual(self.saved(lambda: self.keys("Enter"))[1],
-                         screen.dpctl("gsd", "make", "--profile", "2408f", "--ident", "0x1652", "--list", "none", "--demand"))
+                         screen.dpctl("gsd", "make", "--profile", "2408f", "--ident", "0x1652", "--order", "none", "--demand"))
 
     def test_opens_a_mapping_that_leaves_the_list_to_the_profile(self):
         standard = self.tags("Inputs"), self.tags("Outputs")

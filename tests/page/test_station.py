@@ -72,4 +72,7 @@ class Station(PageTest):
         self.new_file("584sv", None)
         self.fill("winder", "5", "00")
         self.keys("Enter")
-        self.assertIn("Fill in the Ident_Number", self.text("dialog"))
+        self.assertIn("Write the Ident_Number of your device", self.text("dialog"))
+        self.keys("=1652")
+        _, block = self.saved(lambda: self.keys("Enter"))
+        self.assertIn("ident = 0x1652", block.decode())

@@ -46,17 +46,19 @@ class Third(screen.PageTest):
         self.assertEqual(sorted(self.tags(THIRD)), [7, 8, 9, 10])
         self.assertEqual(self.all_tags()[:2], [[], []])
 
-    def test_moves_to_it_and_from_it_with_buttons_and_keys(self):
+    def test_moves_to_it_and_from_it_with_the_menu_and_keys(self):
         self.choose_parameter(7)
         self.click("button", "Add to inputs")
-        self.click("button", "To read and write from inputs")
+        self.click("button", "More in inputs")
+        self.click("menuitem", "Move to read and write")
         self.assertEqual(self.all_tags(), [[], [], [7]])
         self.focus("listbox", THIRD)
         self.keys("Alt+Left")
         self.assertEqual(self.all_tags(), [[], [7], []])
         self.keys("Alt+Right")
         self.assertEqual(self.all_tags(), [[], [], [7]])
-        self.click("button", "To inputs from read and write")
+        self.click("button", "More in read and write")
+        self.click("menuitem", "Move to inputs")
         self.assertEqual(self.all_tags(), [[7], [], []])
 
     def test_has_one_parameter_of_it_in_both_directions(self):

@@ -8,6 +8,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <set>
@@ -261,6 +262,19 @@ TEST(Chapter8Table, marks_the_instrument_mode_read_only_and_says_why)
 {
     EXPECT_EQ(tag(199).access, Access::read_only);
     EXPECT_THAT(tag(199).notes, HasSubstr("never write other values"));
+}
+
+TEST(Chapter8Table, has_an_access_only_where_a_source_says_it_and_names_the_place_in_the_handbook)
+{
+    for (int setpoint = 167; setpoint <= 177; ++setpoint)
+        EXPECT_THAT(tag(setpoint).notes, HasSubstr("access: the remark on tag 5 in chapter 8")) << setpoint;
+    for (const int term : {48, 49, 51})
+        EXPECT_THAT(tag(term).notes, HasSubstr("access: chapter 7 of the handbook")) << term;
+
+    const auto& all = table().all();
+    EXPECT_EQ(
+        std::count_if(all.begin(), all.end(), [](const Tag& each) { return each.access == Access::unknown; }),
+        421);
 }
 
 TEST(Chapter8Table, names_the_words_of_the_standard_mapping)

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A folder of its own for one test, gone when the test ends; and the sentence of a fault in one line.
+/// Files of a test, and the sentence of a fault in one line.
 #pragma once
 
-#include "dpslave/toml/fault.hpp"
+#include "support/folder.hpp"
 
-#include <gtest/gtest.h>
-#include <unistd.h>
+#include "dpslave/input/fault.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -16,36 +15,6 @@
 
 namespace dpslave::test {
 
-class Folder {
-public:
-    Folder()
-    {
-        std::string name = (std::filesystem::path{testing::TempDir()} / "dpslave-XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error{"no temporary folder"};
-        path_ = name;
-    }
-    ~Folder()
-    {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-
-    const std::filesystem::path& path() const { return path_; }
-
-    std::filesystem::path write(const std::string& name, std::string_view content) const
-    {
-        std::filesystem::path file = path_ / name;
-        std::filesystem::create_directories(file.parent_path());
-        std::ofstream{file, std::ios::binary} << content;
-        return file;
-    }
-
-private:
-    std::filesystem::path path_;
-};
-
 inline std::string content_of(const std::filesystem::path& file)
 {
     std::ostringstream out;
@@ -54,15 +23,15 @@ inline std::string content_of(const std::filesystem::path& file)
 }
 
 /// "3:7: what": the fault without its file.
-inline std::string short_form(const toml::Fault& fault)
+inline std::string short_form(const input::Fault& fault)
 {
     return std::to_string(fault.line) + ":" + std::to_string(fault.column) + ": " + fault.what;
 }
 
-inline std::vector<std::string> short_forms(const toml::Faults& faults)
+inline std::vector<std::string> short_forms(const input::Faults& faults)
 {
     std::vector<std::string> out;
-    for (const toml::Fault& fault : faults) out.push_back(short_form(fault));
+    for (const input::Fault& fault : faults) out.push_back(short_form(fault));
     return out;
 }
 

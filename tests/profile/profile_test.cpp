@@ -9,6 +9,7 @@
 namespace dpslave {
 namespace {
 
+using input::Faults;
 using profile::load_profile;
 using profile::Profile;
 using test::Folder;
@@ -19,7 +20,6 @@ using testing::ElementsAre;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
-using toml::Faults;
 
 const std::filesystem::path kShipped = std::filesystem::path{DPSLAVE_SOURCE_DIR} / "config/profiles";
 
@@ -130,8 +130,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadChange{"manual     = \"HA389815\"", "", "'manual' is missing", 0},
         BadChange{"protocols = [\"ei-ascii\"]", "protocols = [\"ei-bisynch\"]", "\"modbus-rtu\"", 13},
         BadChange{"protocols = [\"ei-ascii\"]", "protocols = []", "one at least", 13},
-        BadChange{"mnemonic_rule = \"590plus\"", "mnemonic_rule = \"590\"", "\"590plus\", \"ac\" or \"none\"",
-                  17},
+        BadChange{"mnemonic_rule = \"590plus\"", "mnemonic_rule = \"590\"",
+                  "\"590plus\", \"ac\", \"pno\" or \"none\"", 17},
         BadChange{"tag_table = \"empty.csv\"", "tag_table = \"../x.csv\"", "without a folder", 13},
         BadChange{"unlisted_tags = \"ask\"", "unlisted_tags = \"refused\"", "Did you mean \"refuse\"?", 17},
         BadChange{"output_loss = \"zero\"", "output_loss = true", "\"zero\" or \"hold\"", 15},
@@ -177,6 +177,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadChange{"run    = \"272.2\"", "run = \"status.2\"", "'run' is not a bit of a tag", 7, "690plus"},
         BadChange{"run    = \"272.2\"", "running = \"272.2\"", "unknown key 'running' in [tec]", 1,
                   "690plus"},
+        BadChange{"mnemonic_rule = \"ac\"", "mnemonic_rule = \"none\"",
+                  "'mnemonic_source' has a meaning only where mnemonic_rule is not \"none\"", 0, "690plus"},
         BadChange{"option_software = \"Version 3.x\"", "option_software = 3", "a text in quotes", 19,
                   "690plus"},
         BadChange{"max_length = 10", "max_length = 9", "that takes 10 octets", 14, "690plus"},

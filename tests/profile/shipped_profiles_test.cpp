@@ -38,7 +38,7 @@ std::string identifiers_of(const Profile& profile)
     std::string out;
     for (const dp::Identifier& identifier : profile.personality.identifiers) {
         std::array<char, 8> hex{};
-        std::snprintf(hex.data(), hex.size(), "%02X", identifier.octet);
+        std::snprintf(hex.data(), hex.size(), "%02X", identifier.form[0]);
         out += (out.empty() ? "" : " ") + std::string{hex.data()} + (identifier.reads ? "r" : "") +
                (identifier.writes ? "w" : "");
     }
@@ -74,6 +74,16 @@ TEST(ShippedProfiles, name_an_ident_only_where_a_manual_prints_one)
         if (!profile.ident) {
             EXPECT_THAT(test::content_of(kProfiles / (name + ".toml")), HasSubstr("(Ident_Number")) << name;
         }
+    }
+}
+
+TEST(ShippedProfiles, say_where_their_mnemonic_rule_comes_from_and_where_it_is_assumed)
+{
+    for (const std::string& name : io::names_in(kProfiles, ".toml")) {
+        const Profile profile = load_shipped(name);
+        const bool is_board = name == "584s" || name == "590" || name == "620";
+        EXPECT_EQ(profile.mnemonics_assumed, is_board) << name << ": X-52";
+        EXPECT_EQ(profile.mnemonic_source.empty(), profile.mnemonics == drive::MnemonicRule::none) << name;
     }
 }
 

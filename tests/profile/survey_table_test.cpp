@@ -24,13 +24,13 @@ SurveyedTable merged(std::string_view table, const Survey& seen)
 {
     auto result = merge_survey(table, "t.csv", seen);
     if (!result) {
-        for (const toml::Fault& fault : result.error()) ADD_FAILURE() << to_string(fault);
+        for (const input::Fault& fault : result.error()) ADD_FAILURE() << to_string(fault);
         return {};
     }
     // Whatever a survey writes, the daemon must be able to read.
     const auto tags = read_tags(result->text, "t.csv");
     if (!tags)
-        for (const toml::Fault& fault : tags.error()) ADD_FAILURE() << to_string(fault);
+        for (const input::Fault& fault : tags.error()) ADD_FAILURE() << to_string(fault);
     return *std::move(result);
 }
 
@@ -48,6 +48,30 @@ TEST(SurveyTable, a_number_becomes_a_row_with_the_decimals_that_were_seen)
 {
     EXPECT_EQ(row_of(saw({"12.34", "-0.5"}, "bj")), "55,,INT,2,,,,bj,,,,no,-0.5,12.34\n");
     EXPECT_EQ(row_of(saw({"30."}, "bj")), "55,,INT,0,,,,bj,,,,no,30,30\n");
+}
+
+TEST(SurveyTable, a_confirmed_row_gets_the_mnemonic_that_it_was_asked_by_where_that_is_wanted)
+{
+    const std::string_view table =
+        "tag,type,decimals,mnemonic,confirmed\n"
+        "55,INT,2,,yes\n56,INT,1,,yes\n57,INT,2,xy,yes\n58,INT,2,,yes\n59,INT,2,,yes\n";
+    Sighting refused;
+    refused.mnemonic = "3A";
+    refused.add(test::denied("invalid tag"));
+    const Survey seen{{55, saw({"12.5"}, "37")},
+                      {56, saw({"0.25"}, "38")}, // against the row: the rule may be wrong
+                      {57, saw({"1."}, "39")},
+                      {58, refused},
+                      {59, saw({"1."}, "xy")}};
+
+    const auto filled = merge_survey(table, "t.csv", seen, MnemonicCells::fill);
+    ASSERT_TRUE(filled);
+    EXPECT_EQ(filled->text,
+              "tag,type,decimals,mnemonic,confirmed\n"
+              "55,INT,2,37,yes\n56,INT,1,,yes\n57,INT,2,xy,yes\n58,INT,2,,yes\n59,INT,2,,yes\n");
+    EXPECT_THAT(filled->contradictions,
+                testing::Contains(HasSubstr("its mnemonic by the rule is that of tag 57")));
+    EXPECT_EQ(merged(table, seen).text, table) << "otherwise it stays as it is";
 }
 
 TEST(SurveyTable, a_number_above_32767_counts_is_unsigned)

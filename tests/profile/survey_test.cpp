@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a survey sees in the answers of a drive, whom it asks next, and how long it says that it takes.
+// Tests what a survey sees in the answers of a drive, whom it asks next, and how long it says that it takes.
 #include "sightings.hpp"
 
 #include "dpslave/profile/survey.hpp"
@@ -277,38 +277,11 @@ TEST(SurveyPatience, with_a_time_of_its_own_waits_for_another_survey_half_a_minu
 
 // ---- texts of the options
 
-TEST(SurveyTags, are_written_as_a_list_of_numbers_and_spans)
-{
-    const auto spans = parse_tag_spans("1000-1127,1-600,7,601,65535");
-    ASSERT_TRUE(spans);
-    EXPECT_THAT(*spans, ElementsAre(TagSpan{1, 601}, TagSpan{1000, 1127}, TagSpan{65535, 65535}));
-}
-
-TEST(SurveyTags, what_is_no_such_list_is_refused)
-{
-    for (const char* const text :
-         {"", "1,", ",1", "1-", "-5", "5-1", "65536", "0x37", "1 - 5", "1;5", "1--5"})
-        EXPECT_FALSE(parse_tag_spans(text)) << text;
-    EXPECT_THAT(parse_tag_spans("5-1").error(), HasSubstr("swap them"));
-    EXPECT_THAT(parse_tag_spans("5,").error(), HasSubstr("\"5,\": write tags")) << "5 alone is right";
-    EXPECT_THAT(parse_tag_spans("1, 3").error(), HasSubstr("without blanks"));
-}
-
 TEST(SurveyTags, are_printed_as_spans)
 {
     const std::vector<std::uint16_t> tags{1, 2, 3, 7, 9, 10, 65535};
     EXPECT_EQ(spans_text(tags), "1-3, 7, 9, 10, 65535");
     EXPECT_EQ(spans_text({}), "");
-}
-
-TEST(SurveyDuration, is_seconds_minutes_or_hours)
-{
-    EXPECT_THAT(parse_duration("90s"), Optional(seconds{90}));
-    EXPECT_THAT(parse_duration("90"), Optional(seconds{90}));
-    EXPECT_THAT(parse_duration("10m"), Optional(seconds{600}));
-    EXPECT_THAT(parse_duration("2h"), Optional(seconds{7200}));
-    for (const char* const text : {"", "m", "0", "0m", "-5m", "5 m", "1.5h", "10d", "9999999999h"})
-        EXPECT_EQ(parse_duration(text), std::nullopt) << text;
 }
 
 } // namespace

@@ -13,6 +13,7 @@ namespace {
 using drive::Access;
 using drive::Tag;
 using drive::TagType;
+using input::Faults;
 using profile::load_tags;
 using test::Folder;
 using testing::AllOf;
@@ -20,7 +21,6 @@ using testing::ElementsAre;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
-using toml::Faults;
 
 class TagTable : public testing::Test {
 protected:
@@ -55,9 +55,9 @@ TEST_F(TagTable, with_thousands_of_faults_reports_the_first_ones_and_that_there_
 
     const Faults faults = bad(content);
 
-    ASSERT_EQ(faults.size(), toml::kMaxFaults + 1);
+    ASSERT_EQ(faults.size(), input::kMaxFaults + 1);
     EXPECT_EQ(faults[0].line, 2u);
-    EXPECT_EQ(faults[toml::kMaxFaults - 1].line, toml::kMaxFaults + 1);
+    EXPECT_EQ(faults[input::kMaxFaults - 1].line, input::kMaxFaults + 1);
     EXPECT_THAT(faults.back().what, HasSubstr("more faults"));
 }
 
@@ -66,7 +66,7 @@ TEST_F(TagTable, with_thousands_of_rows_of_wrong_form_reports_the_first_ones_and
     std::string content = "tag,name\n";
     for (int i = 0; i < 12'000; ++i) content += std::to_string(i) + ",a\x07\n";
 
-    EXPECT_EQ(bad(content).size(), toml::kMaxFaults + 1);
+    EXPECT_EQ(bad(content).size(), input::kMaxFaults + 1);
 }
 
 TEST_F(TagTable, whose_first_line_is_nothing_but_commas_is_refused_with_what_to_do)
@@ -123,6 +123,15 @@ TEST_F(TagTable, recognises_which_numbers_have_no_scale)
     EXPECT_FALSE(scaled(5)) << "a survey made the row";
     EXPECT_FALSE(scaled(6));
     EXPECT_FALSE(scaled(7)) << "until display_decimals says what the display has";
+}
+
+TEST_F(TagTable, says_of_which_tags_each_write_counts)
+{
+    const auto tags = good("tag,once\n1,yes\n2,no\n3,\n");
+
+    EXPECT_TRUE(tags.find(1)->once);
+    EXPECT_FALSE(tags.find(2)->once);
+    EXPECT_FALSE(tags.find(3)->once);
 }
 
 TEST_F(TagTable, takes_a_mnemonic_that_only_looks_like_the_reserved_one)
@@ -366,6 +375,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadTable{"tag,decimal places\n1,2\n", "1:5: ", "nearly \"decimals\""},
         BadTable{"tag,regsiter\n1,2\n", "1:5: ", "nearly \"register\""},
         BadTable{"tag,confirmed\n1,perhaps\n", "2:3: ", "write yes, or no"},
+        BadTable{"tag,once\n1,perhaps\n", "2:3: ", "write yes for a parameter of which each write counts"},
+        BadTable{"tag,name,type,once\n1,a,INT,\n1,b,,yes\n", "3:6: ", "another once on line 2"},
+        BadTable{"tag,Once\n1,yes\n", "1:5: ", "nearly \"once\""},
         BadTable{"tag,confirmed\n1,yes\n1,no\n", "3:3: ", "another confirmed on line 2"},
         BadTable{"tag,mnemonic\n1,EE\n", "2:3: ", "the drive's last error"},
         BadTable{"tag,mnemonic\n1,aa\n2,bb\n3,aa\n", "4:0: ", "is that of tag 1 on line 2"},
@@ -459,9 +471,9 @@ TEST_F(TagTable, a_file_that_is_not_there_or_no_file_is_a_fault_of_the_file)
 
 TEST(FaultText, is_file_line_column_and_sentence_as_compilers_have_it)
 {
-    EXPECT_EQ(to_string(toml::Fault{"a.toml", 3, 7, "wrong."}), "a.toml:3:7: wrong.");
-    EXPECT_EQ(to_string(toml::Fault{"a.toml", 3, 0, "wrong."}), "a.toml:3: wrong.");
-    EXPECT_EQ(to_string(toml::Fault{"a.toml", 0, 0, "wrong."}), "a.toml: wrong.");
+    EXPECT_EQ(to_string(input::Fault{"a.toml", 3, 7, "wrong."}), "a.toml:3:7: wrong.");
+    EXPECT_EQ(to_string(input::Fault{"a.toml", 3, 0, "wrong."}), "a.toml:3: wrong.");
+    EXPECT_EQ(to_string(input::Fault{"a.toml", 0, 0, "wrong."}), "a.toml: wrong.");
 }
 
 } // namespace

@@ -5,7 +5,7 @@
 # It fails too if the configurator throws or catches: it is also compiled without exceptions.
 set -eu
 cd "$1"
-own=$(grep -nHE '"dpslave/(gsd|profile)/' src/dpctl/gsd/* | grep -v '"dpslave/gsd/type_file.hpp"' || true)
+own=$(grep -nHE '"dpslave/(gsd|profile)/' src/dpctl/gsd/* src/dpctl/commands/gsd/* | grep -v '"dpslave/gsd/type_file.hpp"' || true)
 if [ -n "$own" ]; then
     printf 'dpctl gsd opens more than the configurator:\n%s\n' "$own" >&2
     exit 1

@@ -5,7 +5,7 @@
 # survey_text.cpp: only dpctl survey reads it. gsd_command.cpp writes the command of a mapping into the GSD.
 set -eu
 cd "$1"
-found=$(find src/configurator src/gsd src/profile src/toml include/dpslave/configurator include/dpslave/gsd include/dpslave/profile include/dpslave/toml \
+found=$(find src/configurator src/gsd src/profile src/input include/dpslave/configurator include/dpslave/gsd include/dpslave/profile include/dpslave/input \
              -name '*.?pp' ! -name survey_text.cpp ! -name gsd_command.cpp 2>/dev/null | sort |
     while read -r file; do sed -E 's#(^|[[:space:]])//.*##' "$file" | grep -nE '"((.*["( ])?--[a-z]|.*\bdpctl\b)' | sed "s|^|$file:|" || true; done)
 if [ -n "$found" ]; then

@@ -83,11 +83,12 @@ Described described(const std::string& suffix = "")
 
 TEST(Replies, HaveAStructForEachTypeOfTheInterfaceWithItsFields)
 {
-    EXPECT_EQ((described<Led, StationLeds, Drive, Ride, Station, Unanswered, Bus, Info, TecRow, Tec, Word,
-                         Demand, StationIo, StationWords, DiagOctet, Refusal, Unscaled, RefusedTag, Diagnosis,
-                         Counter, CounterGroup, DistributionClass, Distribution, Refresh, Log, Event,
-                         NamedTag, Incident, TagSpan, Answering, LeavingStation, Member, Spacing, Sample>()),
-              test::control_varlink().types);
+    EXPECT_EQ(
+        (described<Led, StationLeds, Drive, Ride, Station, Unanswered, Bus, Info, TecRow, Tec, Word, Demand,
+                   StationIo, StationWords, DiagOctet, Refusal, Unscaled, Denied, RefusedTag, Diagnosis,
+                   Counter, CounterGroup, DistributionClass, Distribution, Refresh, Log, Event, NamedTag,
+                   Incident, TagSpan, RuleAnswers, Answering, LeavingStation, Member, Spacing, Sample>()),
+        test::control_varlink().types);
 }
 
 TEST(Replies, HaveAStructForEachMethodOfTheInterface)
@@ -111,8 +112,8 @@ TEST(Replies, HaveAStructForEachErrorThatHasParameters)
     ASSERT_EQ(errors.erase("SamplesOff"), 1U);
 
     EXPECT_EQ((described<NoSuchStation, NoSuchLine, StationRequired, NotPermitted, DriveRefused, BadValue,
-                         NoTecOption, BadTecValue, BadLogLevel, LineInUse, WouldSilence, IncidentsOff,
-                         NoSuchIncident, IncidentUnreadable>()),
+                         NoTecOption, BadTecValue, BadLogLevel, LineInUse, ProbeEnded, WouldSilence,
+                         IncidentsOff, NoSuchIncident, IncidentUnreadable>()),
               errors);
 }
 

@@ -11,8 +11,8 @@
 
 namespace dpslave::test {
 
-/// How long the service of this row was not back after the end of the fault. tools/faults collects it: a line
-/// "F07 12.3" (ms) goes to the file that DPSLAVE_FAULT_TIMES names. A row may say so several times: the
+/// How long the service of this row was not back after the end of the fault. tools/run faults collects it: a
+/// line "F07 12.3" (ms) goes to the file that DPSLAVE_FAULT_TIMES names. A row may say so several times: the
 /// longest counts.
 inline void recovered_in(std::chrono::nanoseconds time)
 {

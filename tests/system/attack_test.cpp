@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What any user of the machine may do to the control socket, and what the bus and the operators notice of it.
+// Tests what any user of the machine may do to the control socket, and what the bus and the operators notice
+// of it.
 #include "gateway.hpp"
 #include "service_manager.hpp"
 

@@ -194,6 +194,106 @@ TEST(DriverEnable, OfAKilledDaemonIsReleasedWhateverHasBecomeOfTheConfiguration)
     at.gateway.start_daemon();
 }
 
+/// A gateway whose transceiver of the drive line hangs on a line of `chip`.
+class SwitchedLine {
+public:
+    explicit SwitchedLine(const std::string& protocol)
+        : gateway({.drive_baud = kBaud,
+                   .profile = protocol == "ei-ascii" ? "590" : "2408f",
+                   .units = {protocol == "ei-ascii" ? "00" : "1"},
+                   .protocol = protocol,
+                   .line_keys = "direction = \"gpio\"\ngpio_chip = \"" + chip.path().string() +
+                                "\"\ngpio_line = " + std::to_string(kLine) + "\n",
+                   .keys = protocol == "ei-ascii" ? "" : "ident = 0x0A0B\n",
+                   .environment = environment,
+                   .started = false})
+    {
+        // The chip counts characters of eleven bits; 7E1 and 8N1 have ten.
+        chip.watch(kLine, gateway.folder("drive-gateway"), kBaud * 11 / 10);
+        chip.leave(kLine, true);
+    }
+    ::testing::AssertionResult asks(unsigned requests)
+    {
+        const unsigned before = chip.watched().releases;
+        return eventually([&] { return chip.watched().releases - before >= requests; });
+    }
+
+    Folder folder;
+    const Environment environment{{"LD_LIBRARY_PATH", GPIO_STAND_IN_FOLDER},
+                                  {"RUNTIME_DIRECTORY", (folder / "").string()}};
+    stand_in::ChipFile chip{folder / "gpiochip0", "pl061"};
+    Gateway gateway;
+};
+
+TEST(TwoWireLine, IsHighWhileARequestLeavesInBothProtocols)
+{
+    for (const std::string protocol : {"ei-ascii", "modbus-rtu"}) {
+        SCOPED_TRACE(protocol);
+        SwitchedLine at{protocol};
+        at.gateway.start_daemon();
+        EXPECT_TRUE(at.gateway.daemon().ever_said("line p3: " + at.gateway.folder("drive-gateway").string() +
+                                                  ": driver enable: line 5 of GPIO chip"));
+        Master master{at.gateway, protocol == "ei-ascii"
+                                      ? Arguments{"--tags", "55,56w"}
+                                      : Arguments{"--family", "controller", "--ident", "0x0A0B", "--master",
+                                                  "36", "--tags", "1,5,24w"}};
+        ASSERT_TRUE(master.does("start 30s"));
+        ASSERT_TRUE(at.asks(20));
+        EXPECT_TRUE(eventually([&] { return at.gateway.station()["drive"]["ever_answered"] == true; }));
+
+        EXPECT_EQ(at.gateway.daemon().end(), 0);
+
+        const stand_in::Watch& seen = at.chip.watched();
+        EXPECT_FALSE(at.chip.high(kLine)) << "at the end";
+        EXPECT_FALSE(at.chip.is_taken(kLine));
+        EXPECT_EQ(seen.writes_while_inactive, 0U);
+        EXPECT_EQ(at.chip.rises(kLine), seen.writes) << "once for each request";
+        EXPECT_EQ(seen.releases_early, 0U);
+        EXPECT_EQ(at.chip.requests(kLine), 1U);
+        at.gateway.start_daemon();
+    }
+}
+
+TEST(TwoWireLine, OfAKilledDaemonIsReleasedWhateverHasBecomeOfTheConfiguration)
+{
+    SwitchedLine at{"ei-ascii"};
+    const std::string good = content(at.gateway.config()) + "\n";
+    at.gateway.start_daemon();
+    ASSERT_TRUE(at.asks(1));
+    EXPECT_EQ(at.gateway.daemon().end(SIGKILL), 128 + SIGKILL);
+    at.chip.leave(kLine, true); // as if that had come in the middle of a request
+    write_file(at.gateway.config(), "bus = [\n" + good);
+
+    const Outcome released = run(at.gateway.daemon_command({"--release"}), at.environment);
+
+    EXPECT_EQ(released.status, 0);
+    EXPECT_EQ(released.err, "");
+    EXPECT_FALSE(at.chip.high(kLine));
+    write_file(at.gateway.config(), good);
+    at.gateway.start_daemon();
+}
+
+TEST(TwoWireLine, MovesToAnotherGpioLineByAReload)
+{
+    SwitchedLine at{"ei-ascii"};
+    at.gateway.start_daemon();
+    ASSERT_TRUE(at.asks(1));
+    std::string text = content(at.gateway.config()) + "\n";
+    text.replace(text.find("gpio_line = 5"), 13, "gpio_line = 4");
+    write_file(at.gateway.config(), text);
+
+    EXPECT_EQ(at.gateway.dpctl({"reload"}).status, 0);
+
+    EXPECT_TRUE(eventually([&] { return at.chip.rises(4) > 0; }));
+    EXPECT_FALSE(at.chip.is_taken(kLine));
+    EXPECT_FALSE(at.chip.high(kLine));
+    EXPECT_EQ(at.gateway.daemon().end(SIGKILL), 128 + SIGKILL);
+    at.chip.leave(4, true);
+    EXPECT_EQ(run(at.gateway.daemon_command({"--release"}), at.environment).status, 0);
+    EXPECT_FALSE(at.chip.high(4)) << "what was in use last";
+    at.gateway.start_daemon();
+}
+
 /// DPSLAVE_KILLS says how often; a thousand for the whole proof, which takes a quarter of an hour.
 unsigned kills()
 {

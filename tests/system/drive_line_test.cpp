@@ -36,7 +36,7 @@ Wiring four_registers(const std::string& line_keys = "")
     wiring.profile = "2408f";
     wiring.protocol = "modbus-rtu";
     wiring.units = {"1"};
-    wiring.drive = {"--turnaround", "10"};
+    wiring.drive = {"--turnaround", "10ms"};
     wiring.line_keys = line_keys;
     wiring.keys = "ident = 0x0A0B\n";
     wiring.table = "tag,name,type,decimals,min,max,access,start\n"
@@ -75,7 +75,7 @@ protected:
 TEST_F(InstrumentLine, WithAnAnswerThatIsLateNowAndThenNeverShowsTheWordOfAnotherTag)
 {
     begins(four_registers());
-    gateway->drive().send_line("late 1300 every 3s");
+    gateway->drive().send_line("late 1300ms every 3s");
     EXPECT_TRUE(master->does(fmt::format("wait {}", kWatched)));
     shows_only_its_own_words();
 }
@@ -83,8 +83,8 @@ TEST_F(InstrumentLine, WithAnAnswerThatIsLateNowAndThenNeverShowsTheWordOfAnothe
 TEST_F(InstrumentLine, WithALateExceptionNeverShowsZeroForATagThatIsThere)
 {
     begins(four_registers());
-    gateway->drive().send_line("late 1300 tag 1500");
-    gateway->drive().send_line("late 1300 1/40 tag 1200");
+    gateway->drive().send_line("late 1300ms tag 1500");
+    gateway->drive().send_line("late 1300ms 1/40 tag 1200");
     EXPECT_TRUE(master->does("wait 14s")); // what was denied is asked every 10 s
     shows_only_its_own_words();
 }
@@ -93,7 +93,7 @@ TEST_F(InstrumentLine, WithoutFunction8SettlesLateAnswersAsWell)
 {
     begins(four_registers("timeout_ms = 200\n"));
     gateway->drive().send_line("no-loopback");
-    gateway->drive().send_line("late 500 1/15");
+    gateway->drive().send_line("late 500ms 1/15");
     EXPECT_TRUE(master->does(fmt::format("wait {}", kWatched)));
     shows_only_its_own_words();
 }
@@ -102,7 +102,7 @@ TEST_F(InstrumentLine, WithASpoiltFrameBeforeAnAnswerDoesNotTakeThatAnswerForThe
 {
     begins(four_registers());
     gateway->drive().send_line("spoil 1/15");
-    gateway->drive().send_line("late 40 1/15");
+    gateway->drive().send_line("late 40ms 1/15");
     EXPECT_TRUE(master->does("wait 5s"));
     shows_only_its_own_words();
     gateway->drive().send_line("ok");
@@ -167,9 +167,9 @@ protected:
 
 TEST_F(TwoDrives, WithTheSameMnemonicsAreNeverTakenForEachOtherWhereOneIsALittleTooLate)
 {
-    begins({.units = {"00", "01"}, .drive = {"--turnaround", "5"}});
+    begins({.units = {"00", "01"}, .drive = {"--turnaround", "5ms"}});
     gateway->drive().send_line("unit 00");
-    gateway->drive().send_line("late 210-230 1/2");
+    gateway->drive().send_line("late 210ms-230ms 1/2");
     EXPECT_TRUE(master->does(fmt::format("wait {}", kWatched)));
     EXPECT_THAT(seen(*master, 1), ElementsAre(2001));
     EXPECT_THAT(seen(*master, 2), ElementsAre(2002));
@@ -177,9 +177,9 @@ TEST_F(TwoDrives, WithTheSameMnemonicsAreNeverTakenForEachOtherWhereOneIsALittle
 
 TEST_F(TwoDrives, AreNeverTakenForEachOtherWhereOneIsLateNowAndThen)
 {
-    begins({.units = {"00", "01"}, .drive = {"--turnaround", "5"}});
+    begins({.units = {"00", "01"}, .drive = {"--turnaround", "5ms"}});
     gateway->drive().send_line("unit 00");
-    gateway->drive().send_line("late 900 1/20");
+    gateway->drive().send_line("late 900ms 1/20");
     for (int i = 1; i <= 8; ++i) {
         gateway->drive().send_line(fmt::format("set 55 {}", 10 + i)); // of the other one
         EXPECT_TRUE(master->does("wait 1s"));
@@ -195,7 +195,7 @@ TEST_F(TwoDrives, DoNotTakeALateAcknowledgementOfOneForThatOfTheOther)
     ASSERT_TRUE(master->does("out 1 = 700"));
     ASSERT_TRUE(drive.says("unit 01: tag 56 written 7.00"));
     drive.send_line("unit 00");
-    drive.send_line("late 300 tag 56");
+    drive.send_line("late 300ms tag 56");
     drive.send_line("unit 01");
     drive.send_line("silence");
     ASSERT_TRUE(master->does("unlock")); // the zero cannot reach it

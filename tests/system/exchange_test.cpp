@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the gateway is for: a master reads and writes parameters of a drive by their tags.
+// Tests what the gateway is for: a master reads and writes parameters of a drive by their tags.
 #include "gateway.hpp"
 
 namespace dpslave::test {
@@ -62,6 +62,34 @@ TEST(Exchange, TwelveParametersWithoutDemandDataStartAtTheFirstOctet)
         master.does("expect reply 68 11 11 68 82 85 08 3E 3B 50 60 50 60 50 60 50 60 50 60 50 60 A8 16"));
 }
 
+TEST(Exchange, WaitsForADriveThatIsSlow)
+{
+    Gateway gateway;
+    Master master{gateway, {"--tags", "55,56w"}};
+    gateway.drive().send_line("slow 50ms");
+    ASSERT_TRUE(master.does("start 30s"));
+    gateway.drive().send_line("set 55 12.50");
+    EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
+    EXPECT_TRUE(master.does("out 1 = 500"));
+    EXPECT_TRUE(gateway.drive().says("tag 56 written 5.00"));
+    EXPECT_EQ(gateway.station().at("drive").at("losses"), 0);
+}
+
+TEST(Exchange, WritesATagWhoseWritesCountOnceForEachChange)
+{
+    const std::string table = "tag,name,type,decimals,once,start\n55,Speed,INT,2,,0\n"
+                              "56,Setpoint,INT,2,,0\n62,Save,WORD,,yes,0000\n";
+    Gateway gateway{{.output_refresh_s = "0", .table = table}};
+    Master master{gateway, {"--tags", "55,56w,62w"}};
+    ASSERT_TRUE(master.does("start 30s"));
+    EXPECT_TRUE(master.does("out 2 = 1"));
+    EXPECT_TRUE(gateway.drive().says("tag 62 written >0001"));
+    for (int i = 0; i < 5; ++i) EXPECT_TRUE(gateway.drive().says("tag 56 written")) << "in each round";
+    EXPECT_TRUE(master.does("out 2 = 2"));
+    EXPECT_TRUE(gateway.drive().says("tag 62 written >0002"));
+    EXPECT_EQ(gateway.drive().how_often("tag 62 written >0001"), 0U);
+}
+
 class EachProfile : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(EachProfile, ExchangesWithItsDrive)
@@ -86,7 +114,7 @@ TEST_P(EachRate, ExchangesWithinTheTimesOfTheGsdSd3TelegramsIncluded)
 {
     // A master on a loaded machine: it repeats what came too late, and the slave must never speak late.
     Gateway gateway{{.bus_baud = GetParam(), .max_tsdr = 0}};
-    const Arguments patience{"--retries", "15", "--slot-ms", "100"};
+    const Arguments patience{"--retries", "15", "--slot", "100ms"};
     const auto with = [&](Arguments more) {
         more.insert(more.end(), patience.begin(), patience.end());
         return more;

@@ -56,20 +56,6 @@ std::unique_ptr<Process> paced_line(unsigned baud, const char* bits, const fs::p
 
 } // namespace
 
-Folder::Folder()
-{
-    std::string name = fs::temp_directory_path() / "dpslaved-XXXXXX";
-    if (::mkdtemp(name.data()) == nullptr)
-        throw std::runtime_error("no temporary folder can be made: " + name);
-    path_ = name;
-}
-
-Folder::~Folder()
-{
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-}
-
 std::string content(const fs::path& file)
 {
     std::ifstream in{file};
@@ -164,22 +150,24 @@ std::string Gateway::config_text() const
         "name = \"p3\"\n"
         "port = \"{}\"\n"
         "protocol = \"{}\"\n"
-        "baud = {}\n",
+        "baud = {}\n"
+        "wire_time = \"yes\"\n",
         wiring_.bus_port.empty() ? (folder_ / "bus-gateway").string() : wiring_.bus_port, wiring_.bus_baud,
         wiring_.direction, wiring_.max_tsdr.value_or(patient_max_tsdr(wiring_.bus_baud)),
         lamp_folder().string(), socket().string(), own_group(), wiring_.control_keys,
         (folder_ / "drive-gateway").string(), wiring_.protocol, wiring_.drive_baud);
     text += wiring_.line_keys;
     for (std::size_t i = 0; i < wiring_.units.size(); ++i) {
-        text +=
-            fmt::format("[[station]]\n"
-                        "name = \"{}\"\n"
-                        "address = {}\n"
-                        "profile = \"{}\"\n"
-                        "line = \"p3\"\n"
-                        "unit = \"{}\"\n"
-                        "output_refresh_s = {}\n",
-                        station_name(i), 5 + i, wiring_.profile, wiring_.units[i], wiring_.output_refresh_s);
+        text += fmt::format("[[station]]\n"
+                            "name = \"{}\"\n"
+                            "address = {}\n"
+                            "profile = \"{}\"\n"
+                            "line = \"p3\"\n"
+                            "unit = \"{}\"\n"
+                            "output_refresh_s = {}\n"
+                            "when_drive_lost = \"{}\"\n",
+                            station_name(i), 5 + i, wiring_.profile, wiring_.units[i],
+                            wiring_.output_refresh_s, wiring_.when_drive_lost);
         if (!wiring_.table.empty())
             text += "tags = \"tags.csv\"\n";
         else if (wiring_.protocol == "ei-ascii")
@@ -354,7 +342,7 @@ Arguments master_command(const Gateway& gateway, const Arguments& settings, unsi
         return word.find("watchdog") != std::string::npos;
     };
     if (std::none_of(settings.begin(), settings.end(), says_watchdog))
-        command.insert(command.end(), {"--watchdog", "5000"});
+        command.insert(command.end(), {"--watchdog", "5s"});
     command.insert(command.end(), settings.begin(), settings.end());
     return command;
 }

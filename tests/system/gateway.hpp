@@ -4,6 +4,7 @@
 #pragma once
 
 #include "process.hpp"
+#include "support/folder.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -17,19 +18,6 @@ namespace dpslave::test {
 
 using Json = nlohmann::json;
 using Arguments = std::vector<std::string>;
-
-/// A temporary folder that goes with the test.
-class Folder {
-public:
-    Folder();
-    ~Folder();
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
-private:
-    std::filesystem::path path_;
-};
 
 /// Without the line break at its end; empty if the file is not there.
 std::string content(const std::filesystem::path& file);
@@ -49,6 +37,8 @@ struct Wiring {
     /// what the profile says, as on a real bus.
     std::optional<unsigned> max_tsdr{};
     std::string output_refresh_s = "1.0";
+    /// The bus is there whatever the drive does, unless a test is about that.
+    std::string when_drive_lost = "hold";
     std::string protocol = "ei-ascii";
     std::string model{}; ///< of the simulated drive; empty: as the profile
     Arguments drive{};   ///< more options of dpsim drive

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much memory the daemon has. It is locked: no other process can use it.
+// Tests how much memory the daemon has. It is locked: no other process can use it.
 #include "gateway.hpp"
 
 #include <fmt/format.h>
@@ -27,9 +27,6 @@ constexpr double kLimit = DPSLAVE_OPTIMISED ? 1.3 : 1.6;
 
 TEST(Memory, OfTheDaemonIsNotMuchMoreThanThatOfItsLibraries)
 {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    GTEST_SKIP() << "a sanitizer keeps memory of its own";
-#endif
     Process sleeper{{LOCKED_SLEEPER_PROGRAM}};
     if (!sleeper.says("locked")) GTEST_SKIP() << "this user may not lock memory";
     Gateway gateway;
@@ -65,9 +62,6 @@ std::optional<unsigned> memory_with_recorder(unsigned kib)
 
 TEST(Memory, GrowsByTheSizeOfTheRecorderAndByNoMore)
 {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    GTEST_SKIP() << "a sanitizer keeps memory of its own";
-#endif
     constexpr unsigned kRecorder = 16384;
     const auto without = memory_with_recorder(0), with = memory_with_recorder(kRecorder);
     if (!without || !with) GTEST_SKIP() << "the daemon may not lock enough";

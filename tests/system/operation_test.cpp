@@ -70,13 +70,13 @@ TEST(Dpctl, ReadsAndWritesATagOfTheDriveInItsOwnUnits)
     EXPECT_EQ(gateway.dpctl({"write", "56", "-12.5"}).status, 0);
     EXPECT_TRUE(gateway.drive().says("tag 56 written -12.50"));
 
-    EXPECT_EQ(gateway.dpctl({"write", "62", "200.1"}).status, 1) << "beyond its limit";
-    EXPECT_EQ(gateway.dpctl({"write", "55", "1"}).status, 1) << "read only";
-    EXPECT_EQ(gateway.dpctl({"read", "1999"}).status, 1) << "no such tag";
-    EXPECT_EQ(gateway.dpctl({"read", "130"}).status, 1) << "text is not transported";
+    EXPECT_EQ(gateway.dpctl({"write", "62", "200.1"}).status, 5) << "beyond its limit";
+    EXPECT_EQ(gateway.dpctl({"write", "55", "1"}).status, 5) << "read only";
+    EXPECT_EQ(gateway.dpctl({"read", "1999"}).status, 5) << "no such tag";
+    EXPECT_EQ(gateway.dpctl({"read", "130"}).status, 5) << "text is not transported";
     gateway.drive().send_line("silence");
     const Outcome silent = gateway.dpctl({"read", "62"});
-    EXPECT_EQ(silent.status, 1);
+    EXPECT_EQ(silent.status, 4);
     EXPECT_THAT(silent.err, HasSubstr("does not answer"));
 }
 
@@ -85,7 +85,7 @@ TEST(Dpctl, IsRefusedAValueOutsideTheLimitsForWrites)
     Gateway gateway{{.keys = "[station.write_limits]\n62 = [\"80.0\", \"110.0\"]\n"}};
     for (const char* const value : {"79.9", "110.1", "-80.0", "200.1"}) {
         const Outcome refused = gateway.dpctl({"write", "62", value});
-        EXPECT_EQ(refused.status, 1) << value;
+        EXPECT_EQ(refused.status, 5) << value;
         EXPECT_THAT(refused.err, HasSubstr("takes 80.0 to 110.0, as [station.write_limits] says")) << value;
     }
     EXPECT_EQ(gateway.json({"read", "62"}).at("value"), "110.0") << "never changed to the limit";
@@ -105,7 +105,7 @@ TEST(Dpctl, WritesNothingWhileTheDaemonOnlyShows)
     for (const Arguments& command :
          {Arguments{"write", "1", "5"}, {"write", "60000", "x"}, {"tec", "set", "RIDE_THROUGH", "1"}}) {
         const Outcome refused = gateway.dpctl(command);
-        EXPECT_EQ(refused.status, 1);
+        EXPECT_EQ(refused.status, 5);
         EXPECT_THAT(refused.err, HasSubstr("the daemon only shows"));
     }
     EXPECT_EQ(gateway.dpctl({"reload"}).status, 0) << "the way out of it";
@@ -128,7 +128,7 @@ TEST(Dpctl, EachWriteIsALineOfTheLogWithTheUserAndTheValueBefore)
     EXPECT_TRUE(gateway.daemon().ever_said(", before 95.5: done"));
 
     gateway.drive().send_line("silence");
-    EXPECT_EQ(gateway.dpctl({"write", "62", "70.0"}).status, 1);
+    EXPECT_EQ(gateway.dpctl({"write", "62", "70.0"}).status, 4);
     EXPECT_TRUE(gateway.daemon().says("set to 70.0" + by));
     EXPECT_TRUE(gateway.daemon().ever_said(": no answer") || gateway.daemon().ever_said("does not answer"));
 }

@@ -93,5 +93,23 @@ TEST_F(UnknownScale, WithOneScaleForAllUnlistedTagsTheExchangeBegins)
     EXPECT_TRUE(master.leaves());
 }
 
+/// the daemon asks by the rule of the 590, and the drive goes by that of the AC drives.
+TEST(DeniedTags, OfADriveUnderAnotherMnemonicRuleHoldTheStart)
+{
+    Gateway gateway{{.model = "690plus"}};
+    Master master{gateway, {"--tags", "55,56w"}};
+
+    EXPECT_TRUE(master.does("try start 3s"));
+    EXPECT_TRUE(master.does("expect diag stat-diag"));
+    EXPECT_TRUE(master.does("expect diag not not-ready"));
+    EXPECT_TRUE(gateway.word_becomes(55, "state", "invalid_tag"));
+    EXPECT_TRUE(gateway.word_becomes(56, "state", "invalid_tag"));
+    EXPECT_EQ(gateway.word(55)["answer"], "EE >01C7");
+    EXPECT_THAT(gateway.dpctl({"status"}).out, HasSubstr("the drive denies a tag"));
+    EXPECT_TRUE(
+        gateway.daemon().says("Data exchange does not start: the drive denies every chosen tag: tag 55"));
+    EXPECT_EQ(gateway.counter("unwinder", "drive_writes"), 0U);
+}
+
 } // namespace
 } // namespace dpslave::test

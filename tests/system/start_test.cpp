@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the daemon starts, does not start, and ends; what it reports to the service manager.
+// Tests how the daemon starts, does not start, and ends; what it reports to the service manager.
 #include "gateway.hpp"
 #include "service_manager.hpp"
 
@@ -124,21 +124,40 @@ TEST(BadStart, ByWrongUsageEndsWithTwo)
     EXPECT_EQ(run({DPSLAVED_PROGRAM, "--version"}).status, 0);
 }
 
-TEST(BadStart, WithoutTtyEndsWithThreeAndLeavesNothingBehind)
+TEST(BadStart, WithoutTheBusPortEndsWithThreeAndLeavesNothingBehind)
 {
     Gateway gateway{{.started = false}};
-    for (const char* const port : {"bus-gateway", "drive-gateway"}) {
-        SCOPED_TRACE(port);
-        std::string text = gateway.config_text();
-        text.replace(text.find(port), std::strlen(port), "not-there");
-        write_file(gateway.config(), text);
-        EXPECT_EQ(gateway.run_daemon({"--check"}).status, 0) << "the file itself is good";
-        const Outcome outcome = gateway.run_daemon();
-        EXPECT_EQ(outcome.status, 3);
-        EXPECT_THAT(outcome.err, HasSubstr("not-there is not there"));
-        EXPECT_FALSE(std::filesystem::exists(gateway.socket()));
-    }
+    std::string text = gateway.config_text();
+    const std::string port = "bus-gateway";
+    write_file(gateway.config(), text.replace(text.find(port), port.size(), "not-there"));
+    EXPECT_EQ(gateway.run_daemon({"--check"}).status, 0) << "the file itself is good";
+    const Outcome outcome = gateway.run_daemon();
+    EXPECT_EQ(outcome.status, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("not-there is not there"));
+    EXPECT_FALSE(std::filesystem::exists(gateway.socket()));
     EXPECT_EQ(gateway.spoken_on_the_bus(), "b to a: 0 octets");
+}
+
+TEST(StartWithoutADrivePort, CostsItsOwnStationsOnlyUntilThePortAppears)
+{
+    Gateway gateway{{.started = false}};
+    gateway.unplug_drive();
+    gateway.start_daemon();
+
+    EXPECT_TRUE(gateway.daemon().ever_said("drive-gateway is not there"));
+    EXPECT_TRUE(gateway.daemon().ever_said("its drives count as silent until it can be opened"));
+    EXPECT_FALSE(gateway.station().at("drive").at("port_open"));
+    EXPECT_THAT(gateway.dpctl({"doctor"}).out, HasSubstr("of line p3 is not there, or cannot be opened"));
+    EXPECT_THAT(gateway.dpctl({"events"}).out,
+                HasSubstr("its drives count as silent until it can be opened"));
+
+    gateway.plug_drive();
+    EXPECT_TRUE(gateway.daemon().says("drive-gateway is open"));
+    gateway.drive().send_line("set 55 12.50");
+    Master master{gateway, {"--tags", "55,56w"}};
+    ASSERT_TRUE(master.does("start 60s"));
+    EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
+    EXPECT_TRUE(gateway.station().at("drive").at("port_open"));
 }
 
 TEST(BadStart, NextToARunningDaemonEndsWithThreeAndDoesNotDisturbIt)

@@ -27,7 +27,7 @@ protected:
     }
     Arguments survey(Arguments more) const
     {
-        Arguments all{"survey", "unwinder", "--table", table};
+        Arguments all{"survey", "unwinder", "--output", table};
         all.insert(all.end(), more.begin(), more.end());
         return all;
     }
@@ -125,6 +125,26 @@ TEST_F(BareDrive, LeavesNoWordInTheLogForATagThatItDoesNotHave)
     EXPECT_EQ(gateway.station().at("drive").at("refusals"), 0);
 }
 
+TEST(Survey, ByTheRuleThatADriveFollowsMakesATableThatNeedsNoRule)
+{
+    const Gateway gateway{{.drive = {"--mnemonics", "pno"}}};
+    const auto table = gateway.folder("own.csv");
+    write_file(table, "tag,name,type,decimals\n");
+    const auto survey = [&](Arguments more) {
+        Arguments all{"survey", "unwinder", "--output", table, "--tags", "55-57"};
+        all.insert(all.end(), more.begin(), more.end());
+        return gateway.dpctl(all);
+    };
+    EXPECT_THAT(survey({}).out, HasSubstr("3 of 3 tags asked: 0 answer, 3 denied"))
+        << "the profile has another rule";
+
+    const Outcome all = survey({"--rule", "pno"});
+
+    EXPECT_EQ(all.status, 0) << all.out << all.err;
+    EXPECT_THAT(all.out, HasSubstr("3 of 3 tags asked: 3 answer"));
+    EXPECT_THAT(content(table), AllOf(HasSubstr("\n55,,INT,"), HasSubstr(",37,,no,")));
+}
+
 TEST(Survey, OfAnInstrumentSaysThatModbusShowsSixteenBitsOnly)
 {
     // No source states the true ident; any will do here.
@@ -133,7 +153,7 @@ TEST(Survey, OfAnInstrumentSaysThatModbusShowsSixteenBitsOnly)
     const auto table = gateway.folder("own.csv");
     write_file(table, "tag,name,type,decimals\n");
 
-    const Outcome all = gateway.dpctl({"survey", "unwinder", "--table", table, "--tags", "1-3"});
+    const Outcome all = gateway.dpctl({"survey", "unwinder", "--output", table, "--tags", "1-3"});
 
     EXPECT_EQ(all.status, 0) << all.err;
     EXPECT_THAT(all.out, AllOf(HasSubstr("Modbus shows 16 bits"), HasSubstr("3 of 3 tags asked: 3 answer")));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// How the function block looks in both views (B-040 to B-042, B-048, B-050, B-051).
+/// Tests how the function block looks in both views (B-040 to B-042, B-048, B-050, B-051).
 #include "dpslave/tec/option_block.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What can be set in the TEC OPTION function block, and what FAULT makes of it (B-040, B-042 to B-049).
+/// Tests what can be set in the TEC OPTION function block, and what FAULT makes of it (B-040, B-042 to
+/// B-049).
 #include "dpslave/tec/option_block.hpp"
 
 #include <gmock/gmock.h>
@@ -60,8 +61,8 @@ INSTANTIATE_TEST_SUITE_P(B049, TecLimits,
 TEST(TecFault, HardwareGoesBeforeSelfTestBeforeParameterBeforeTypeMismatch)
 {
     Settings settings{.type = 3, .address = 126};
-    EXPECT_EQ(fault(settings, {.self_test_passed = false, .ports_open = false}), OptionFault::hardware);
-    EXPECT_EQ(fault(settings, {.self_test_passed = false, .ports_open = true}), OptionFault::self_test);
+    EXPECT_EQ(fault(settings, {.self_test_passed = false, .bus_works = false}), OptionFault::hardware);
+    EXPECT_EQ(fault(settings, {.self_test_passed = false, .bus_works = true}), OptionFault::self_test);
     EXPECT_EQ(fault(settings, kSound), OptionFault::parameter);
     settings.address = 125;
     EXPECT_EQ(fault(settings, kSound), OptionFault::type_mismatch);
@@ -69,7 +70,7 @@ TEST(TecFault, HardwareGoesBeforeSelfTestBeforeParameterBeforeTypeMismatch)
 
 TEST(TecFault, BaudSearchIsNoFault)
 {
-    EXPECT_EQ(fault({}, {.self_test_passed = true, .ports_open = true, .baud_search = true}),
+    EXPECT_EQ(fault({}, {.self_test_passed = true, .bus_works = true, .baud_search = true}),
               OptionFault::none);
 }
 

@@ -36,7 +36,7 @@ protected:
         return dpslave::tec::int_diagnostic(select, seen(), drive);
     }
 
-    dpslave::drive::UnitSnapshot drive;
+    dpslave::drive::DriveSnapshot drive;
 };
 
 } // namespace test

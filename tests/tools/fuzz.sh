@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # usage: fuzz.sh SOURCE
-# tools/fuzz fails with a crash, a time-out, a leak and a target that did not run. It adds up what ran, and goes on until the
+# tools/fuzz fails with a crash, a timeout, a leak and a target that did not run. It adds up what ran, and goes on until the
 # goal. Programs stand for the targets that end as libFuzzer does.
 set -u
 dir=$(mktemp -d)
@@ -48,7 +48,7 @@ ends() { # WHAT COMMANDS WORDS: the run fails and says so, and the good one besi
 ends "a crash" 'touch ${artifacts}crash-1; echo "BROKEN: a rule"; '"$(ran 5)"'; exit 77' "toml: BROKEN: a rule
 Repeat it with: $dir/targets/fuzz_toml $dir/findings/toml/crash-1"
 # shellcheck disable=SC2016
-ends "a time-out" 'touch ${artifacts}timeout-1; echo "ERROR: libFuzzer: timeout after 20 seconds"; '"$(ran 5)"'; exit 70' "toml: ERROR: libFuzzer: timeout"
+ends "a timeout" 'touch ${artifacts}timeout-1; echo "ERROR: libFuzzer: timeout after 20 seconds"; '"$(ran 5)"'; exit 70' "toml: ERROR: libFuzzer: timeout"
 ends "a fault at the end" "$(ran 5); exit 1" "toml did not run to its end"
 ends "a run that was killed" 'kill -KILL $$' "toml did not run to its end"
 ends "a run without executions" "$(ran 0)" "toml did not run to its end"

@@ -14,11 +14,11 @@ namespace {
 
 constexpr Instant kAt{std::chrono::seconds{5}};
 
-Layout layout_of(Generation generation, std::initializer_list<Parameter> parameters)
+Layout layout_of(Generation generation, std::initializer_list<LayoutEntry> parameters)
 {
     Layout layout;
     layout.generation = generation;
-    for (const Parameter& one : parameters) layout.parameters[layout.count++] = one;
+    for (const LayoutEntry& one : parameters) layout.parameters[layout.count++] = one;
     return layout;
 }
 
@@ -56,8 +56,8 @@ TEST(Samples, OfALayoutHaveItsTagsAndWays)
     EXPECT_TRUE(sample->is_layout);
     EXPECT_EQ(sample->of, (SampleOf{7, 0x01020304}));
     ASSERT_EQ(sample->count, 2);
-    EXPECT_EQ(sample->parameters[0], (Parameter{55, true, false}));
-    EXPECT_EQ(sample->parameters[1], (Parameter{0x1256, false, true}));
+    EXPECT_EQ(sample->parameters[0], (LayoutEntry{55, true, false}));
+    EXPECT_EQ(sample->parameters[1], (LayoutEntry{0x1256, false, true}));
 }
 
 TEST(Samples, OfValuesHaveWordsAndStates)

@@ -237,7 +237,7 @@ TEST_F(TraceTelegrams, AGapInTheRecordsEndsWhatWasUnfinished)
     const auto all = take();
 
     ASSERT_EQ(all.size(), 3U);
-    EXPECT_EQ(all[0].what, What::piece);
+    EXPECT_EQ(all[0].what, What::cut);
     EXPECT_EQ(all[1].what, What::lost);
     EXPECT_EQ(all[1].count, 12U);
     EXPECT_EQ(all[2].what, What::telegram);

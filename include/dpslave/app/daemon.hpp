@@ -13,12 +13,12 @@ enum class ExitStatus : int {
     ended_by_signal = 0,
     configuration_refused = 1,
     usage = 2,
-    device_not_opened = 3, ///< a device or the socket
+    device_not_opened = 3, ///< the bus port, its driver enable or the socket
 };
 
-/// Opens every device and the socket, serves until SIGTERM or SIGINT, leaves the bus and puts the outputs
-/// into their safe state. Either everything runs, or nothing was started. Logs through spdlog's default
-/// logger.
+/// Opens the devices and the socket, serves until SIGTERM or SIGINT, leaves the bus and puts the outputs
+/// into their safe state. Either the bus is served, or nothing was started; a drive port that is missing is
+/// opened when it appears. Logs through spdlog's default logger.
 ExitStatus run_daemon(const config::Config& config, const std::filesystem::path& profiles);
 
 } // namespace dpslave::app

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace dpslave::app {
 
@@ -20,16 +21,20 @@ std::filesystem::path runtime_folder();
 /// Likewise the one for what outlives the program (StateDirectory=).
 std::filesystem::path state_folder();
 
-/// What enables the RS-485 driver, and where.
+/// What enables an RS-485 driver, and where.
 struct DriverInUse {
     io::DriverEnableSettings settings;
-    std::string port; ///< the PROFIBUS tty
+    std::string port; ///< the tty of the bus or of a drive line
+    friend bool operator==(const DriverInUse&, const DriverInUse&) = default;
 };
-/// Writes it down in `runtime` for the time after the daemon's end: the configuration may be another one
+/// That of the bus, then those of the drive lines whose transceivers do not switch by themselves.
+std::vector<DriverInUse> drivers_of(const config::Config& config);
+/// Writes them down in `runtime` for the time after the daemon's end: the configuration may be another one
 /// then, or a faulty one. An empty `runtime`: nothing is done. The error is a sentence.
-std::optional<std::string> keep(const DriverInUse& driver, const std::filesystem::path& runtime);
+std::optional<std::string> keep(const std::vector<DriverInUse>& drivers,
+                                const std::filesystem::path& runtime);
 /// Nothing: nothing was kept there.
-std::optional<DriverInUse> kept_driver(const std::filesystem::path& runtime);
+std::optional<std::vector<DriverInUse>> kept_drivers(const std::filesystem::path& runtime);
 
 /// For the time after the daemon's end, however it came: makes the line that enables the RS-485 driver
 /// inactive, where nothing else does that (see dpslave/io/driver_enable.hpp). A line that another process

@@ -12,7 +12,7 @@
 namespace dpslave {
 
 std::string to_base64(Bytes octets);
-/// Nothing: the text is none.
+/// Returns nullopt if the text is not Base64.
 std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text);
 
 } // namespace dpslave

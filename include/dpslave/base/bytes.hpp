@@ -73,7 +73,7 @@ public:
         return append(all);
     }
 
-    /// Compares the octets up to size(); those behind it do not count.
+    /// Compares the octets up to size(); those after it do not count.
     friend constexpr bool operator==(const ByteBuffer& a, const ByteBuffer& b)
     {
         const Bytes one = a.bytes(), other = b.bytes();

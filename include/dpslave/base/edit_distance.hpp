@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// How much two words differ, for a message that names what was probably meant.
+/// Counts how much two words differ, for a message that names what was probably meant.
 #pragma once
 
 #include <cstddef>

@@ -30,19 +30,19 @@ public:
         offered_.store(next.release(), std::memory_order_release);
         return true;
     }
-    /// Giver: what the user no longer uses. Nothing: it still uses it, or never had anything.
+    /// Giver: returns the object that the user no longer uses, or nullptr if there is none.
     std::unique_ptr<T> collect() noexcept
     {
         return std::unique_ptr<T>{used_up_.exchange(nullptr, std::memory_order_acquire)};
     }
-    /// Giver: what was offered last was taken.
+    /// Giver: true if the user has taken the last offer.
     bool taken() const noexcept { return offered_.load(std::memory_order_acquire) == nullptr; }
 
     /// User: what is offered, to be looked at before it is taken; nullptr = nothing new. It stays until
     /// take().
     const T* offered() const noexcept { return offered_.load(std::memory_order_acquire); }
-    /// User: is something new there? If so `present` becomes it, and what `present` was goes back to the
-    /// giver, which may destroy it at once.
+    /// User: takes the offered object, if there is one. `present` becomes it, and the former `present` goes
+    /// back to the giver, which may destroy it at once.
     bool take(std::unique_ptr<T>& present) noexcept
     {
         std::unique_ptr<T> next{offered_.load(std::memory_order_acquire)};

@@ -29,7 +29,7 @@ public:
 
     /// Smallest value of class `n`. Precondition, here and below: n < kClasses.
     static std::uint32_t lower_end(std::size_t n) noexcept;
-    /// How many values fell into class `n`.
+    /// Returns the number of values in class `n`.
     std::uint64_t in_class(std::size_t n) const noexcept { return counts_[n]; }
 
 private:

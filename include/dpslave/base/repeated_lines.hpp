@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Limits equal lines of a log: the first one is logged at once, those that follow are counted and logged as
-/// one line every 10 s. Pure; for one thread.
+/// one line every 10 s. It is pure and for one thread.
 #pragma once
 
 #include "dpslave/base/units.hpp"
@@ -18,10 +18,11 @@ namespace dpslave {
 
 class RepeatedLines {
 public:
-    /// For this time after a line was logged, equal lines are only counted.
+    /// Equal lines are only counted for this time after one was logged.
     static constexpr std::chrono::seconds kQuiet{10};
-    /// At most so many different keys; all others count as one.
-    static constexpr std::size_t kMostKeys = 64;
+    /// At most this number of different keys is kept; all others count as one. A start-up of 126 stations has
+    /// some for each.
+    static constexpr std::size_t kMostKeys = 1024;
 
     struct Line {
         int level = 0; ///< as the log has it
@@ -32,8 +33,8 @@ public:
     /// Returns the line to log now; none: it is counted.
     std::optional<Line> on_line(std::string_view key, Line line, Instant now);
 
-    /// The lines that are due: the newest text of each, with how many there were. In the order of their
-    /// newest.
+    /// Returns the lines that are due, in the order of their newest: the newest text of each, with their
+    /// number.
     std::vector<Line> on_time(Instant now);
 
 private:

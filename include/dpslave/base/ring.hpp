@@ -41,7 +41,7 @@ public:
         return value;
     }
 
-    /// How many values a full ring has refused. Any thread may ask.
+    /// Returns how many values were refused because the ring was full. Any thread may ask.
     std::uint64_t refused() const noexcept { return refused_.load(std::memory_order_relaxed); }
 
 private:

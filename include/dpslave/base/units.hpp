@@ -61,7 +61,7 @@ constexpr std::optional<Baud> baud_of(std::uint32_t bits_per_second)
     return std::nullopt;
 }
 
-/// As the GSD keywords spell it: "9.6", "187.5", "1.5M".
+/// Returns the spelling of the GSD keywords: "9.6", "187.5", "1.5M".
 std::string_view text(Baud baud) noexcept;
 
 /// A number of bit times (T_bit). Its duration depends on the rate: duration_of().

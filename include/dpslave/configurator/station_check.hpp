@@ -13,14 +13,14 @@
 
 namespace dpslave::configurator {
 
-/// What the daemon says of a station.
+/// The state of a station as the daemon reports it.
 struct RunningStation {
     std::string name, profile;
-    std::string protocol; ///< of its drive: "ei-ascii"
-    std::uint32_t ident = 0;
+    std::string protocol;                                         ///< of its drive: "ei-ascii"
+    profile::StationKeys keys{};                                  ///< with its ident
     std::uint32_t baud = 0;                                       ///< of the bus now; 0 = none is found yet
     std::vector<std::pair<std::uint32_t, std::uint32_t>> rates{}; ///< bit/s, MaxTsdr in T_bit
-    /// Bit times that 99.9 of 100 replies took, and the slowest; nothing: none was sent.
+    /// Bit times that 99.9 of 100 replies took, and the slowest; nullopt: none was sent.
     std::optional<std::uint32_t> usual_reply{}, slowest_reply{};
     std::string last_prm{}, last_cfg{};    ///< octets in hexadecimal; empty: no master sent them
     std::vector<std::uint16_t> unscaled{}; ///< tags that answer with a number whose scale is not known

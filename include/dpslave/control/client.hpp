@@ -18,7 +18,7 @@ struct ClientError {
     enum class Kind : std::uint8_t {
         no_daemon, ///< no process serves this socket
         no_access, ///< the socket is there, but this user has no right to its folder or file
-        timeout,   ///< no reply within the time-out
+        timeout,   ///< no reply within the timeout
         ended,     ///< the daemon ended the connection
         nonsense,  ///< what came is no Varlink reply
     };
@@ -43,7 +43,7 @@ public:
     /// Starts a call with "more"; next() gives its replies.
     std::optional<ClientError> start(std::string_view method, const Json& parameters = Json::object());
     /// The next reply, or none as soon as `wake` is readable (-1 = no such descriptor). The first reply
-    /// must come within the time-out; the others take as long as they take.
+    /// must come within the timeout; the others take as long as they take.
     Result<std::optional<ReplyMessage>, ClientError> next(int wake = -1);
 
 private:

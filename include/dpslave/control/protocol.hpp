@@ -18,6 +18,9 @@ namespace dpslave::control {
 
 using Json = nlohmann::json;
 
+/// The interface of the daemon.
+inline constexpr std::string_view kInterface = "org.dpslaved.Control";
+
 /// Longest call that is taken, in octets without its NUL. Every call of our interfaces fits 1 KiB.
 inline constexpr std::size_t kMaxCall = 16 * 1024;
 /// Longest reply that is sent or taken: 125 stations with 12 words each need some 300 KiB.

@@ -5,8 +5,6 @@
 /// by it. A caller that is too slow or sends no Varlink loses its connection; others are not affected.
 #pragma once
 
-#include "control/interface.hpp"
-
 #include "dpslave/control/protocol.hpp"
 
 #include <sys/types.h>
@@ -23,6 +21,42 @@
 
 namespace dpslave::control {
 
+/// Which callers may call a method.
+enum class Right : std::uint8_t {
+    look,    ///< every caller
+    operate, ///< root and the operator group
+    write,   ///< the same, unless the daemon only shows (ServerSettings::read_only)
+};
+
+struct ServerImpl;
+
+/// The parameters of the last reply, or an error.
+using LastReply = std::variant<Done, Error>;
+
+/// Where the replies to one call go, if its handler has promised some with Later or Stream. The server hands
+/// it out; a copy stands for the same call. When the caller or the server has gone, it is not open any more.
+class ReplyTo {
+public:
+    ReplyTo() = default;
+
+    /// False: the caller has gone, or has its last reply.
+    bool is_open() const;
+    /// A further reply of a Stream. False: it is not open.
+    bool send(const Json& parameters) const;
+    /// The last reply: the one promised with Later, or the end of a Stream. False: it is not open.
+    bool end(const LastReply& reply) const;
+    /// The octets that the caller has not fetched yet.
+    std::size_t unsent() const;
+
+private:
+    friend struct ServerImpl;
+    ReplyTo(std::weak_ptr<ServerImpl> server, std::uint64_t number)
+        : server_(std::move(server)), number_(number)
+    {}
+    std::weak_ptr<ServerImpl> server_;
+    std::uint64_t number_ = 0;
+};
+
 /// The caller, as the kernel says (SO_PEERCRED, SO_PEERGROUPS at the moment of connect).
 struct Caller {
     uid_t uid = 65534;
@@ -30,24 +64,21 @@ struct Caller {
     pid_t pid = 0;
     std::vector<gid_t> groups; ///< supplementary ones
     bool more = false;     ///< this call takes several replies: without it a Stream ends after its first one
-    bool operates = false; ///< may use methods with Right::operate
+    bool operates = false; ///< may use methods with another right than Right::look
+    ReplyTo reply_to{};    ///< for an answer that comes later
 };
 
 /// "uid 1000, pid 4711": for a log.
 std::string words_of(const Caller& caller);
 
-/// May `caller` use methods with Right::operate? Root may, and the operator group; without a group only root.
+/// May `caller` use methods with Right::operate or Right::write? Root may, and the operator group; without a
+/// group only root.
 bool may_operate(const Caller& caller, std::optional<gid_t> operator_group) noexcept;
 
-/// The answer is not known yet: Server::complete(token, ...) gives it. `token` is the application's own
-/// number, used for one waiting call at a time.
-struct Later {
-    std::uint64_t token = 0;
-};
-/// A first reply; further ones by Server::push(stream, ...) until the caller goes. `stream` is the
-/// application's own number, used for one stream at a time.
+/// The answer is not known yet: Caller::reply_to gives it.
+struct Later {};
+/// A first reply; further ones go to Caller::reply_to until the caller has gone.
 struct Stream {
-    std::uint64_t stream = 0;
     Json first = Json::object();
 };
 using Reply = std::variant<Done, Error, Later, Stream>;
@@ -55,13 +86,18 @@ using Reply = std::variant<Done, Error, Later, Stream>;
 /// Answers one method. The parameters have been judged by the interface description: only described fields,
 /// right types; a nullable field that was null is absent. Must not call back into the server.
 using Handler = std::function<Reply(const Json& parameters, const Caller& caller)>;
-/// One handler for each of kMethods.
-using Handlers = std::map<std::string, Handler, std::less<>>;
+struct Method {
+    Right right = Right::look;
+    Handler answer{};
+};
+/// All methods of org.dpslaved.Control, by name.
+using Methods = std::map<std::string, Method, std::less<>>;
 
 struct ServerSettings {
     std::filesystem::path socket = "/run/dpslaved/control.sock";
     std::optional<gid_t> operator_group;    ///< none: only root operates
     std::string operator_group_name;        ///< for the error NotPermitted
+    bool read_only = false;                 ///< no caller, root included, uses methods with Right::write
     std::string version;                    ///< of the program, for org.varlink.service.GetInfo
     std::string url;                        ///< of the project, for the same
     std::size_t max_clients = 32;           ///< one user id that is not root: a quarter of them at most
@@ -93,7 +129,7 @@ class Server {
 public:
     /// Listens. A socket file that no process serves is replaced; one on which a process answers is left
     /// alone. The reason of a failure is a sentence with the path.
-    static Result<Server, std::string> open(ServerSettings settings, Handlers handlers);
+    static Result<Server, std::string> open(ServerSettings settings, Methods methods);
     Server(Server&&) noexcept;
     Server& operator=(Server&&) noexcept;
     ~Server(); ///< ends all connections and removes the socket file
@@ -104,28 +140,16 @@ public:
     /// readable again.
     void on_ready();
 
-    /// Gives the answer that a handler promised with Later: Done or Error. False: that caller has gone, or
-    /// there was none.
-    bool complete(std::uint64_t token, const Reply& reply);
-    /// Sends a further reply of a stream. False: that stream has ended; the application forgets it.
-    bool push(std::uint64_t stream, const Json& parameters);
-    /// Octets of a stream that its caller has not fetched yet; 0 also when it has ended.
-    std::size_t unsent(std::uint64_t stream) const;
-    /// The last reply of a stream: nothing further will come. False: that stream had ended already.
-    bool end_stream(std::uint64_t stream, const Error& why);
-    /// Open streams, by their numbers in ascending order.
-    std::vector<std::uint64_t> streams() const;
-
-    /// The group that may operate, for connections from now on.
+    /// Who may operate, for connections from now on, and whether anyone may write.
     void set_operators(std::optional<gid_t> group, std::string name);
+    void set_read_only(bool read_only);
 
     std::size_t clients() const noexcept;
     const ServerCounters& counters() const noexcept;
 
 private:
-    struct Impl;
-    explicit Server(std::unique_ptr<Impl> impl);
-    std::unique_ptr<Impl> impl_;
+    explicit Server(std::shared_ptr<ServerImpl> impl);
+    std::shared_ptr<ServerImpl> impl_;
 };
 
 } // namespace dpslave::control

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Who is on the bus, from what is heard: masters and slaves, what they ask and answer, how often and how
-/// much. Also whom masters ask without an answer. A constant time for each telegram; makes no system call and
-/// allocates nothing. Source: wire reference 2 (telegrams), 4.1 (SAPs), 5.1 (Slave_Diag).
+/// Lists who is on the bus, from the telegrams that are heard: masters and slaves, what they ask and answer,
+/// how often and how much. It also lists the addresses that masters ask without an answer. A constant time
+/// for each telegram; makes no system call and allocates nothing. Source: wire reference 2 (telegrams), 4.1
+/// (SAPs), 5.1 (Slave_Diag).
 #pragma once
 
 #include "dpslave/base/units.hpp"
@@ -16,14 +17,14 @@
 
 namespace dpslave::dp {
 
-/// Something that comes again and again: the times from one to the next, and the octets sent. Of the last
-/// whole window, until there is one of the window that has begun.
+/// Something that comes again and again: the times from one to the next, and the octets sent. It is about the
+/// last complete window; before the first one is complete, about the present one.
 class Recurrence {
 public:
     /// A window ends with the first event or octet this long after its begin.
     static constexpr std::chrono::seconds kWindow{10};
 
-    /// What the windows say. Times are 0 where `intervals` is 0.
+    /// These figures say what the windows have shown. Times are 0 where `intervals` is 0.
     struct Figures {
         std::uint32_t intervals = 0;
         std::chrono::nanoseconds min{}, mean{}, max{};
@@ -32,7 +33,7 @@ public:
 
     void event(Instant at);
     void octets(std::size_t count, Instant at);
-    /// Nothing was added for two windows: all figures are 0.
+    /// Returns the figures; all are 0 if nothing was added for two windows.
     Figures figures(Instant now) const;
 
 private:
@@ -51,7 +52,7 @@ private:
 
 /// One address.
 struct Member {
-    /// What a slave is found in. The last diagnosis or the last answer to Data_Exchange says so.
+    /// The state in which a slave was seen. The last diagnosis or the last answer to Data_Exchange says so.
     enum class State : std::uint8_t {
         unknown,
         prm_required, ///< Prm_Req: no master has parameterised it
@@ -91,7 +92,7 @@ class BusMembers final : public fdl::TelegramListener {
 public:
     static constexpr std::size_t kAddresses = 127;
     using Table = std::array<Member, kAddresses>; ///< index = address
-    /// How many unanswered addresses are reported at most: those with the most requests.
+    /// At most this number of unanswered addresses is reported: those with the most requests.
     static constexpr std::size_t kMostReported = 4;
     using UnansweredList = std::array<UnansweredAddress, kMostReported>;
 

@@ -22,7 +22,7 @@ struct Configuration {
     Layout layout{};
 };
 
-/// What `cfg` (Cfg_Data) configures, or why it is refused. `tags` are those of the Set_Prm before.
+/// Returns what `cfg` (Cfg_Data) configures, or why it is refused. `tags` are those of the Set_Prm before.
 Result<Configuration, RefusalDetail> check_chk_cfg(const Personality& personality,
                                                    std::span<const std::uint16_t> tags, Bytes cfg);
 

@@ -32,11 +32,11 @@ public:
 
     /// The registers that are active now. Only a change makes an order.
     void request(const DemandRegisters& registers);
-    /// What became of an order; dropped when the order no longer stands.
+    /// Takes the result of an order; it is dropped if the order is no longer in force.
     void answer(const DemandAnswer& answer);
 
     const DemandRegisters& reply() const { return reply_; }
-    const DemandOrder& standing() const { return standing_; } ///< `cancel`: none stands
+    const DemandOrder& standing() const { return standing_; } ///< `cancel`: none is in force
     std::optional<DemandOrder> take_order() { return orders_.pop(); }
 
     std::uint64_t orders() const { return ordered_; }   ///< reads and writes ordered
@@ -44,7 +44,7 @@ public:
     std::uint64_t lost() const { return lost_; }        ///< orders that were not fetched in time
 
 private:
-    /// What the master wants; the parts of the registers that do not matter for its command are 0.
+    /// The order of the master; the parts of the registers that do not matter for its command are 0.
     struct Wanted {
         std::uint8_t command = 0;
         std::uint16_t tag_field = 0;
@@ -65,7 +65,7 @@ private:
     const Personality* personality_;
     Generation generation_ = 0;
     Wanted wanted_{};
-    DemandOrder standing_{}; ///< the order given last; `cancel` = none stands
+    DemandOrder standing_{}; ///< the order given last; `cancel` = none is in force
     DemandRegisters reply_{};
     /// Orders are fetched after each telegram, so one place is enough; eight are for a caller that is
     /// late.

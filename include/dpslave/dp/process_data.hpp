@@ -19,11 +19,12 @@ namespace dpslave::dp {
 
 struct Snapshot;
 
-/// What Global_Control says of Sync or of Freeze.
+/// The request of Global_Control for Sync or for Freeze.
 enum class Switch : std::uint8_t { keep, on, off };
 
 /// Demand Data is part of both strings: under Sync its orders come from the outputs in force, under Freeze
-/// its reply stands still, as all inputs do. Knows no state and no master; for one thread; allocates nothing.
+/// its reply does not change, as all inputs do not. Knows no state and no master; for one thread; allocates
+/// nothing.
 class ProcessData {
 public:
     /// `personality` outlives it.
@@ -33,18 +34,20 @@ public:
     void begin(const Configuration& configuration, Instant at);
     /// The layout ended: the outputs go to their safe state, reported to the drive side.
     void end();
-    /// Of the present layout; generation 0: there is none.
+    /// The configuration of the present layout; generation 0: there is none.
     const Configuration& configuration() const { return config_; }
 
     // From the master.
 
     /// The outputs of a Data_Exchange. Precondition: data has the configured length.
-    void receive(Bytes data);
+    void receive(Bytes data, Instant when);
     /// A Data_Exchange without data: every output becomes 0 at once, also under Sync.
-    void receive_nothing();
-    /// Clear_Data or not, as the newest Global_Control says. True: it is the first one after one without.
+    void receive_nothing(Instant at);
+    /// Clear_Data or not, as the newest Global_Control says. Returns true if it is the first one after one
+    /// without.
     bool set_clear(bool clear);
-    /// True: Sync or Freeze has become another. On again while on: what came meanwhile is taken.
+    /// Returns true if the state of Sync or Freeze has changed. A repeated "on" takes the values that came
+    /// meanwhile.
     bool set_sync(Switch to);
     bool set_freeze(Switch to);
     bool sync() const { return sync_; }
@@ -55,18 +58,33 @@ public:
     void append_inputs(ByteBuffer<244>& reply) const;
     /// Those in force: after Sync and Clear.
     void append_outputs(ByteBuffer<244>& reply) const;
-    /// Stat_Diag: not every input (and scale) was tried yet, or one has no scale.
+    /// Stat_Diag: not every parameter was tried yet, or one of them holds the start.
     bool stat_diag() const { return stat_diag_; }
-    void end_stat_diag();
-    /// Stat_Diag has had its time at this moment, even if not every input was tried; kNever = it is over.
+    /// It ends; or it begins again until every input has been read anew: the outputs stay as they are, and a
+    /// frozen image is released. Returns true if there was one.
+    bool set_stat_diag(bool on);
+    /// Stat_Diag has had its time at this moment, even if not every input was tried; kNever = it is over. A
+    /// drive that answers is waited for all the same (C2).
     Instant ready_by() const { return ready_by_; }
-    /// Precondition: ready_by() has come. True: Stat_Diag may end.
+    /// Gives up waiting for the drive; true means that Stat_Diag may end. Precondition: ready_by() has come.
     bool give_up_waiting();
+    /// Returns when outputs that wait for the end of Stat_Diag are too old to be written then; kNever: none
+    /// wait.
+    Instant outputs_old_at() const { return may_be_held() ? outputs_old_at_ : kNever; }
+    /// Drops the waiting outputs, so that nothing is written before the next Data_Exchange. Precondition:
+    /// outputs_old_at() has come.
+    void forget_waiting_outputs() { outputs_old_at_ = kNever; }
 
     // The drive side.
 
-    /// Counts only under the present layout's generation. True: Stat_Diag may end.
-    bool set_inputs(const InputImage& inputs);
+    /// The meaning of an image of inputs for Stat_Diag.
+    enum class Readiness : std::uint8_t {
+        as_before,
+        ready,      ///< it may end
+        drive_gone, ///< it has to begin (row A4)
+    };
+    /// Counts only under the present layout's generation.
+    Readiness set_inputs(const InputImage& inputs);
     void set_demand_answer(const DemandAnswer& answer) { demand_.answer(answer); }
     /// Given only when they changed since the last call.
     std::optional<OutputImage> take_outputs();
@@ -87,10 +105,10 @@ private:
     void clear_outputs();
     void activate_received();
     void allow_writing();
-    /// Every parameter was tried or had its time, but one has no scale.
-    bool holds() const { return stat_diag_ && inputs_.scale_missing; }
-    /// Not every scale is known yet, or one of them never will be.
-    bool finds_scales() const { return stat_diag_ && personality_.tries_outputs; }
+    /// An exchange that has begun is held no more, also when it waits for its drive (row A4).
+    StartHold hold() const { return stat_diag_ && starts_ ? inputs_.hold : StartHold::none; }
+    /// Not everything that could hold the start was tried yet, or something holds it.
+    bool may_be_held() const { return stat_diag_ && personality_.tries_outputs; }
 
     const Personality& personality_;
     Generation generations_ = 0; ///< layouts so far
@@ -99,13 +117,17 @@ private:
     Image active_{};           ///< N: the outputs that are in force
     bool has_outputs_ = false; ///< received at least once in this layout
     bool may_write_ = false;
+    bool in_force_ = false; ///< N was received in this layout, not only D
+    Instant outputs_old_at_ = kNever;
     bool outputs_changed_ = false;
-    InputImage inputs_{}; ///< of the present layout
+    InputImage inputs_{};        ///< of the present layout
+    bool drive_answers_ = false; ///< by the newest image, of whatever layout
     Image frozen_{};
     bool sync_ = false;
     bool freeze_ = false;
     bool clear_ = false; ///< by the newest Global_Control
     bool stat_diag_ = false;
+    bool starts_ = false; ///< Stat_Diag is that of the start
     Instant ready_by_ = kNever;
     DemandData demand_;
     Queue<LeftDataExchange, 8> left_;

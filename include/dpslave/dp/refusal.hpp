@@ -10,7 +10,8 @@
 
 namespace dpslave::dp {
 
-/// What was wrong. Behind each: what `octet`, `expected` and `got` of RefusalDetail mean for it.
+/// The reason of a refusal. The comment of each says what `octet`, `expected` and `got` of RefusalDetail mean
+/// for it.
 enum class Refusal : std::uint8_t {
     none,
     prm_ident,         ///< another Ident_Number: octet 5, our ident, the master's
@@ -23,7 +24,7 @@ enum class Refusal : std::uint8_t {
                        ///< highest tag, tag
     prm_zero_tag,      ///< a zero between tags: octet of the zero, at least 1, 0
     cfg_empty,         ///< no identifier at all: octet 0, at least 1, 0
-    cfg_too_long,      ///< octet of the first identifier too many, identifiers allowed, identifiers
+    cfg_too_long,      ///< octet of the first identifier beyond the limit, identifiers allowed, identifiers
     cfg_identifier,    ///< no legal identifier, or Demand Data elsewhere than first: its octet, a legal one,
                        ///< what came
     cfg_too_few,       ///< fewer identifiers than tags: octet 0, tags, identifiers of parameters
@@ -34,7 +35,7 @@ enum class Refusal : std::uint8_t {
 };
 std::string_view text(Refusal why) noexcept;
 
-/// Which telegram a refusal is about.
+/// The telegram that is refused.
 enum class Service : std::uint8_t { none, set_prm, chk_cfg };
 Service service_of(Refusal why) noexcept;
 

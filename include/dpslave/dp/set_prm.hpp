@@ -40,7 +40,7 @@ Tbit min_tsdr_of(Bytes telegram, Tbit old);
 std::chrono::milliseconds watchdog_of(Bytes telegram, bool dpv1_status);
 
 /// The parameters of an accepted Set_Prm.
-struct Parameters {
+struct SetPrm {
     bool watchdog_on = false;
     std::chrono::milliseconds watchdog{}; ///< T_WD
     bool sync_requested = false;
@@ -55,6 +55,6 @@ struct Parameters {
 
 /// The parameters of the telegram, or why it is refused. Checks 5 to 8 of wire reference 4.4, in that order:
 /// ident, Sync/Freeze, watchdog factors, User_Prm_Data. Precondition: telegram.size() >= kPrmHeader.
-Result<Parameters, RefusalDetail> check_set_prm(const Personality& personality, Bytes telegram);
+Result<SetPrm, RefusalDetail> check_set_prm(const Personality& personality, Bytes telegram);
 
 } // namespace dpslave::dp

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A DP slave: SAPs 55 to 62 and Data_Exchange over one process image. Pure: the time, the inputs and
+/// A DP slave: SAPs 55 to 62 and Data_Exchange over one process image. It is pure: the time, the inputs and
 /// the answers come in; replies, outputs, orders and events go out as values. Source: wire reference 4 to 7.
 #pragma once
 
 #include "dpslave/base/process_image.hpp"
-#include "dpslave/dp/event_log.hpp"
+#include "dpslave/dp/pending_events.hpp"
 #include "dpslave/dp/personality.hpp"
 #include "dpslave/dp/process_data.hpp"
 #include "dpslave/dp/snapshot.hpp"
@@ -16,18 +16,18 @@
 
 namespace dpslave::dp {
 
-/// Judges each request of layer 2 and passes it to the state machine as a trigger. For one thread; the reply
-/// path allocates nothing.
+/// Judges each request of layer 2 and passes it to the state machine as a trigger. It is for one thread, and
+/// the reply path allocates nothing.
 class Slave final : public fdl::SapUser {
 public:
-    /// `personality` outlives the slave. `address` 0..125. Until start() the slave is in Power_On: attach it
+    /// `personality` outlives the slave. `address` 0..125. The slave is in Power_On until start(): attach it
     /// to layer 2 after start().
     Slave(const Personality& personality, std::uint8_t address);
     Slave(const Slave&) = delete; // layer 2 keeps its address
     Slave& operator=(const Slave&) = delete;
 
-    /// The address from the next start() on, 0..125. Only in Power_On; false, and nothing changes, in any
-    /// other state: its masters know the slave under the old one.
+    /// The address from the next start() on, 0..125. Works only in Power_On; returns false, and changes
+    /// nothing, in any other state: its masters know the slave under the old one.
     bool set_address(std::uint8_t address);
 
     void start(Instant now); ///< Power_On -> Wait_Prm
@@ -47,13 +47,13 @@ public:
     /// Counts only under the present layout's generation; others are dropped.
     void set_inputs(const InputImage& inputs);
     void set_demand_answer(const DemandAnswer& answer) { data_.set_demand_answer(answer); }
-    /// Blocks of extended diagnosis, back to back; `fault` sets Ext_Diag. What does not fit into
-    /// max_diag_length is cut off at a block boundary (Ext_Diag_Overflow). None: the device's own block as
-    /// zeros (Personality::diag_octets). False: a header announces more octets than there are; nothing from
-    /// there on was taken.
+    /// Blocks of extended diagnosis, back to back; `fault` sets Ext_Diag. Blocks beyond max_diag_length are
+    /// cut off at a block boundary (Ext_Diag_Overflow). None: the device's own block as zeros
+    /// (Personality::diag_octets). False: a header announces more octets than there are; the blocks from
+    /// there on are ignored.
     bool set_ext_diag(Bytes blocks, bool fault) { return machine_.set_ext_diag(blocks, fault); }
 
-    /// What the drive side shall write; given only when it changed since the last call.
+    /// Returns the outputs that the drive side has to write, if they changed since the last call.
     std::optional<OutputImage> take_outputs() { return data_.take_outputs(); }
     std::optional<DemandOrder> take_demand_order() { return data_.take_demand_order(); }
     /// Each leaving of Data_Exch once, in order, however fast the next start-up was.
@@ -73,7 +73,7 @@ private:
 
     const Personality& personality_;
     std::uint8_t address_;
-    EventLog log_;
+    PendingEvents log_;
     ProcessData data_;
     StateMachine machine_;
     ByteBuffer<244> prm_seen_;

@@ -18,7 +18,7 @@ inline constexpr std::uint8_t kNoMaster = 0xFF;  ///< Master_Add of a slave that
 /// more than is there (wire reference 5.3). Precondition: not empty.
 std::size_t block_length(Bytes rest);
 
-/// What the six standard octets say, by name.
+/// The six standard octets, by name.
 struct StandardDiagnosis {
     bool station_not_ready = true;
     bool cfg_fault = false;
@@ -36,17 +36,17 @@ struct StandardDiagnosis {
 };
 void encode(const StandardDiagnosis& diagnosis, ByteBuffer<244>& into);
 
-/// The extended part: blocks back to back as they go on the wire, no more whole blocks than fit.
+/// The extended part: blocks back to back as they go on the wire, no more complete blocks than fit.
 class ExtendedDiagnosis {
 public:
     /// Begins with the device's own block as zeros, if it has one. `personality` outlives it.
     explicit ExtendedDiagnosis(const Personality& personality) : personality_(personality) { set({}, false); }
 
-    /// What became of the blocks.
+    /// The result of setting the blocks.
     struct Outcome {
         bool changed = false; ///< a master would read another diagnosis now: to be reported to the owner
         bool well_formed =
-            false; ///< false: a header announces more than is there; nothing from there on was taken
+            false; ///< false: a header announces more than is there; the blocks from there on are ignored
     };
     /// None: the device's own block as zeros. `fault`: a block reports a fault, not only a status.
     Outcome set(Bytes blocks, bool fault);

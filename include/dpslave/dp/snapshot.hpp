@@ -47,7 +47,7 @@ struct Snapshot {
     bool freeze = false;
     bool clear = false; ///< the master's last Global_Control was Clear_Data: 0 goes to every output
     bool stat_diag = false;
-    bool holds = false; ///< Stat_Diag stands because a parameter has answered with a number of unknown scale
+    StartHold hold = StartHold::none; ///< why Stat_Diag stands, where it is no longer waited for an answer
     bool diag_pending = false;
     ByteBuffer<244> diagnosis; ///< as Slave_Diag would answer now
     ByteBuffer<244> prm; ///< the last Set_Prm seen, accepted or not; those of foreign masters do not count
@@ -55,13 +55,13 @@ struct Snapshot {
     LeaveReason left_because = LeaveReason::none; ///< the last time
     RefusalDetail refusal{}; ///< of the last refused telegram; cleared by the next accepted one of its kind
     Layout layout{};
-    bool demand_data = false; ///< Demand Data stands before the parameters
+    bool demand_data = false; ///< Demand Data comes before the parameters
     bool may_write = false;
     std::array<std::uint16_t, kMaxParameters> inputs{};  ///< as sent (frozen under Freeze)
     std::array<std::uint16_t, kMaxParameters> outputs{}; ///< active (after Sync and Clear)
     DemandRegisters demand_request{};                    ///< as received
     DemandRegisters demand_reply{};                      ///< as sent
-    DemandOrder demand_order{};                          ///< the one that stands; `cancel`: none
+    DemandOrder demand_order{};                          ///< the one in force; `cancel`: none
     Counters counters{};
 };
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "dpslave/dp/chk_cfg.hpp"
-#include "dpslave/dp/event_log.hpp"
+#include "dpslave/dp/pending_events.hpp"
 #include "dpslave/dp/personality.hpp"
 #include "dpslave/dp/process_data.hpp"
 #include "dpslave/dp/refusal.hpp"
@@ -28,33 +28,33 @@ struct Judgement {
     Trigger trigger;
     /// Parameters with an accepted Set_Prm, a configuration with an accepted Chk_Cfg that starts an exchange,
     /// the refusal with a refused one.
-    std::variant<std::monostate, Parameters, Configuration, RefusalDetail> brings{};
+    std::variant<std::monostate, SetPrm, Configuration, RefusalDetail> brings{};
 };
 
-/// Begins in Power_On. For one thread; allocates nothing.
+/// Begins in Power_On. It is for one thread and allocates nothing.
 class StateMachine {
 public:
     /// All three outlive it.
-    StateMachine(const Personality& personality, ProcessData& data, EventLog& log);
+    StateMachine(const Personality& personality, ProcessData& data, PendingEvents& log);
 
     /// A request, judged: carries out what the table has for it, fills `reply` and says how to answer.
     fdl::Answer apply(const Judgement& judged, const fdl::Indication& request, fdl::ReplyData& reply);
     /// An event inside: no telegram, no reply.
     void apply(Trigger trigger, Instant at = {});
-    /// The watchdog, and the time that inputs have to be tried in. To be called before each request as well:
-    /// one that comes after the watchdog's expiry finds the slave in Wait_Prm.
+    /// Judges the watchdog, and the time within which inputs have to be tried. Call it before each request as
+    /// well: one that comes after the watchdog's expiry finds the slave in Wait_Prm.
     void on_time(Instant at);
     /// A request of `sa` was received at `at`: the watchdog begins anew if it is the owner's.
     void retrigger(std::uint8_t sa, Instant at);
     /// kNever = none.
     Instant next_deadline() const;
-    /// As Slave::set_ext_diag().
+    /// Does what Slave::set_ext_diag() says.
     bool set_ext_diag(Bytes blocks, bool fault);
 
     State state() const { return state_; }
     std::uint8_t master() const { return master_; } ///< the owner, or kNoMaster
     bool is_foreign(std::uint8_t sa) const { return master_ != kNoMaster && sa != master_; }
-    const Parameters& parameters() const { return parameters_; }   ///< of the owner
+    const SetPrm& parameters() const { return parameters_; }       ///< of the owner
     Bytes accepted_configuration() const { return cfg_accepted_; } ///< Cfg_Data; empty: there never was one
     Tbit min_tsdr() const { return min_tsdr_; }
     fdl::Supervision supervision() const;
@@ -81,11 +81,11 @@ private:
 
     const Personality& personality_;
     ProcessData& data_;
-    EventLog& log_;
+    PendingEvents& log_;
 
     State state_ = State::power_on;
     std::uint8_t master_ = kNoMaster;
-    Parameters parameters_{};
+    SetPrm parameters_{};
     Tbit min_tsdr_ = kSmallestMinTsdr;
     Watchdog watchdog_;
     bool prm_fault_ = false;

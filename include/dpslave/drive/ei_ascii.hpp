@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The EI-ASCII codec (ANSI X3.28 1976, subcategory 2.5): requests out, answers in, and the text form of
-/// values. Pure: it knows no line and no time. Source: EI-ASCII reference, sections 1, 2 and 4.
+/// values. It is pure: it knows no line and no time. Source: EI-ASCII reference, sections 1, 2 and 4.
 #pragma once
 
 #include "dpslave/base/bytes.hpp"
@@ -49,7 +49,7 @@ enum class Flaw : std::uint8_t {
     bad_text,         ///< a control character or an octet above 7Eh inside the frame
     too_long,
     bad_bcc,
-    octets_after, ///< an EOT, ACK or NAK with something right behind it
+    octets_after, ///< an EOT, ACK or NAK with something directly after it
 };
 std::string_view text(Flaw flaw) noexcept;
 
@@ -90,7 +90,7 @@ private:
     Flaw flaw_ = Flaw::none;
 };
 
-/// How a family writes an ENUM: 590+ ">05", AC drives "5." (both are understood in answers).
+/// The form of an ENUM in requests: 590+ ">05", AC drives "5." (both are understood in answers).
 enum class EnumForm : std::uint8_t { hexadecimal, decimal };
 
 /// Why a text is no value of a tag, or a word cannot be sent as one.
@@ -114,9 +114,9 @@ Result<std::uint16_t, ValueFlaw> decode_value(const Tag& tag, std::string_view t
 /// A word in the form of EE, II and every WORD: '>' and one to four hexadecimal digits.
 Result<std::uint16_t, ValueFlaw> decode_word(std::string_view text);
 
-/// What the drive's last error (EE, its high octet) means for an access. Line and format errors (02, 03,
-/// 07C7) are not_understood: the same request again may pass. So is a number that no table has; but it
-/// refuses a write as read only.
+/// Returns the meaning of the drive's last error (EE, its high octet) for an access. Line and format errors
+/// (02, 03, 07C7) are not_understood: the same request again may pass. An unknown number is not_understood as
+/// well; but it refuses a write as read only.
 AccessError error_of_ee(std::uint16_t ee, bool is_write);
 std::string_view meaning_of_ee(std::uint16_t ee) noexcept;
 

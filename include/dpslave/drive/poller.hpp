@@ -31,8 +31,52 @@ using ZeroAfter = std::optional<std::chrono::nanoseconds>;
 using AnswerText = std::array<char, 12>;
 AnswerText answer_text(std::string_view text);
 
+/// What a chosen tag that the drive denies does to the start.
+enum class DeniedHold : std::uint8_t {
+    never,
+    where_all, ///< it is held where every chosen tag is denied
+    where_one,
+};
+
+/// What the master sees of a drive that is gone.
+enum class WhenLost : std::uint8_t {
+    silent,    ///< the station leaves the bus until the drive is back
+    diagnosis, ///< it asks for diagnosis (Stat_Diag) until every input has been read again
+    hold,      ///< nothing: the inputs keep their values
+};
+
+/// When a drive that is lost is gone: `after` has passed since, and four further questions had no valid
+/// answer. With hold nothing is decided.
+struct LossRule {
+    WhenLost when = WhenLost::hold;
+    std::chrono::nanoseconds after = std::chrono::seconds{2};
+    friend bool operator==(const LossRule&, const LossRule&) = default;
+};
+
+/// How far a drive is from being gone or back.
+enum class DrivePresence : std::uint8_t {
+    awaited,   ///< it has not answered since the start
+    here,      ///< also while it is lost and not gone
+    gone,      ///< until it answers
+    returning, ///< with silent: it answers, and the station does not appear yet
+};
+
+/// A register in which the instrument says how it gives its values: the station says it, too.
+struct ScaleRegister {
+    std::uint16_t tag = 0;
+    std::uint16_t expected = 0; ///< by the station
+    bool only_display = false;  ///< it concerns the tags that follow the display; else every floating value
+    friend bool operator==(const ScaleRegister&, const ScaleRegister&) = default;
+};
+
+/// One that says otherwise.
+struct ScaleFault {
+    std::uint16_t tag = 0, word = 0, expected = 0;
+    friend bool operator==(const ScaleFault&, const ScaleFault&) = default;
+};
+
 /// One drive of the line.
-struct UnitSettings {
+struct DriveSettings {
     UnitAddress address{};
     const TagTable* tags = nullptr;    ///< outlives the poller
     bool tags_only_from_table = false; ///< unlisted_tags = "refuse"
@@ -40,7 +84,10 @@ struct UnitSettings {
     /// be found out, outputs included, before the exchange begins.
     bool scale_from_table = false;
     std::optional<std::uint8_t> unlisted_decimals; ///< with scale_from_table: of numbers that are in no table
+    /// Read before the exchange and after a loss. What one contradicts is not trusted: X-54, as X-49.
+    std::vector<ScaleRegister> scale_registers{};
     bool unscaled_holds = true; ///< false: unscaled_tags = "zero", the exchange begins all the same
+    DeniedHold denied_holds = DeniedHold::never; ///< not never: outputs are read once before the exchange
     std::chrono::nanoseconds output_refresh = std::chrono::seconds{1}; ///< 0 = every cycle
     ZeroAfter zero_after = std::chrono::nanoseconds{0};
     /// Each output is also read cyclically, unless its tag is write-only, and a standing word is written
@@ -52,16 +99,21 @@ struct UnitSettings {
     /// Read once a round; 250 ms apart where nothing is read for the master. kMaxWatched at most.
     std::vector<std::uint16_t> watched;
     int retries = 2;
+    LossRule loss;
+    /// With silent: each output is set to 0 before the station appears again, whatever zero_after says.
+    bool zeroes_on_return = false;
+    /// Between two questions to a drive of which is to be decided whether it is gone or back.
+    std::chrono::nanoseconds decides_every = std::chrono::milliseconds{200};
     /// While nothing else is asked; and between two probes of lost drives of the line, of which the one that
     /// has waited longest is the next: the time after which no answer to the last probe can come.
     std::chrono::nanoseconds probe_interval = std::chrono::seconds{1};
-    friend bool operator==(const UnitSettings&, const UnitSettings&) = default;
+    friend bool operator==(const DriveSettings&, const DriveSettings&) = default;
 };
 
 /// Who asked for a transaction. output: a write, or a read that shows what became of compared outputs; watch:
 /// a read that serves watched tags only.
-/// survey: a read that nothing follows from but its answer.
-enum class Purpose : std::uint8_t { input, output, safe_state, demand, operate, watch, probe, survey };
+/// survey: a read that nothing follows from but its answer. scale: a read of a ScaleRegister.
+enum class Purpose : std::uint8_t { input, output, safe_state, demand, operate, watch, probe, survey, scale };
 
 /// The next thing to do on the line. Handed to a Backend, its outcome to Poller::done().
 struct Transaction {
@@ -72,14 +124,17 @@ struct Transaction {
     const Tag* tag = nullptr;             ///< first tag of a read; valid until done()
     std::uint16_t count = 1;              ///< tags of a block
     std::span<const std::uint16_t> words; ///< of a write, `count` of them; valid until done()
+    bool once = false;                    ///< of a write: Backend::write_once()
 };
 
 /// The outcome of a transaction. `words` holds `count` words after a read without error.
 struct Outcome {
     AccessError error = AccessError::none;
     std::span<const std::uint16_t> words;
-    std::string_view answer{};  ///< of a read: the text of the value (Backend::last_answer())
+    std::string_view answer{};  ///< of a read: what the drive has said (Backend::last_answer())
     std::string_view trouble{}; ///< of a survey: why there is none (Backend::last_trouble())
+    bool sent = true;           ///< of a write: Backend::has_sent()
+    unsigned questions = 1;     ///< Backend::questions()
 };
 
 /// A watched tag as it was read last. untried: not yet.
@@ -87,13 +142,13 @@ struct Watched {
     std::uint16_t tag = 0;
     std::uint16_t word = 0;
     WordState state = WordState::untried;
-    bool repeated = false; ///< see UnitSnapshot
+    bool repeated = false; ///< see DriveSnapshot
 };
 
 /// State of one drive for `dpctl`, as a plain value. reads and writes count what the drive did, refusals what
 /// it refused or did not understand, silences what it did not answer (or not so that it can be believed),
 /// losses how often it was given up.
-struct UnitSnapshot {
+struct DriveSnapshot {
     bool known = false; ///< false until the first answer or the first loss
     bool answers = false;
     Generation generation = 0;
@@ -104,8 +159,8 @@ struct UnitSnapshot {
     std::array<AccessError, kMaxParameters> errors{};
     /// Stale, but its retries are not used up: neither lamps nor NETWORK STATE change for it.
     std::array<bool, kMaxParameters> repeated{};
-    std::array<Watched, kMaxWatched> watched{};            ///< in the order of UnitSettings::watched
-    std::array<AnswerText, kMaxParameters> answer_texts{}; ///< behind the errors no_scale and contradicted
+    std::array<Watched, kMaxWatched> watched{};            ///< in the order of DriveSettings::watched
+    std::array<AnswerText, kMaxParameters> answer_texts{}; ///< behind no_scale, contradicted, invalid_tag
     std::array<Instant, kMaxParameters> updated_at{};      ///< last success; default = never
     std::chrono::nanoseconds cycle{}; ///< the last whole round over this unit's parameters
     Histogram refresh_ms;             ///< all of them since the start, in ms, rounded up
@@ -115,6 +170,12 @@ struct UnitSnapshot {
     /// was lost or did not understand them.
     std::uint64_t orders_dropped = 0;
     AnswerCounts heard; ///< filled in by the owner of the back-end
+    DrivePresence presence = DrivePresence::awaited;
+    bool away = false;            ///< the station is not on the bus for it (WhenLost::silent)
+    std::uint32_t departures = 0; ///< how often it was found gone
+    /// The first tag that could not be set to 0 when the drive came back; 0 = none.
+    std::uint16_t not_zeroed = 0;
+    std::optional<ScaleFault> scale_fault; ///< why tags of the layout are unscaled (X-54)
     /// The master is lost and outputs stand until then (RIDE THROUGH); kNever = for ever. Nothing: none do.
     std::optional<Instant> ride_ends;
 };
@@ -140,8 +201,12 @@ struct OperateAnswer {
 
 class Poller {
 public:
-    Poller(const std::vector<UnitSettings>& units, BlockRule rule);
+    Poller(const std::vector<DriveSettings>& units, BlockRule rule);
     ~Poller();
+
+    /// When a frame with its checksum has come last that can only be of this drive, in time or late
+    /// (AnswerCounts::valid_at). Before next() and before done().
+    void heard(std::size_t unit, Instant valid_at);
 
     // What the master wants, by the index of the drive. Orders of Demand Data come after the image of their
     // layout or before.
@@ -163,9 +228,12 @@ public:
     /// Reads a tag for a survey, whatever the table says of it: once, behind everything else, and one such
     /// read in a round of the living drives. Its answer, silence included, changes nothing else. False: one
     /// waits for this drive already, or there is no such drive. A lost drive is answered for at once.
-    bool survey(std::size_t unit, std::uint32_t number, std::uint16_t tag);
+    /// `rule`: SurveySlot::set(); precondition: it gives the tag a mnemonic, or its row does.
+    bool survey(std::size_t unit, std::uint32_t number, std::uint16_t tag,
+                std::optional<MnemonicRule> rule = std::nullopt);
 
-    /// What to do now; nothing = wait until next_deadline() or until something new is set.
+    /// What to do now; nothing = wait until next_deadline() or until something new is set. Then also what can
+    /// be seen may have changed: that a drive is gone is not shown behind one more question.
     std::optional<Transaction> next(Instant now);
     /// The outcome of the transaction given last.
     void done(const Outcome& outcome, Instant now);
@@ -173,8 +241,7 @@ public:
     /// while a transaction is under way.
     Instant next_deadline() const;
 
-    /// The inputs of a drive, when they changed since the last take. Nothing before it is known whether the
-    /// drive answers.
+    /// The inputs of a drive, when they changed since the last take.
     std::optional<InputImage> take_inputs(std::size_t unit);
     std::optional<DemandAnswer> take_demand_answer(std::size_t unit);
     std::optional<OperateAnswer> take_operate_answer();
@@ -183,14 +250,19 @@ public:
     bool safe_state_pending() const;
     bool safe_state_pending(std::size_t unit) const; ///< one of this drive
 
-    const UnitSnapshot& snapshot(std::size_t unit) const;
+    const DriveSnapshot& snapshot(std::size_t unit) const;
+
+    /// Nothing is asked of the drives until next(), for longer than a station may wait: those by whose loss
+    /// something follows (LossRule) are gone at once. Precondition: no transaction is under way.
+    void not_asked(Instant now);
 
     /// The port is about to be another one, and no line has the present one any more: what was written goes
     /// to the safe state here, and nothing else is written until port_changed(). A drive that is lost, or
     /// that is never to be zeroed, is left as it is.
     void leave_port();
     /// The port is another one: every present output is written at once, also to a drive that was lost at the
-    /// old one. Precondition: no transaction is under way.
+    /// old one; of a row that says `once` only a word that is not the one sent last. Precondition: no
+    /// transaction is under way.
     void port_changed();
 
     /// The drives from now on. Drive i is the one that had the index stays[i] until now and goes on with all
@@ -199,7 +271,7 @@ public:
     /// one. The others are forgotten with whatever they still had to do. Tables of before may go after it.
     /// Precondition: no transaction is under way; no index stays twice; address and compare_outputs of one
     /// that stays are the same.
-    void exchange(const std::vector<UnitSettings>& units,
+    void exchange(const std::vector<DriveSettings>& units,
                   const std::vector<std::optional<std::size_t>>& stays, BlockRule rule);
 
 private:
@@ -215,7 +287,9 @@ private:
     std::size_t turn_ = 0;             ///< whose turn is next
     std::optional<Transaction> doing_; ///< given by next(), not yet done()
     bool probes_ = false;              ///< it is the probe of a lost drive
+    bool shows_first_ = false;         ///< that a drive is gone or back, before the next question
     std::optional<Instant> probed_at_; ///< end of the last one
+    Instant began_{};                  ///< of `doing_`
 };
 
 } // namespace dpslave::drive

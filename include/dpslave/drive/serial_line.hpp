@@ -14,17 +14,21 @@ namespace dpslave::drive {
 
 class SerialLine {
 public:
-    /// Hands `octets` to the line; it need not wait until they have left. False: the line does not take them
-    /// (unplugged).
+    /// Hands `octets` to the line; it need not wait until they have left. Returns false if the line does not
+    /// accept them (unplugged).
     virtual bool write(Bytes octets) = 0;
 
     /// Waits at most `timeout` for the first octet, then gives what is there, at least one and at most
-    /// `into.size()`. 0: nothing came in this time, or the line is gone. Parity is removed; an octet with
-    /// wrong parity comes as 00.
+    /// `into.size()`. The result is 0 if nothing came in this time, or the line is gone. Parity is removed;
+    /// an octet with wrong parity comes as 00.
     virtual std::size_t read(std::span<std::uint8_t> into, std::chrono::nanoseconds timeout) = 0;
 
     /// The monotonic clock that read() waits by.
     virtual Instant now() const = 0;
+
+    /// Returns whether characters take their time on it at present, so that the rule of time applies
+    /// (wire_time.hpp).
+    virtual bool takes_wire_time() const { return false; }
 
     /// Drops all that was received and not yet read.
     virtual void discard() = 0;

@@ -21,14 +21,15 @@ enum class BaudState : std::uint8_t {
 std::string_view text(BaudState state) noexcept;
 
 struct BaudSearchSettings {
-    /// What the UART can do, in the order of kBauds: the others are left out, for no telegram comes at them.
+    /// The rates that the UART can do, in the order of kBauds: the others are left out, because no telegram
+    /// can be received at them.
     std::bitset<kBauds.size()> rates = std::bitset<kBauds.size()>{}.set();
     std::chrono::nanoseconds dwell_fast = std::chrono::seconds{2}; ///< per rate, from 93.75 kbit/s up
     std::chrono::nanoseconds dwell_slow = std::chrono::seconds{4}; ///< per rate below
     std::chrono::nanoseconds baud_control = std::chrono::milliseconds{320}; ///< T_BC = 2 * 16 * 10 ms
 };
 
-/// How long no valid telegram may come at this rate before it counts as the wrong one.
+/// Returns how long the search waits for a valid telegram at this rate before it tries the next one.
 constexpr std::chrono::nanoseconds dwell_at(Baud baud, const BaudSearchSettings& settings = {})
 {
     return is_slow(baud) ? settings.dwell_slow : settings.dwell_fast;
@@ -55,7 +56,7 @@ public:
     Baud baud() const { return baud_; }
     BaudState state() const { return state_; }
     /// T_BC has expired in Baud_Control: the search listens again, for one dwell at the rate it had found.
-    /// What is heard there is served as before; the state changes only when the rate is left.
+    /// Requests are answered meanwhile; the state changes only when the rate is left.
     bool in_doubt() const { return in_doubt_; }
 
 private:

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dpslave/base/bytes.hpp"
+#include "dpslave/base/echo_mode.hpp"
 #include "dpslave/base/units.hpp"
 #include "dpslave/fdl/telegram.hpp"
 
@@ -13,19 +14,13 @@
 
 namespace dpslave::fdl {
 
-enum class EchoMode : std::uint8_t {
-    off,       ///< nothing is compared
-    on,        ///< each telegram has its echo: one that does not come is counted
-    automatic, ///< an echo is taken away where there is one; the first telegrams show whether there is
-};
-
-/// Compares what comes with what was sent last. That costs no telegram where there is no echo: no request can
-/// be the beginning of a reply of ours, because they differ in the direction of their addresses, so it is
-/// given back at the octet where it differs, whatever was concluded before.
+/// Compares what comes with what was sent last. This costs no telegram where there is no echo: no request can
+/// be the beginning of a reply of ours, because the direction of their addresses differs. So the octets are
+/// given back as soon as they differ, whatever was concluded before.
 class Echo {
 public:
-    /// What is not our echo. `withheld` came with earlier calls, looked like an echo until now, and belongs
-    /// in front of `octets`.
+    /// The received octets that are not our echo. `withheld` came with earlier calls, looked like an echo
+    /// until now, and belongs in front of `octets`.
     struct Foreign {
         Bytes withheld;
         Bytes octets;
@@ -34,7 +29,7 @@ public:
     explicit Echo(EchoMode mode) : mode_(mode) {}
 
     /// `telegram` goes out now. Until `quiet_until` (its last stop bit and T_SYN) no other station may send,
-    /// so whatever differs from it is a broken echo; by `until` its echo, if there is one, has been read.
+    /// so octets that differ from it are a broken echo; by `until` its echo, if there is one, has been read.
     void sent(Bytes telegram, Instant quiet_until, Instant until) noexcept;
     /// Octets that were read at `at`. Octets that differ from what was sent (collision, short circuit) are
     /// given back with all that was withheld: layer 2 hunts through them. Valid until the next call.
@@ -43,11 +38,11 @@ public:
     /// it before the bad character.
     Bytes on_character_error(Instant at) noexcept;
 
-    /// Whether there is an echo: so by configuration, or found out.
+    /// True if there is an echo, by configuration or because one was detected.
     bool is_heard() const noexcept;
     /// automatic: not found out yet.
     bool is_open() const noexcept;
-    std::uint64_t removed() const noexcept { return removed_; } ///< telegrams whose echo was taken away whole
+    std::uint64_t removed() const noexcept { return removed_; } ///< telegrams whose complete echo was removed
     std::uint64_t broken() const noexcept { return broken_; }   ///< echoes that were not what was sent
     std::uint64_t missing() const noexcept { return missing_; } ///< echoes that were due and did not come
 

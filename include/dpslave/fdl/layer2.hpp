@@ -27,11 +27,11 @@ struct Layer2Settings {
     Baud baud = Baud::k187_5; ///< the fixed rate; with `search` the rate to begin with
     /// Search the rate (wire reference 7); none = fixed.
     std::optional<BaudSearchSettings> search;
-    /// From the edge's "send" to the first bit on the wire: the deadline is moved forward by it.
+    /// The time from the edge's "send" to the first bit on the wire: the deadline is earlier by it.
     std::chrono::nanoseconds start_up_latency{0};
 };
 
-/// What happened on the wire, for `dpctl counters`. All count upwards from the start.
+/// These counters say what happened on the wire, for `dpctl counters`. All count upwards from the start.
 struct Counters {
     std::uint64_t octets = 0;
     std::uint64_t telegrams = 0; ///< valid ones, of any station
@@ -66,44 +66,44 @@ struct Unanswered {
 inline constexpr std::size_t kUnansweredReasons = 6;
 std::string_view text(Unanswered::Why why) noexcept;
 
-/// One thread owns it. After every call: take_transmit(), then next_deadline().
+/// One thread owns it. After every call, call take_transmit(), then next_deadline().
 class Layer2 {
 public:
     explicit Layer2(const Layer2Settings& settings);
 
-    /// From now on `user` answers at `address`, with replies no later than max(max_tsdr, min T_SDR + 49
-    /// T_bit). The user outlives it. False, and nothing is attached, if the address is no station address
+    /// Attaches a station: `user` answers at `address`, with replies no later than max(max_tsdr, min T_SDR +
+    /// 49 T_bit). The user outlives it. False, and nothing is attached, if the address is no station address
     /// (0..126).
     bool attach(std::uint8_t address, SapUser& user, const MaxTsdr& max_tsdr);
-    /// From now on `address` is silent, and a reply of it that is under way is not given any more (octets
-    /// that take_transmit() handed out stay valid). The others go on. An address that is not
-    /// attached stays so. Call on_time() after it.
+    /// Detaches a station: `address` is silent, and its pending reply is not given any more (octets that
+    /// take_transmit() handed out stay valid). The others go on. An address that is not attached stays so.
+    /// Call on_time() after it.
     void detach(std::uint8_t address);
 
-    /// From now on `listener` is told of each valid telegram heard, of any station. It outlives layer 2.
-    /// nullptr: nobody is told.
+    /// Tells `listener` of each valid telegram heard, of any station; nullptr ends that. The listener
+    /// outlives layer 2.
     void listen(TelegramListener* listener) { listener_ = listener; }
 
-    /// What is read from now on may have lain unread for so long, because the caller stood still: the window
-    /// of a reply to it ends so much earlier, and never begins earlier. 0, as at the beginning: none of it
-    /// has.
-    void may_have_lain(std::chrono::nanoseconds unread) { unread_ = unread; }
-    /// Octets read from the line in one go; `read_at` is taken right after the read. `more_follows`: what was
-    /// read goes on in the next call, so a request at the end of these octets is not the newest thing heard.
+    /// Says that octets read from now on may be up to `unread` old because the caller was delayed. The reply
+    /// window ends earlier by that time, and never begins earlier. At the beginning it is 0.
+    void assume_backlog(std::chrono::nanoseconds unread) { unread_ = unread; }
+    /// Takes octets that were read from the line in one go; `read_at` is taken right after the read.
+    /// `more_follows`: what was read goes on in the next call, so a request at the end of these octets is not
+    /// the newest thing heard.
     void on_bytes(Bytes bytes, Instant read_at, bool more_follows = false);
-    /// The UART reported a bad character (parity, framing, break): the telegram it belongs to is invalid. To
-    /// be called in the place of that octet, between the on_bytes() of the good ones before and behind it.
+    /// The UART reported a bad character (parity, framing, break): the telegram it belongs to is invalid.
+    /// Call it in the place of that octet, between the on_bytes() of the good ones before and after it.
     void on_character_error(Instant read_at);
     /// Time passes. Call it after every on_bytes() and at next_deadline().
     void on_time(Instant now);
 
-    /// The reply that may start now, if there is one: to be written at once and whole. Valid until the next
-    /// on_bytes(). Call it after on_time(): before the window opens there is none, and after it closed there
-    /// is none any more.
+    /// The reply that may start now, if there is one: to be written at once and complete. Valid until the
+    /// next on_bytes(). Call it after on_time(): before the window opens there is none, and after it closed
+    /// there is none any more.
     std::optional<Bytes> take_transmit();
 
-    /// When what was unfinished was last given up for want of more, in on_time(); each time once. For a
-    /// trace.
+    /// Returns, once and for a trace, when on_time() last gave up an unfinished telegram because nothing
+    /// followed.
     std::optional<Instant> take_silence() { return std::exchange(silence_, std::nullopt); }
 
     /// Requests to our addresses that get no reply, in their order; for a trace. Those that are not taken in
@@ -114,25 +114,27 @@ public:
     /// later was too late although it began in time.
     Instant window_ended() const { return window_ended_; }
 
-    /// Whose reply it was.
-    std::uint8_t answered_address() const { return answered_address_; }
+    /// Returns the reply that was sent, as others hear it; `sa` is its station, also of an SC. It is nullptr
+    /// if a request came since, or it was heard as an echo. Valid until the next on_bytes().
+    const Telegram* sent() const { return sent_; }
 
-    /// When on_time() is due next. kNever = only octets can wake it. A moment that has passed
-    /// means: at once.
+    /// Returns when on_time() is due next. kNever = only octets can wake it. A moment that has passed means:
+    /// at once.
     Instant next_deadline() const;
 
     /// A reply waits for its window: what can be put off is put off until it is out.
     bool reply_waits() const { return pending_.has_value() || receiver_.is_in_doubt(); }
 
-    /// When a telegram with a checksum (SD1, SD2, SD3) of any station was read last; default = none yet.
-    /// Tokens and SC do not count: noise and wrong rates produce them.
+    /// Returns when a telegram with a checksum (SD1, SD2, SD3) of any station was read last; default = none
+    /// yet. Tokens and SC do not count: noise and wrong rates produce them.
     Instant last_telegram() const { return last_telegram_; }
 
-    /// Which users were called since the last take: what the edge has to publish. Bit n = address n.
+    /// Returns which users were called since the last take: the edge has to publish their state. Bit n =
+    /// address n.
     std::bitset<128> take_touched() { return stations_.take_touched(); }
 
-    /// The rate to switch the line to, when the search decided so: the edge flushes the line and sets it.
-    /// With a search it says so at once, for the rate that it begins with; until then it does not listen.
+    /// The rate to switch the line to, when the search decided so: the edge flushes the line and sets it. A
+    /// search says so at once, for the rate that it begins with; until then it does not listen.
     std::optional<Baud> take_baud_change();
 
     Baud baud() const { return baud_; }
@@ -144,6 +146,7 @@ private:
     struct Pending {
         std::uint8_t address = 0; ///< whose it is
         Bytes octets;
+        const Telegram* telegram = nullptr; ///< what they say
         Instant not_before;
         Instant not_after;
         bool open = false;
@@ -170,10 +173,9 @@ private:
     TelegramListener* listener_ = nullptr;
 
     std::optional<Pending> pending_;
-    std::chrono::nanoseconds unread_{0}; // may_have_lain()
+    std::chrono::nanoseconds unread_{0}; // assume_backlog()
     Instant window_ended_{};             // of the reply handed out last
-    Bytes sent_; // that reply, until the next request; empty: none, or its echo was heard
-    std::uint8_t answered_address_ = 0;
+    const Telegram* sent_ = nullptr; // that reply, until the next request; null: none, or its echo was heard
     Instant last_telegram_{};
     Queue<Unanswered, 8> unanswered_;
     std::optional<Instant> silence_;

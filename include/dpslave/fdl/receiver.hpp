@@ -15,8 +15,8 @@
 
 namespace dpslave::fdl {
 
-/// How long the line may be silent within a telegram before it counts as unfinished: T_SYN and an allowance
-/// for the scheduler, because reads say little about the times on the wire (wire reference 1.5).
+/// Returns how long the line may be silent within a telegram before it counts as unfinished: T_SYN and an
+/// allowance for the scheduler, because reads say little about the times on the wire (wire reference 1.5).
 std::chrono::nanoseconds silence_limit(Baud baud);
 
 /// A read is begin_read(), then on_bytes() or on_character_error(); then next() until there is nothing.
@@ -27,20 +27,20 @@ public:
     struct Heard {
         Result<Telegram, Flaw> telegram{Telegram{}};
         Instant at{}; ///< when its last octet was read; of one that was in doubt when that ended
-        /// Where it lies among all characters heard, bad ones included; of a flaw only where it begins.
+        /// The place among all characters heard, bad ones included; of a flaw only `begin` counts.
         std::uint64_t begin = 0, end = 0;
-        bool newest = false; ///< nothing was heard behind this telegram
+        bool newest = false; ///< nothing was heard after this telegram
     };
 
-    /// So many octets were read at `read_at`: judges the pause before them.
+    /// Announces that `octets` were read at `read_at`, and judges the pause before them.
     void begin_read(std::size_t octets, Instant read_at);
     /// The octets, valid until next() has given everything. `more_follows`: what was read goes on in the next
     /// call, so a telegram at the end of these octets is not the newest thing heard.
     void on_bytes(Bytes bytes, bool more_follows);
     /// In the place of an octet that the UART reported as bad.
     void on_character_error();
-    /// Time passes: a doubt ends, an unfinished telegram is searched for whole ones, or given up. True:
-    /// next() may have something, and after it this is to be called again.
+    /// Time passes: a doubt ends, an unfinished telegram is searched for complete ones, or given up. Returns
+    /// true if next() may have something; after next() this is to be called again.
     bool on_time(Instant now);
     /// kNever = none.
     Instant next_deadline() const { return std::min(gap_ends_, hunt_at_); }
@@ -50,24 +50,24 @@ public:
     /// the next call of the receiver.
     const Heard* next();
 
-    /// A telegram is whole, and waits for T_SYN of silence or for more octets.
+    /// A telegram is complete, and waits for T_SYN of silence or for more octets.
     bool is_in_doubt() const { return in_doubt_; }
 
-    /// So many characters, of all heard, are judged: what is behind them may become a telegram.
+    /// Returns how many characters, of all heard, are judged: those after them may become a telegram.
     std::uint64_t judged() const { return forgotten_; }
 
-    /// What was heard until now is no telegram any more; the line goes on at `baud`.
+    /// Forgets what was heard, because the line goes on at `baud`.
     void restart(Baud baud);
 
 private:
-    /// Places in rx_, and the one behind it.
+    /// Places in rx_, and the one after it.
     using Places = std::bitset<2 * kMaxTelegram + 1>;
 
-    /// What is heard behind a silence within a good telegram.
+    /// The octets that follow a silence within a good telegram are one of these.
     enum class Tail : std::uint8_t {
         none,      ///< no telegram begins there
-        open,      ///< a telegram may have begun there that is not whole yet
-        telegrams, ///< whole telegrams up to its end or beyond, the last of them with a checksum
+        open,      ///< a telegram may have begun there that is not complete yet
+        telegrams, ///< complete telegrams up to its end or beyond, the last of them with a checksum
     };
     struct Doubt {
         Tail tail;
@@ -79,7 +79,7 @@ private:
     void await_rest();
     void give_up();
     void report_unfinished();
-    bool hunt_behind_stump();
+    bool hunt_after_cut();
     Result<Telegram, Flaw> telegram_at(std::size_t at, std::size_t length, bool is_cut) const;
     std::size_t boundary_within(std::size_t begin, std::size_t end) const;
     static Tail tail_of(Bytes octets, std::size_t least);
@@ -95,7 +95,8 @@ private:
     std::size_t used_ = 0;
     std::uint64_t forgotten_ = 0; // characters that came before rx_
     std::size_t spoilt_ = 0;      // octets of rx_ up to its last bad character
-    /// Where in rx_ a read began at least T_SYN after the one before: a new telegram may have begun there.
+    /// The places in rx_ where a read began at least T_SYN after the one before: a new telegram may have
+    /// begun there.
     Places boundaries_;
     bool has_boundary_ = false; // there is one: the sets are long, and each telegram asks
     /// Those of them with a silence on the line before them, as far as the times of the reads say.
@@ -105,9 +106,9 @@ private:
     Instant quiet_since_{};     // when octets were read before it
     Instant heard_at_{};        // when octets were read last
     Instant gap_ends_ = kNever; // the unfinished telegram is given up
-    Instant hunt_at_ = kNever;  // whole telegrams are looked for in it, or a doubt ends
+    Instant hunt_at_ = kNever;  // complete telegrams are looked for in it, or a doubt ends
 
-    // What next() goes on with.
+    // next() goes on with this.
     Heard heard_;
     bool reading_ = false;
     std::optional<Flaw> pending_flaw_;
@@ -117,8 +118,9 @@ private:
     bool in_doubt_ = false;  // rx_ begins with a good telegram, and what is in it may be another one
     Bytes input_;            // not in rx_ yet
     std::size_t at_ = 0;     // rx_ is read up to here
-    std::size_t failed_ = 0; // up to here a telegram has failed: what is in it is no further flaw
-    /// The same, until all of it has gone: it is searched at boundaries only, however its end comes.
+    std::size_t failed_ = 0; // end of the failed telegram: errors before it are not counted again
+    /// The end of the failed telegram that is kept until its octets are gone: within it a new telegram may
+    /// start only at a boundary.
     std::size_t searched_ = 0;
 };
 

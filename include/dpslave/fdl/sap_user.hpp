@@ -20,7 +20,7 @@ struct Indication {
     Instant at{};                     ///< when its last octet was read: time for watchdogs
 };
 
-/// How layer 2 is to answer an SRD (FC codes of wire reference 2.4).
+/// Says how layer 2 answers an SRD (FC codes of wire reference 2.4).
 enum class Answer : std::uint8_t {
     sc,            ///< short acknowledge: accepted, nothing to return
     low,           ///< DL: response data
@@ -33,8 +33,8 @@ enum class Answer : std::uint8_t {
 /// User data of a reply: what fits into SD2 beside two SAP octets.
 using ReplyData = ByteBuffer<244>;
 
-/// Whether a master owns and supervises this user: Baud_Control and DP_Control depend on it (wire reference
-/// 7.1).
+/// Says whether a master owns and supervises this user: Baud_Control and DP_Control depend on it (wire
+/// reference 7.1).
 enum class Supervision : std::uint8_t {
     unowned,    ///< no master has parameterised it
     owned,      ///< parameterised, watchdog off
@@ -63,7 +63,7 @@ public:
 
     /// Time passes; called at next_deadline() or later.
     virtual void on_time(Instant now) = 0;
-    /// kNever = none. It may come nearer only inside a call of the station, which asks for it right behind
+    /// kNever = none. It may become earlier only inside a call of the station, which asks for it right after
     /// that call.
     virtual Instant next_deadline() const = 0;
 

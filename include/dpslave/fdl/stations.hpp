@@ -21,13 +21,14 @@ class Stations {
 public:
     /// A reply and the window for its first bit, counted from the end of the request.
     struct Reply {
-        Bytes octets; ///< valid until the next request to the same address
+        Bytes octets;             ///< valid until the next request to the same address
+        const Telegram* telegram; ///< what they say; valid as long
         Tbit not_before;
         Tbit not_after;        ///< later there is no reply: it would collide with the retry
         bool repeated = false; ///< the request was a retry, and this is the stored reply
     };
 
-    /// As Layer2::attach() and detach(). Call on_time() after both.
+    /// Attaches and detaches as Layer2::attach() and detach() say. Call on_time() after both.
     bool attach(std::uint8_t address, SapUser& user, const MaxTsdr& max_tsdr);
     void detach(std::uint8_t address);
     bool has(std::uint8_t address) const
@@ -42,19 +43,24 @@ public:
     /// The rate is another: no request repeats one from before.
     void forget_requests();
 
-    /// Time passes. True: users were called.
+    /// Time passes. Returns true if users were called.
     bool on_time(Instant now);
     /// A lower bound of what the users ask for, so that no telegram has to ask all of them.
     Instant next_deadline() const { return users_due_; }
 
     bool any_owned() const { return owned_ != 0; }           ///< by a master that has parameterised it
     bool any_supervised() const { return supervised_ != 0; } ///< and has its watchdog on
-    /// Which users were called since the last take. Bit n = address n.
+    /// Returns which users were called since the last take. Bit n = address n.
     std::bitset<128> take_touched();
 
 private:
     static constexpr std::size_t kAddresses = 127; // 0..126
 
+    /// A reply, and what it says.
+    struct Encoded {
+        Frame octets;
+        Telegram telegram;
+    };
     /// One station address: its user, and its frame count memory (wire reference 2.6).
     struct Station {
         SapUser* user = nullptr;
@@ -65,10 +71,10 @@ private:
         std::uint8_t sa = 0; // SAM
         Function function{}; // of the stored request
         std::optional<std::uint8_t> dsap;
-        Frame reply;
+        Encoded reply;
     };
 
-    Frame answer(Station& station, const Telegram& request, Instant at);
+    void answer(Station& station, const Telegram& request, Instant at, Encoded& reply);
     static bool is_retry(const Station& station, const Telegram& request);
     void called(std::uint8_t address);
     void sample(Station& station);
@@ -81,7 +87,7 @@ private:
     std::size_t supervised_ = 0; // how many of them with the watchdog on
     Instant users_due_ = kNever; // no user wants on_time() before this
     std::bitset<128> touched_;
-    Frame unstored_; // a reply that belongs to no frame count sequence
+    Encoded unstored_; // a reply that belongs to no frame count sequence
     ReplyData scratch_;
 };
 

@@ -83,7 +83,7 @@ struct Telegram {
     bool fcv() const { return (fc & 0x10) != 0; }
 };
 
-/// How many octets the telegram that begins with `head` has. 0: too few are known.
+/// Returns the number of octets of the telegram that begins with `head`; 0 if too few octets are known.
 Result<std::size_t, Flaw> frame_length(Bytes head);
 
 /// The contents of a telegram. Precondition: frame.size() == *frame_length(frame), not 0.
@@ -98,6 +98,8 @@ Frame encode_sd1(std::uint8_t da, std::uint8_t sa, std::uint8_t fc);
 /// reference 2.1.
 Frame encode_sd2(std::uint8_t da, std::uint8_t sa, std::uint8_t fc, std::optional<std::uint8_t> dsap,
                  std::optional<std::uint8_t> ssap, Bytes data);
+/// The same of `telegram`, in the place of what `frame` has. Precondition: `telegram.data` is no part of it.
+void encode_sd2(Frame& frame, const Telegram& telegram);
 
 Frame encode_sc();
 

@@ -17,6 +17,8 @@ struct Finding {
     unsigned line = 0; ///< from 1; 0 = the file as a whole
     Severity severity = Severity::error;
     std::string what; ///< a sentence that says what is wrong and what to do
+    /// The line is not understood, so that a reader goes on without it, with a default or with nothing.
+    bool unread = false;
 };
 using Findings = std::vector<Finding>;
 
@@ -26,7 +28,8 @@ enum class Reading : std::uint8_t {
     strict,   ///< every deviation from the standard is an error
 };
 
-/// In the order of the lines. `file_name` without folders; empty = not known, then not judged.
+/// Returns the findings in the order of the lines. `file_name` has no folders; if it is empty the name is not
+/// judged.
 Findings check(const Document& document, Reading reading, std::string_view file_name = {});
 
 } // namespace dpslave::gsd

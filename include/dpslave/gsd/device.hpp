@@ -12,18 +12,19 @@
 namespace dpslave::gsd {
 
 /// Limits of the standard that a Device must keep (wire reference 9.2).
-inline constexpr std::size_t kMaxText = 32;         ///< characters of a name
-inline constexpr std::size_t kMaxLine = 80;         ///< characters of a line
-inline constexpr std::size_t kMaxModuleOctets = 17; ///< identifier octets of one module
-inline constexpr std::size_t kMaxDescription =
-    56; ///< characters of Info_Text that leave its line in kMaxLine
+inline constexpr std::size_t kMaxText = 32; ///< characters of a name
+inline constexpr std::size_t kMaxLine = 80; ///< characters of a line
+/// Identifier octets of one module that tools of every GSD_Revision take (wire reference 9.2).
+inline constexpr std::size_t kMaxModuleOctets = 17;
+inline constexpr std::size_t kMaxDescription = 256; ///< characters of Info_Text, whose line may be longer
 
 struct DeviceModule {
     std::string name; ///< at most kMaxText characters
     std::vector<std::uint8_t> identifiers;
 };
 
-/// Texts are Latin-1 (see latin1()). What has a value here has it in every file that this project writes.
+/// Texts are Latin-1 (see latin1()). A key with a default value here is in every file that this project
+/// writes.
 struct Device {
     std::vector<std::string> comments; ///< for the head of the file, one paragraph each; folded to kMaxLine
 

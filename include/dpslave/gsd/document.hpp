@@ -11,7 +11,7 @@
 
 namespace dpslave::gsd {
 
-/// What a remark weighs.
+/// The severity of a remark.
 enum class Weight : std::uint8_t {
     error,    ///< tools refuse the file, misread it, or the slave will not start with it
     warning,  ///< tools read the file, but it does not say what the standard demands
@@ -21,7 +21,8 @@ enum class Weight : std::uint8_t {
 struct Remark {
     unsigned line = 0; ///< from 1; 0 = the file as a whole
     Weight weight = Weight::error;
-    std::string what; ///< a sentence that says what is wrong and what to do
+    std::string what;    ///< a sentence that says what is wrong and what to do
+    bool unread = false; ///< a slip: what the line was to say is not read
 };
 using Remarks = std::vector<Remark>;
 
@@ -34,7 +35,7 @@ struct Entry {
     unsigned line = 0;
 };
 
-/// `Module = ... EndModule` and its kind. `head` is what stands behind the "=" of its first line.
+/// A block such as `Module = ... EndModule`. `head` is the text after the "=" of its first line.
 struct Block {
     std::string kind; ///< as the standard spells it: "Module", "PrmText", "ExtUserPrmData", ...
     std::string head;
@@ -52,6 +53,7 @@ struct Module {
 
 struct Document {
     bool has_section = false;    ///< there is a line #Profibus_DP; without it nothing was read
+    Remark not_read{};           ///< without it: why, which is also among the remarks
     std::vector<Entry> keywords; ///< of the device, in the order of the file
     std::vector<Block> blocks;   ///< modules included
     std::vector<Module> modules; ///< the blocks of this kind once more, taken apart
@@ -59,15 +61,9 @@ struct Document {
 
     /// The last one counts, as in the masters' tools; any case. nullptr: not there.
     const Entry* find(std::string_view keyword) const;
-    std::optional<std::uint32_t> number(std::string_view keyword) const; ///< nothing: not there or no number
+    std::optional<std::uint32_t> number(std::string_view keyword) const; ///< nullopt: not there or no number
     std::string text(std::string_view keyword) const; ///< without its quotes; empty: not there or no text
     std::vector<std::uint8_t> octets(std::string_view keyword) const; ///< empty: not there or no octets
-    /// User_Prm_Data as a tool sends it: of User_Prm_Data_Len octets, or the new style's constants put in
-    /// their places.
-    std::vector<std::uint8_t> user_prm_data() const;
-    /// The modules that are plugged without an order of the user: those of a compact station, the preset ones
-    /// of a modular one.
-    std::vector<const Module*> plugged() const;
 };
 
 /// Any octets: 8-bit text with CR LF or LF.

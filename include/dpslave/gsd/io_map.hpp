@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Where each value of a GSD file's mapping stands in the telegrams (C-044).
+/// Tells where each value of a GSD file's mapping is in the telegrams (C-044).
 #pragma once
 
 #include "dpslave/gsd/document.hpp"
@@ -36,10 +36,12 @@ struct IoMap {
     std::vector<Advice> advice;
 };
 
-/// What the file itself does not say.
+/// The file itself does not say this.
 struct MapHints {
-    /// Offset of the first tag in User_Prm_Data. Nothing: 3 where its length is odd (three octets of DP-V1,
-    /// then tags), else 0; and no tags at all where the octets do not look like those of this file's
+    /// The modules in their order; nullopt means those that are plugged without an order of the user.
+    std::optional<std::vector<const Module*>> modules = {};
+    /// The offset of the first tag in User_Prm_Data. nullopt means 3 where its length is odd (three octets of
+    /// DP-V1, then tags), else 0; and no tags at all where the octets do not look like those of this file's
     /// parameters.
     std::optional<std::size_t> tags_at = {};
     std::uint8_t demand_identifier = 0x73; ///< Demand Data, in first position

@@ -22,12 +22,12 @@ public:
     /// `key` comes back in epoll_event::data.u64. `events`: EPOLLIN ..., level-triggered unless EPOLLET is
     /// among them.
     void add(int fd, std::uint32_t events, std::uint64_t key);
-    /// Before the descriptor is closed.
+    /// Call it before the descriptor is closed.
     void remove(int fd);
 
-    /// What is ready, at the begin of `events` (which has at least one). Empty: `timeout` is over, or a
-    /// signal interrupted. A timeout of zero or less looks without waiting; nanoseconds::max() waits for
-    /// ever.
+    /// Returns the events that are ready, at the beginning of `events` (which has at least one). It is empty
+    /// if `timeout` is over, or a signal interrupted. A timeout of zero or less looks without waiting;
+    /// nanoseconds::max() waits for ever.
     std::span<epoll_event> wait(std::span<epoll_event> events, std::chrono::nanoseconds timeout);
 
 private:

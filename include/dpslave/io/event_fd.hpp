@@ -12,7 +12,7 @@ public:
     EventFd();
     int fd() const { return fd_.get(); } ///< readable from ring() to clear()
 
-    /// From any thread; never waits. Twice before clear() is once.
+    /// Any thread may call it; it never waits. Two calls before clear() count as one.
     void ring() noexcept;
     void clear() noexcept;
 

@@ -43,14 +43,16 @@ private:
 Result<std::unique_ptr<LedSink>, std::string> open_led_sink(const std::string& sink,
                                                             const std::filesystem::path& sysfs);
 
-/// What open_led_sink() would say of the form of `sink`, without its name: what to write instead. Nothing:
-/// the form is right. Opens nothing.
+/// Returns what to write instead of `sink` if its form is wrong, in the words of open_led_sink() without the
+/// name; nullopt if the form is right. It opens nothing.
 std::optional<std::string> judge_led_sink(const std::string& sink);
-/// The line that a sink of the kind "line:" asks for; nothing: another kind, or its form is wrong.
+/// Returns the line that a sink of the kind "line:" asks for; nullopt if it is another kind, or its form is
+/// wrong.
 std::optional<GpioRequest> line_of_led_sink(const std::string& sink);
 
-/// The lamp or pin that `sink` drives, the same for each of its names as far as <sysfs> shows: two spellings
-/// of a path, "gpio:N" and "line:CHIP:LINE" of one line. For comparison only. Opens no device.
+/// Returns the lamp or pin that `sink` drives, the same for each of its names as far as <sysfs> shows: two
+/// spellings of a path, "gpio:N" and "line:CHIP:LINE" of one line. It is for comparison only. It opens no
+/// device.
 std::string led_sink_target(const std::string& sink, const std::filesystem::path& sysfs);
 
 } // namespace dpslave::io

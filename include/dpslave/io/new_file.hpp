@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A file that is there as a whole or not at all: written beside its place, synchronised with the disk, then
+/// A file that is there completely or not at all: written beside its place, synchronised with the disk, then
 /// renamed. Every call may block for as long as the disk does.
 #pragma once
 
@@ -14,15 +14,15 @@ namespace dpslave::io {
 
 class NewFile {
 public:
-    /// What stands at `path` stays until finish(). Until then the octets are in `path` with kUnfinished
-    /// behind its name; what was left there of a run before is replaced.
+    /// The file at `path` stays until finish(). Until then the octets are in a file whose name is `path` and
+    /// kUnfinished; a file that a former run has left there is replaced.
     explicit NewFile(std::filesystem::path path);
     ~NewFile(); ///< without finish(): nothing has been written
     NewFile(const NewFile&) = delete;
     NewFile& operator=(const NewFile&) = delete;
     static constexpr const char* kUnfinished = ".new";
 
-    /// After a failure it does nothing.
+    /// It does nothing after a failure.
     void write(Bytes octets);
     /// Puts it in its place. The failure of any step until now, a sentence with the path.
     std::optional<std::string> finish();

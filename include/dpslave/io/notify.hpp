@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The state of the service for systemd (sd_notify(3)). Without NOTIFY_SOCKET in the environment nothing
-/// happens.
+/// Tells systemd the state of the service (sd_notify(3)). It does nothing without NOTIFY_SOCKET in the
+/// environment.
 #pragma once
 
 #include "dpslave/base/units.hpp"
@@ -19,8 +19,8 @@ public:
     void watchdog();                    ///< WATCHDOG=1
     void stopping();
 
-    /// WatchdogSec= of the unit: watchdog() has to be called more often than this. Nothing: there is no
-    /// watchdog.
+    /// WatchdogSec= of the unit: watchdog() has to be called more often than this. It is nullopt if there is
+    /// no watchdog.
     std::optional<std::chrono::microseconds> watchdog_interval() const;
 };
 

@@ -29,7 +29,7 @@ public:
     /// Precondition: is_open().
     Tty& tty() { return *tty_; }
 
-    /// True: open. False: it is not, and either its time to be tried again has not come or it could not be
+    /// Returns true if it is open; false if its time to be tried again has not come, or it could not be
     /// opened. The waits are the first one, twice, four and then always eight times it: 0.5, 1, 2, 4, 4 ...
     /// s. It may block as long as open(2) does, and allocates.
     bool ready(Instant now);
@@ -39,10 +39,10 @@ public:
     /// Closes it: it can be opened, and is of no use for the reason `why`, a sentence with the path. The
     /// waits go on to grow.
     void refuse(Instant now, std::string why);
-    /// Why it could not be opened again, or was refused: a sentence with the path. Each reason once, until it
-    /// has changed or the port was lost anew; nothing: there is none, or it was given out.
+    /// Why it could not be opened again, or was refused: a sentence with the path. Returns each reason once,
+    /// until it has changed or the port was lost anew; nullopt if there is none, or it was given out.
     std::optional<std::string> take_trouble();
-    /// When ready() will try again; kNever while it is open.
+    /// Returns when ready() will try again; kNever while it is open.
     Instant next_try() const { return next_try_; }
     /// The rate from now on, also after it was opened again; Tty::set_baud() where it is open. The error is a
     /// sentence with the path.

@@ -17,7 +17,7 @@ public:
     Signals();
     int fd() const { return fd_.get(); }
 
-    /// The next signal that came (SIGTERM ...), if one did. Never waits.
+    /// The next signal that came (SIGTERM ...), if one did. It never waits.
     std::optional<int> take();
 
 private:

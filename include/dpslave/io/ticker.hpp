@@ -15,7 +15,7 @@ public:
     explicit Ticker(std::chrono::nanoseconds period);
     int fd() const { return fd_.get(); } ///< readable after each period until clear()
 
-    /// To be called after each tick: the next one comes only then.
+    /// Call it after each tick: the next one comes only then.
     void clear() noexcept;
 
 private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A serial port: raw octets at any rate, read without waiting. What the octets mean is not interpreted.
-/// Source: wire reference 11.1 and 11.4.
+/// A serial port: raw octets at any rate, read without waiting. It does not interpret the octets. Source:
+/// wire reference 11.1 and 11.4.
 #pragma once
 
 #include "dpslave/base/bytes.hpp"
@@ -35,12 +35,12 @@ struct TtySettings {
 
 /// The result of one read.
 struct Chunk {
-    std::span<std::uint8_t> octets; ///< good characters, in the caller's buffer; empty = nothing has come
+    std::span<std::uint8_t> octets; ///< good characters, in the caller's buffer; empty if none has come
     bool bad_character = false;     ///< right after these octets the UART received a bad character
-    bool more = false; ///< call read() again before acting on it: more has come already, or may have
+    bool more = false; ///< call read() again before acting on it: more octets have come already, or may have
 };
 
-/// Which rates of PROFIBUS a port can do.
+/// The rates of PROFIBUS that a port can do.
 struct TtyBauds {
     std::bitset<kBauds.size()> can; ///< by index_of()
     /// A sentence without the path about those that a search has to leave out (45.45 kbit/s is never
@@ -48,15 +48,16 @@ struct TtyBauds {
     std::string why_not;
 };
 
-/// Why `path` cannot be opened as a port, as far as the file system shows: it is not there, is a plain file,
-/// or this user may not. A sentence with what to do; nothing is opened and nothing is changed on the line.
+/// Returns why `path` cannot be opened as a port, as far as the file system shows: it is not there, is a
+/// plain file, or this user may not. The text is a sentence with what to do; nothing is opened and nothing is
+/// changed on the line.
 std::optional<std::string> port_trouble(const std::string& path);
 
 struct Uart; // src/io/tty/uart.hpp
 
 class Tty {
 public:
-    /// Opens and sets `path`, exclusively: a second opener is refused. What came before is discarded.
+    /// Opens and sets `path`, exclusively: a second opener is refused. Octets that came before are discarded.
     /// The error is a sentence with path, reason and what to do. `sysfs`: where it lies.
     static Result<Tty, std::string> open(const std::string& path, const TtySettings& settings,
                                          const std::filesystem::path& sysfs = "/sys");
@@ -66,42 +67,46 @@ public:
     ~Tty();
 
     int fd() const { return fd_.get(); }
-    /// What `prompt` did not reach, and what that costs: sentences without the path, for the log.
+    /// Returns why `prompt` was not fully reached, and what that costs: sentences without the path, for the
+    /// log.
     const std::vector<std::string>& warnings() const { return warnings_; }
-    /// How long a received octet may lie in the port before read() gives it, as far as is known; a USB
-    /// adapter keeps it for up to 16 ms unless its driver can shorten that.
+    /// Returns how long a received octet may stay in the port before read() gives it, as far as is known; a
+    /// USB adapter keeps it for up to 16 ms unless its driver can shorten that.
     std::chrono::nanoseconds hold_back() const;
+    bool is_pty() const;
 
-    /// Another rate from now on. What was not sent or read yet is discarded, and so is what comes within
-    /// two characters, which it waits for: the one under way is half of each rate. The error is a sentence
-    /// without the path; then the rate is whatever the driver took. Without an error nothing is allocated.
+    /// Changes the rate. Octets that were not sent or read yet are discarded, and so are those that come
+    /// within two characters, which it waits for: the one under way is half of each rate. The error is a
+    /// sentence without the path; then the rate is whatever the driver took. It allocates nothing if there is
+    /// no error.
     std::optional<std::string> set_baud(std::uint32_t baud);
-    /// Tries all of them and goes back to the present one. What comes meanwhile is lost.
+    /// Tries all of them and goes back to the present one. Octets that come meanwhile are lost.
     TtyBauds bauds();
 
-    /// Never waits. `out` has at least one place. After a hang-up (cable of a USB adapter pulled, other end
-    /// of a pty closed) always an error code.
+    /// It never waits. `out` has at least one place. After a hang-up (cable of a USB adapter pulled, other
+    /// end of a pty closed) it always returns an error code.
     Result<Chunk, std::error_code> read(std::span<std::uint8_t> out);
 
     /// Everything in one write(2). A driver that takes less is waited for, not longer than twice the time
     /// that the octets need on the line and 20 ms; then std::errc::timed_out, and the rest is not sent.
     std::error_code write(Bytes octets);
 
-    /// A reply: everything in one write(2), never waiting and never in two pieces, for a gap in a telegram is
-    /// not allowed. What the driver does not take whole is discarded: std::errc::no_buffer_space.
+    /// Sends a reply: everything in one write(2), never waiting and never in two pieces, because a gap in a
+    /// telegram is not allowed. Octets that the driver does not accept in one piece are discarded:
+    /// std::errc::no_buffer_space.
     std::error_code send(Bytes telegram);
 
-    /// Discards what was written and has not left the kernel. True: there was something.
+    /// Discards what was written and has not left the kernel. Returns true if there was something.
     bool discard_unsent();
 
-    /// Discards what has come and was not read yet.
+    /// Discards the octets that have come and were not read yet.
     std::error_code discard_input();
 
-    /// Waits until read() has octets or an error, a hang-up included. False: the time is over.
+    /// Waits until read() has octets or an error, a hang-up included. Returns false if the time is over.
     bool wait_readable(std::chrono::nanoseconds timeout);
 
-    /// Whether the last stop bit of what was written has gone. Nothing: the driver does not know (a pty, most
-    /// USB adapters); it is not asked again then.
+    /// Returns whether the last stop bit of the written octets has gone. It is nullopt if the driver does not
+    /// know (a pty, most USB adapters); the driver is not asked again then.
     std::optional<bool> transmitter_empty() const;
     /// The cable of a USB adapter was pulled, the other end of a pty closed.
     bool hung_up() const;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The Modbus RTU master on one line with one or several drives. One attempt per call: the poller repeats.
-/// Pure: frames and times come from a FrameLine.
+/// It is pure: frames and times come from a ModbusPort.
 /// Tag = register, no offset (rows C-128), unless its row names another register; words travel as the drive
 /// has them, only those of the IEEE area are converted. Source: EI-ASCII and Modbus reference, sections 4 to
 /// 6; MODBUS Application Protocol V1.1b3.
 #pragma once
 
 #include "dpslave/drive/backend.hpp"
-#include "dpslave/drive/line_rules.hpp"
-#include "dpslave/modbus/frame_line.hpp"
+#include "dpslave/drive/line_timing.hpp"
+#include "dpslave/modbus/modbus_port.hpp"
 
 #include <chrono>
 #include <cstdint>
@@ -23,7 +23,7 @@
 namespace dpslave::modbus {
 
 /// One drive of the line and what it has beyond functions 3, 6 and 16 (profile: modbus_functions).
-struct ModbusUnit {
+struct ModbusDrive {
     std::uint8_t unit = 1;     ///< 1..247
     bool reads_by_4 = false;   ///< function 4 reads what function 3 reads
     bool has_loopback = false; ///< function 8, sub code 0
@@ -32,23 +32,23 @@ struct ModbusUnit {
 struct ClientSettings {
     std::uint32_t baud = 9600;    ///< bit/s, not 0
     int bits_of_a_character = 10; ///< from the start bit to the last stop bit
-    /// From the end of a request until its answer has to be there, the time of its characters on the line not
-    /// counted.
+    /// The time from the end of a request until its answer has to be there; the time of its characters on the
+    /// line is not counted.
     std::chrono::milliseconds timeout{600};
-    drive::LineRules rules;
-    std::vector<ModbusUnit> units; ///< one that is not among them has functions 3, 6 and 16 only
+    drive::LineTiming rules;
+    std::vector<ModbusDrive> units; ///< one that is not among them has functions 3, 6 and 16 only
 };
 
 class ModbusClient final : public drive::Backend {
 public:
     /// `line` outlives the client.
-    ModbusClient(FrameLine& line, ClientSettings settings);
+    ModbusClient(ModbusPort& line, ClientSettings settings);
     ~ModbusClient() override;
     /// The drives from now on.
-    void set_units(std::vector<ModbusUnit> units);
+    void set_units(std::vector<ModbusDrive> units);
 
-    /// As many registers as every frame of 256 octets holds, and gaps as long as reading over them is cheaper
-    /// than a request of its own at this rate.
+    /// Returns as many registers as every frame of 256 octets holds, and gaps as long as reading over them is
+    /// cheaper than a request of its own at this rate.
     static drive::BlockRule block_rule(std::uint32_t baud, int bits_of_a_character);
     drive::BlockRule block_rule() const override;
 
@@ -62,10 +62,17 @@ public:
     AccessError write(drive::UnitAddress unit, const drive::Tag& tag,
                       std::span<const std::uint16_t> words) override;
 
+    bool has_sent() const override { return has_sent_; }
+
     /// Any valid frame of this unit counts, an exception as well.
-    bool probe(drive::UnitAddress unit) override;
+    AccessError probe(drive::UnitAddress unit) override;
+
+    /// One register by function 3.
+    drive::Sight look(drive::UnitAddress unit, const drive::Look& what) override;
 
     std::string last_trouble() const override { return trouble_; } ///< "exception 2 (illegal data address)"
+
+    std::string_view last_answer() const override { return denial_; }
 
     drive::AnswerCounts counts(drive::UnitAddress unit) const override;
     void listen() override;
@@ -79,7 +86,7 @@ private:
         std::uint16_t count = 1;
         friend auto operator<=>(const Block&, const Block&) = default;
     };
-    /// What became of a question; `answer` is empty unless there is one without exception.
+    /// The result of a question; `answer` is empty unless there is one without exception.
     struct Reply {
         AccessError error = AccessError::none; ///< no_answer, deferred; none: there is an answer
         std::optional<std::uint8_t> exception;
@@ -95,7 +102,7 @@ private:
     AccessError loop_back(std::uint8_t unit);
     AccessError read_ieee(std::uint8_t unit, const drive::Tag& tag, std::uint16_t& word);
     AccessError write_single(std::uint8_t unit, const drive::Tag& tag, std::uint16_t word);
-    ModbusUnit functions_of(std::uint8_t unit) const;
+    ModbusDrive functions_of(std::uint8_t unit) const;
 
     ClientSettings settings_;
     std::unique_ptr<Exchange> exchange_;
@@ -103,6 +110,8 @@ private:
     std::map<std::uint8_t, int> silent_loopbacks_; ///< in a row
     std::uint16_t token_ = 0;
     std::string trouble_;
+    bool has_sent_ = false;
+    std::string denial_; ///< the exception of the last read of a single tag
 };
 
 } // namespace dpslave::modbus

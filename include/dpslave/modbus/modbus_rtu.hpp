@@ -3,6 +3,8 @@
 #pragma once
 
 #include "dpslave/base/result.hpp"
+#include "dpslave/drive/wire_time.hpp"
+#include "dpslave/io/switched_port.hpp"
 #include "dpslave/modbus/modbus_client.hpp"
 
 #include <atomic>
@@ -21,15 +23,17 @@ struct RtuSettings {
     int data_bits = 8;
     char parity = 'N'; ///< 'N', 'E', 'O'
     int stop_bits = 1;
-    /// From the end of a request until its answer has to be there, the time of its characters on the line not
-    /// counted. Has to be longer than the slowest answer of the drive.
+    /// The time from the end of a request until its answer has to be there; the time of its characters on the
+    /// line is not counted. It has to be longer than the slowest answer of the drive.
     std::chrono::milliseconds timeout{600};
-    drive::LineRules rules{}; ///< hold_back: that of the port comes on top
-    /// Until the first attempt to open a port that vanished; later ones wait longer (io::Port).
+    drive::WireTime wire_time = drive::WireTime::automatic;
+    drive::LineTiming rules{}; ///< hold_back: that of the port comes on top
+    /// The time until the first attempt to open a port that vanished; later attempts wait longer (io::Port).
     std::chrono::milliseconds reopen_after{500};
+    io::TransceiverSettings transceiver{}; ///< of a two-wire line
 };
 
-/// What happened to the port, a sentence with its path for the log.
+/// Something that happened to the port, a sentence with its path for the log.
 struct PortMessage {
     bool is_trouble = false; ///< else it is good again
     std::string text;
@@ -46,7 +50,7 @@ public:
                                                                 std::atomic<bool>& is_open);
     ~ModbusRtu() override;
     /// The drives from now on.
-    void set_units(std::vector<ModbusUnit> units) { client_->set_units(std::move(units)); }
+    void set_units(std::vector<ModbusDrive> units) { client_->set_units(std::move(units)); }
 
     static drive::BlockRule block_rule(const RtuSettings& settings);
     drive::BlockRule block_rule() const override { return client_->block_rule(); }
@@ -59,15 +63,22 @@ public:
     {
         return client_->write(unit, tag, words);
     }
-    bool probe(drive::UnitAddress unit) override { return client_->probe(unit); }
+    bool has_sent() const override { return client_->has_sent(); }
+    AccessError probe(drive::UnitAddress unit) override { return client_->probe(unit); }
+    drive::Sight look(drive::UnitAddress unit, const drive::Look& what) override
+    {
+        return client_->look(unit, what);
+    }
     std::string last_trouble() const override; ///< also: "/dev/ttyS2 has gone"
     drive::AnswerCounts counts(drive::UnitAddress unit) const override { return client_->counts(unit); }
+    std::string_view last_answer() const override { return client_->last_answer(); }
     void listen() override { client_->listen(); }
 
-    /// What happened to the port since the last call, oldest first. A port that comes and goes has them
-    /// without end: the log has to limit them.
+    /// Returns what happened to the port since the last call, oldest first. A port that comes and goes has
+    /// them without end: the log has to limit them.
     std::vector<PortMessage> take_port_messages();
     int fd() const; ///< -1: the port is gone
+    io::SwitchedPort& port();
 
 private:
     ModbusRtu(const RtuSettings& settings, std::unique_ptr<RtuLine> line);

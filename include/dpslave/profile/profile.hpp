@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A device type read from config/profiles/NAME.toml and its tag table from config/tags/*.csv: checked whole,
-/// then constant.
+/// A device type read from config/profiles/NAME.toml and its tag table from config/tags/*.csv: checked
+/// completely, then constant.
 #pragma once
 
 #include "dpslave/base/result.hpp"
 #include "dpslave/dp/personality.hpp"
 #include "dpslave/drive/poller.hpp"
 #include "dpslave/drive/tag.hpp"
+#include "dpslave/input/fault.hpp"
+#include "dpslave/input/text_source.hpp"
 #include "dpslave/led/pattern.hpp"
-#include "dpslave/toml/fault.hpp"
-#include "dpslave/toml/text_source.hpp"
 
 #include <optional>
 #include <string>
@@ -18,7 +18,7 @@
 
 namespace dpslave::profile {
 
-/// What the extended diagnosis of a device type reports.
+/// The content of the extended diagnosis of a device type.
 enum class DiagForm : std::uint8_t {
     none,
     trip_code,   ///< four octets: trip code of the drive, EXT DIAGNOSTIC (HA463561U002)
@@ -34,19 +34,18 @@ struct MirroredLamp {
     bool inverted = false;
     friend bool operator==(const MirroredLamp&, const MirroredLamp&) = default;
 };
-/// Nothing: the text is no such lamp.
+/// Returns nullopt if the text is no such lamp.
 std::optional<MirroredLamp> parse_lamp(std::string_view text);
 
-/// Where a drive reports its trip: a tag whose low octet is the code, or a bit that is set while it has
-/// tripped
-/// ("272.3", "!537.11"), which is reported as 31.
+/// The place where a drive reports its trip: a tag whose low octet is the code, or a bit that is set while it
+/// has tripped ("272.3", "!537.11"), which is reported as 31.
 struct TripSource {
     MirroredLamp bit; ///< tag 0 = not known
     bool is_code = true;
     friend bool operator==(const TripSource&, const TripSource&) = default;
 };
 
-/// What a GSD says beyond the personality, key by key.
+/// The facts of a GSD beyond the personality, key by key.
 struct GsdFacts {
     std::string vendor;                    ///< Vendor_Name
     std::string model;                     ///< Model_Name
@@ -80,14 +79,20 @@ struct Profile {
     std::string tag_file; ///< its path
     bool tags_only_from_table = false;
     drive::MnemonicRule mnemonics = drive::MnemonicRule::none;
+    std::string mnemonic_source;    ///< where the rule comes from; empty: nothing is said
+    bool mnemonics_assumed = false; ///< no source says that this device follows the rule (X-52)
+    drive::DeniedHold denied_holds = drive::DeniedHold::where_one; ///< X-48; a technology box: never
     drive::ZeroAfter zero_after = std::chrono::nanoseconds{0}; ///< with a TEC OPTION block RIDE THROUGH rules
     bool has_tec = false;                                      ///< the device has a TEC OPTION function block
     MirroredLamp health, run; ///< of a TEC OPTION block; a station may say otherwise
     TripSource trip;          ///< likewise
     DiagForm diagnosis = DiagForm::none;
-    std::uint16_t status_tag = 0;             ///< of DiagForm::status_word
-    std::uint16_t fault_mask = 0;             ///< bits of the status word that are faults (Ext_Diag, X-15)
-    bool selectable_resolution = false;       ///< key `resolution` of a station
+    std::uint16_t status_tag = 0;       ///< of DiagForm::status_word
+    std::uint16_t fault_mask = 0;       ///< bits of the status word that are faults (Ext_Diag, X-15)
+    bool selectable_resolution = false; ///< key `resolution` of a station
+    /// The tags in which such a device says its resolution (0 full, 1 integer) and the decimals of its
+    /// display; 0 = it does not.
+    std::uint16_t resolution_tag = 0, display_decimals_tag = 0;
     std::vector<std::uint16_t> never_written; ///< tags that are never written
     bool has_function_4 = false;              ///< of Modbus: it reads what function 3 reads
     bool has_function_8 = false;              ///< of Modbus: the loopback, sub code 0
@@ -101,12 +106,12 @@ struct Profile {
 
 /// Reads `folder`/NAME.toml and the table it names (../tags/FILE beside the folder). All faults of both files
 /// in one list.
-Result<Profile, toml::Faults> load_profile(const toml::TextSource& source, const std::string& folder,
-                                           const std::string& name);
+Result<Profile, input::Faults> load_profile(const input::TextSource& source, const std::string& folder,
+                                            const std::string& name);
 
 /// Reads a tag table.
-Result<drive::TagTable, toml::Faults> load_tags(const toml::TextSource& source, const std::string& file);
-/// The same of its text, with or without a byte order mark; `file` is for the faults.
-Result<drive::TagTable, toml::Faults> read_tags(std::string_view content, const std::string& file);
+Result<drive::TagTable, input::Faults> load_tags(const input::TextSource& source, const std::string& file);
+/// Reads the table from its text, with or without a byte order mark; `file` is for the faults.
+Result<drive::TagTable, input::Faults> read_tags(std::string_view content, const std::string& file);
 
 } // namespace dpslave::profile

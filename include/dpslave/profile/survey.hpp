@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// From the answers of a drive to a tag table: the answers of each tag, their record as a file, which tag
-/// is asked next, how long that takes, and the rows of the table. Pure: texts and times in, texts out.
+/// Makes a tag table from the answers of a drive. It keeps the answers of each tag and their record as a
+/// file, and says which tag is asked next, how long that takes, and what the rows of the table are. It is
+/// pure: texts and times go in, texts come out.
 #pragma once
 
 #include "dpslave/base/result.hpp"
-#include "dpslave/toml/fault.hpp"
+#include "dpslave/base/typed.hpp"
+#include "dpslave/input/fault.hpp"
 
 #include <array>
 #include <chrono>
@@ -19,18 +21,8 @@
 
 namespace dpslave::profile {
 
-/// Tags from `first` to `last`, both included.
-struct TagSpan {
-    std::uint16_t first = 0, last = 0;
-    friend bool operator==(const TagSpan&, const TagSpan&) = default;
-};
-/// "1-600,1000-1127,7" in ascending order, what touches or overlaps joined. The error is a sentence.
-Result<std::vector<TagSpan>, std::string> parse_tag_spans(std::string_view text);
-/// The same back: "1-600, 1000". `tags`: ascending.
+/// "1-600, 1000". `tags`: ascending.
 std::string spans_text(std::span<const std::uint16_t> tags);
-
-/// "90s", "10m", "2h"; a number alone is seconds. Nothing: it is no such time, 0, or more than 30 days.
-std::optional<std::chrono::seconds> parse_duration(std::string_view text);
 
 /// The result of one survey read.
 struct SurveyAnswer {
@@ -45,18 +37,18 @@ struct SurveyAnswer {
     std::uint16_t word = 0;
 };
 
-/// How a tag answered.
+/// The form of a tag's answer.
 enum class SurveyForm : std::uint8_t {
     none,        ///< it never did
     number,      ///< "-12.5", "30."
     hexadecimal, ///< ">1B0B"
     other,       ///< a text
     mixed,       ///< more than one of these: no row can be made
-    word,        ///< Modbus: 16 bits of which nothing more is known
+    word,        ///< Modbus: 16 bits without a known form
 };
 std::string_view text(SurveyForm form) noexcept;
 
-/// A decimal number as it stands in an answer: 12.50 is 1250 with 2 decimals.
+/// A decimal number as written in an answer: 12.50 is 1250 with 2 decimals.
 struct SeenNumber {
     std::int64_t counts = 0;
     unsigned decimals = 0;
@@ -81,24 +73,24 @@ struct Sighting {
     void add(const SurveyAnswer& answer);
 };
 
-/// What a survey saw, by tag.
+/// The results of a survey, by tag.
 using Survey = std::map<std::uint16_t, Sighting>;
 
 /// The record of a survey as a CSV file, from which it can go on. Each row names the station, and the record
 /// of another station is refused.
 std::string record_text(const Survey& survey, std::string_view station);
-Result<Survey, toml::Faults> read_record(std::string_view content, const std::string& file,
-                                         std::string_view station);
+Result<Survey, input::Faults> read_record(std::string_view content, const std::string& file,
+                                          std::string_view station);
 
-/// Which tag is asked next: of those that are still wanted the one that was asked least, ascending. A tag
-/// that was only ever denied is asked once; one that never answered three times, because a fault of the line
-/// may be the reason.
+/// Decides which tag is asked next: of the tags that are still wanted the one that was asked least,
+/// ascending. A tag that was only ever denied is asked once; one that never answered three times, because a
+/// fault of the line may be the reason.
 class SurveyPlan {
 public:
     /// `tags`: ascending. `passes`: how often each tag is to be asked; 0 = without end.
     SurveyPlan(std::vector<TagSpan> tags, std::uint32_t passes) : spans_(std::move(tags)), passes_(passes) {}
 
-    /// The next tag after what `seen` has by now; nothing: the survey is over.
+    /// Returns the next tag after what `seen` has by now; nullopt if the survey is over.
     std::optional<std::uint16_t> next(const Survey& seen);
     /// Reads that are left, where there is an end to the passes: of tags that were not asked yet as many as
     /// the others took on the average.
@@ -114,11 +106,11 @@ private:
     std::size_t at_ = 0;
 };
 
-/// How fast a survey goes, by its last reads.
+/// Measures how fast a survey goes, by its last reads.
 class SurveyPace {
 public:
     void took(std::chrono::nanoseconds one);
-    /// How long `reads` more will take at the pace of the last 64 reads; nothing before the eighth.
+    /// Returns how long `reads` more will take at the pace of the last 64 reads; nullopt before the eighth.
     std::optional<std::chrono::seconds> time_for(std::size_t reads) const;
 
 private:
@@ -127,8 +119,8 @@ private:
     std::size_t count_ = 0;
 };
 
-/// How long a survey waits for a drive that does not answer, or behind another survey: 30 s. With a time of
-/// its own it waits for the drive until that is over. Times count from the begin of the survey.
+/// Says how long a survey waits for a drive that does not answer, or for another survey to end: 30 s. If a
+/// time is given it waits for the drive until that is over. Times count from the begin of the survey.
 class SurveyPatience {
 public:
     enum class Verdict : std::uint8_t { wait, no_drive, other_survey, time_is_over };
@@ -152,11 +144,19 @@ struct SurveyedTable {
     std::vector<std::string> contradictions; ///< what the drive answered against a row, a sentence each
 };
 
+/// Says what a survey does with confirmed rows without a mnemonic.
+enum class MnemonicCells : std::uint8_t {
+    keep,
+    fill, ///< the one that it was asked by, where the drive answered and the row agrees: the table needs no
+          ///< rule
+};
+
 /// Joins what was seen with `table`, the text of a tag table; empty, or nothing but a byte order mark = there
 /// is none yet. New rows have confirmed = no; rows with confirmed = no are widened (more decimals, further
 /// extremes) and keep their other cells; every other row stays as it is, octet by octet, but for the cells of
-/// new columns. Faults: `table` is no tag table.
-Result<SurveyedTable, toml::Faults> merge_survey(std::string_view table, const std::string& file,
-                                                 const Survey& seen);
+/// new columns and MnemonicCells. Faults: `table` is no tag table.
+Result<SurveyedTable, input::Faults> merge_survey(std::string_view table, const std::string& file,
+                                                  const Survey& seen,
+                                                  MnemonicCells mnemonics = MnemonicCells::keep);
 
 } // namespace dpslave::profile

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-/// Stands in a struct: its fields in the order of the interface. They are at the same time the keys.
+/// Lists in a struct its fields in the order of the interface. They are at the same time the keys.
 #define DPSLAVE_FIELDS(...)                                                                                  \
     static constexpr std::string_view kFields = #__VA_ARGS__;                                                \
     auto with_fields(auto&& use)                                                                             \

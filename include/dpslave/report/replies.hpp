@@ -221,6 +221,10 @@ struct LineInUse {
     std::vector<std::string> stations{};
     DPSLAVE_FIELDS(line, stations)
 };
+struct ProbeEnded {
+    std::string station{}, reason{};
+    DPSLAVE_FIELDS(station, reason)
+};
 struct WouldSilence {
     std::string station{}, parameter{}, value{}, reason{};
     DPSLAVE_FIELDS(station, parameter, value, reason)

@@ -11,7 +11,8 @@ struct Led {
     std::string name{}, sink{};
     bool lit = false;
     std::string pattern{};
-    DPSLAVE_FIELDS(name, sink, lit, pattern)
+    std::optional<std::string> trouble{};
+    DPSLAVE_FIELDS(name, sink, lit, pattern, trouble)
 };
 struct StationLeds {
     std::string name{}, meaning{};
@@ -22,13 +23,14 @@ struct Drive {
     std::string line{}, port{}, protocol{}, unit{}, link{};
     bool port_open = true, ever_answered = false;
     std::int64_t baud = 0;
-    std::string format{};
+    std::string format{}, direction{};
     std::int64_t timeout_ms = 0;
     std::optional<double> cycle_ms{};
     std::int64_t reads = 0, writes = 0, silences = 0, refusals = 0, losses = 0;
     std::optional<std::string> last_trouble{};
-    DPSLAVE_FIELDS(line, port, protocol, unit, link, port_open, ever_answered, baud, format, timeout_ms,
-                   cycle_ms, reads, writes, silences, refusals, losses, last_trouble)
+    std::optional<std::int64_t> not_zeroed{};
+    DPSLAVE_FIELDS(line, port, protocol, unit, link, port_open, ever_answered, baud, format, direction,
+                   timeout_ms, cycle_ms, reads, writes, silences, refusals, losses, last_trouble, not_zeroed)
 };
 struct Ride {
     std::optional<double> ends_in_ms{};
@@ -41,6 +43,7 @@ struct Station {
     std::optional<std::int64_t> master{}, watchdog_ms{};
     std::int64_t min_tsdr = 0, groups = 0;
     bool sync = false, freeze = false, clear = false, held = false;
+    std::optional<std::string> held_because{};
     std::optional<Ride> ride{};
     std::optional<std::string> silent_because{};
     bool stat_diag = false, diag_pending = false;
@@ -50,8 +53,8 @@ struct Station {
     std::optional<std::string> left_because{}, left_code{};
     Drive drive{};
     DPSLAVE_FIELDS(name, address, profile, device, state, master, watchdog_ms, min_tsdr, groups, sync, freeze,
-                   clear, held, ride, silent_because, stat_diag, diag_pending, parameters, demand_data,
-                   left_count, left_because, left_code, drive)
+                   clear, held, held_because, ride, silent_because, stat_diag, diag_pending, parameters,
+                   demand_data, left_count, left_because, left_code, drive)
 };
 struct Unanswered {
     std::int64_t address = 0, master = 0, requests = 0;
@@ -95,14 +98,19 @@ struct Info {
     std::int64_t max_output_octets = 0, max_diag_octets = 0;
     bool demand_data = false, sync = false, freeze = false;
     std::vector<std::int64_t> bauds{}, max_tsdr{};
+    std::optional<std::int64_t> tags_at{};
+    std::vector<std::string> identifiers{};
     std::string tag_table{};
     std::int64_t tags_in_table = 0;
     std::optional<std::string> option_software{}, comms_status{}, resolution{};
+    std::optional<std::string> mnemonic_rule{}, mnemonic_source{};
+    bool mnemonics_assumed = false;
     std::vector<std::string> notes{};
     DPSLAVE_FIELDS(name, profile, device, order_code, firmware, manual, ident, address_active,
                    address_pending, address_min, address_max, max_parameters, max_input_octets,
-                   max_output_octets, max_diag_octets, demand_data, sync, freeze, bauds, max_tsdr, tag_table,
-                   tags_in_table, option_software, comms_status, resolution, notes)
+                   max_output_octets, max_diag_octets, demand_data, sync, freeze, bauds, max_tsdr, tags_at,
+                   identifiers, tag_table, tags_in_table, option_software, comms_status, resolution,
+                   mnemonic_rule, mnemonic_source, mnemonics_assumed, notes)
 };
 struct TecRow {
     std::string name{}, generic_name{};
@@ -167,6 +175,11 @@ struct Unscaled {
     bool contradicted = false;
     DPSLAVE_FIELDS(tag, direction, answer, contradicted)
 };
+struct Denied {
+    std::int64_t tag = 0;
+    std::string direction{}, answer{};
+    DPSLAVE_FIELDS(tag, direction, answer)
+};
 struct RefusedTag {
     std::int64_t tag = 0;
     bool write = false;
@@ -181,10 +194,13 @@ struct Diagnosis {
     std::optional<Refusal> refusal{};
     std::string last_prm{}, last_cfg{};
     bool held = false;
+    std::optional<std::string> scale_register{};
     std::vector<Unscaled> unscaled{};
+    std::vector<Denied> denied{};
     std::vector<std::string> trouble{};
     std::vector<RefusedTag> refused{};
-    DPSLAVE_FIELDS(name, octets, hex, bits, refusal, last_prm, last_cfg, held, unscaled, trouble, refused)
+    DPSLAVE_FIELDS(name, octets, hex, bits, refusal, last_prm, last_cfg, held, scale_register, unscaled,
+                   denied, trouble, refused)
 };
 struct Counter {
     std::string name{};
@@ -221,11 +237,20 @@ struct TagSpan {
     std::int64_t first = 0, last = 0;
     DPSLAVE_FIELDS(first, last)
 };
+struct RuleAnswers {
+    std::string rule{};
+    std::vector<std::int64_t> answering{}, denied{}, silent{}, unasked{};
+    std::int64_t nameless = 0;
+    DPSLAVE_FIELDS(rule, answering, denied, silent, unasked, nameless)
+};
 struct Answering {
     std::string protocol{};
     std::int64_t baud = 0;
     std::string format{}, unit{};
-    DPSLAVE_FIELDS(protocol, baud, format, unit)
+    std::optional<std::string> identity{}, version{}, device{};
+    std::vector<RuleAnswers> rules{};
+    std::vector<std::string> best_rules{};
+    DPSLAVE_FIELDS(protocol, baud, format, unit, identity, version, device, rules, best_rules)
 };
 struct Log {
     std::string level{};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The file of an incident: a line that says what it is, a line of JSON (report/incident.hpp), records in
-/// their wire form, and a check sum of all that in 4 octets, little endian. docs/internals/trace.md.
+/// their wire form, and a checksum of all that in 4 octets, little endian. docs/internals/trace.md describes
+/// it.
 #pragma once
 
 #include "dpslave/base/bytes.hpp"
@@ -29,13 +30,13 @@ private:
     std::uint32_t crc_ = 0xFFFF'FFFF;
 };
 
-/// The check sum as the file has it.
+/// Returns the checksum as the file has it.
 std::array<std::uint8_t, kChecksumOctets> checksum_octets(const Crc32& crc);
 
 /// A file begins like this. `head` is the JSON, without a line break.
 std::string incident_begin(std::string_view head);
-/// The JSON of a file of which `begin` has at least kIncidentMark and kLongestHead octets, or all. The
-/// failure is a clause.
+/// Returns the JSON of a file of which `begin` has at least kIncidentMark and kLongestHead octets, or all.
+/// The failure is a clause.
 Result<std::string_view, std::string> incident_head(Bytes begin);
 
 /// Both lie in the octets that were read.
@@ -43,7 +44,7 @@ struct IncidentFile {
     std::string_view head; ///< JSON
     Bytes records;         ///< for take_record(), nothing else
 };
-/// A whole file. The failure is a clause: "it is cut off or damaged".
+/// A complete file. The failure is a clause: "it is cut off or damaged".
 Result<IncidentFile, std::string> read_incident(Bytes file);
 
 } // namespace dpslave::trace

@@ -34,7 +34,7 @@ struct Head {
     bool more_follows = false; ///< of `heard`: the next record belongs to the same read
     std::uint8_t address = 0;  ///< of `unanswered` and of a drive line: who was asked
     Instant at{};              ///< when the read or the write had ended, or the decision was made
-    Instant begun{};           ///< of `sent`: before the write; of a drive line: as drive::LineFrame
+    Instant begun{};           ///< of `sent`: before the write; of a drive line: as drive::TracedFrame
 };
 
 struct Record {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The newest records of one thread, in a fixed piece of memory. One thread writes and never waits, and the
-/// oldest records make room; any number of threads read. What a reader did not fetch in time is counted for
-/// it. Nothing is allocated after the start.
+/// oldest records make room; any number of threads read. Records that a reader did not fetch in time are
+/// counted for it. It allocates nothing after the start.
 #pragma once
 
 #include "dpslave/trace/record.hpp"
@@ -31,9 +31,9 @@ public:
         enum class From : std::uint8_t { oldest, newest }; ///< newest: what is put from now on
         explicit Reader(const Ring& ring, From from = From::oldest);
 
-        /// The next record. False: there is none yet.
+        /// The next record. Returns false if there is none yet.
         bool next(Record& into);
-        /// How many records were overwritten before this reader came to them.
+        /// Returns how many records were overwritten before this reader came to them.
         std::uint64_t lost() const { return lost_; }
 
     private:
@@ -55,8 +55,9 @@ private:
 
     std::size_t capacity_ = 0;               ///< words
     std::unique_ptr<std::uint64_t[]> words_; ///< each is written before it is read
-    /// Where the oldest record begins and behind the newest one, in words since the start. `begin_` is moved
-    /// before what lies there is overwritten: a reader that finds it moved throws away what it has copied.
+    /// The place where the oldest record begins and the place after the newest one, in words since the start.
+    /// `begin_` is moved before what lies there is overwritten: a reader that finds it moved throws away what
+    /// it has copied.
     alignas(64) std::atomic<std::uint64_t> begin_{0};
     std::atomic<std::uint64_t> end_{0};
     std::atomic<std::uint64_t> begun_{0}; ///< records, counted before one is written

@@ -13,7 +13,7 @@
 
 namespace dpslave::trace {
 
-/// What a sample belongs to.
+/// The owner of a sample.
 struct SampleOf {
     std::uint32_t station = 0; ///< a number that is never given twice while the program runs
     Generation generation = 0; ///< of the layout
@@ -38,12 +38,12 @@ struct Sample {
     bool is_layout = false; ///< `parameters` count; else `words` and `states`
     bool has_ended = false; ///< as SampledValues has it
     std::uint8_t count = 0;
-    std::array<Parameter, kMaxParameters> parameters{};
+    std::array<LayoutEntry, kMaxParameters> parameters{};
     std::array<std::uint16_t, kMaxParameters> words{};
     std::array<WordState, kMaxParameters> states{};
 };
 
-/// Nothing: it is no such record.
+/// Returns nullopt if it is no such record.
 std::optional<Sample> sample_of(const Record& record);
 
 } // namespace dpslave::trace

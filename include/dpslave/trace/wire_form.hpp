@@ -11,7 +11,8 @@
 namespace dpslave::trace {
 
 void append(const Record& record, std::vector<std::uint8_t>& to);
-/// The first record of `octets`, which it takes off. Nothing: there is none, or it is none; `octets` stays.
+/// Returns the first record of `octets`, and removes it from them. It returns nullopt if there is none, or it
+/// is invalid; `octets` then stays.
 std::optional<Record> take_record(Bytes& octets);
 
 } // namespace dpslave::trace

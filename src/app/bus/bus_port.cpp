@@ -32,7 +32,7 @@ BusPort::BusPort(const config::BusConfig& config, io::Port port, io::DriverEnabl
       key_(key),
       link_(link),
       trace_(link.trace),
-      unread_(port_.opened())
+      backlog_(port_.opened())
 {
     if (!config.listen) sender_.emplace(driver);
 }
@@ -101,7 +101,7 @@ void BusPort::hear(Bytes octets, Instant read_at, bool more, fdl::Layer2& layer2
     const auto foreign = echo_.remove(octets, read_at);
     if (foreign.octets.empty()) return;
     heard_at_ = read_at;
-    layer2.may_have_lain(unread_.at(read_at));
+    layer2.assume_backlog(backlog_.age_of(read_at));
     hear_withheld(foreign.withheld, read_at, layer2);
     trace_.heard(foreign.octets, read_at, more, layer2.baud());
     layer2.on_bytes(foreign.octets, read_at, more);

@@ -3,10 +3,10 @@
 /// rate, the loss of the port and its return. The bus thread's own.
 #pragma once
 
-#include "app/links.hpp"
+#include "app/links/links.hpp"
+#include "backlog_age.hpp"
 #include "bus_sender.hpp"
 #include "bus_trace.hpp"
-#include "unread_age.hpp"
 
 #include "dpslave/config/config.hpp"
 #include "dpslave/fdl/echo.hpp"
@@ -47,7 +47,7 @@ public:
     /// Reads all that has come; the echo of replies does not reach layer 2. A port that fails is closed.
     void read(fdl::Layer2& layer2);
     /// At `now` nothing is left to read: the epoll reported nothing, or it has been read.
-    void looked(Instant now) { unread_.looked(now); }
+    void emptied(Instant now) { backlog_.emptied(now); }
     /// When the newest octets were read that are no echo.
     Instant heard_at() const { return heard_at_; }
 
@@ -101,7 +101,7 @@ private:
     std::uint64_t key_;
     BusLink& link_;
     BusTrace trace_;
-    UnreadAge unread_;
+    BacklogAge backlog_;
     std::array<std::uint8_t, 512> buffer_{};
     Instant heard_at_{};
     Instant leaves_by_ = kNever; ///< when the last reply must have left the kernel; kNever: it has

@@ -9,6 +9,7 @@ BusStation::BusStation(const config::StationConfig& config, std::shared_ptr<Stat
     : link_(std::move(link)), personality_(config.personality), slave_(*personality_, config.address)
 {
     orders_.address = config.address;
+    take_departure();
 }
 
 void BusStation::fetch()
@@ -24,6 +25,12 @@ bool BusStation::take_orders()
     orders_ = link_->bus_orders.latest();
     slave_.set_ext_diag(orders_.ext_diag, orders_.ext_diag_fault);
     return true;
+}
+
+bool BusStation::take_departure()
+{
+    const std::uint32_t now = link_->departures.load(std::memory_order_acquire);
+    return std::exchange(departures_, now) != now;
 }
 
 fdl::Answer BusStation::srd(const fdl::Indication& request, fdl::ReplyData& reply)

@@ -3,7 +3,7 @@
 /// telegram does not grow with the number of stations.
 #pragma once
 
-#include "app/links.hpp"
+#include "app/links/links.hpp"
 
 #include "dpslave/config/config.hpp"
 #include "dpslave/dp/slave.hpp"
@@ -33,6 +33,10 @@ public:
     /// Takes what the main thread ordered, also without a request of a master. True: it was new.
     bool take_orders();
     const BusOrders& orders() const { return orders_; }
+    /// As the main thread orders, and its drive is not gone.
+    bool is_wanted() const { return orders_.enabled && departures_ % 2 == 0; }
+    /// True: the drive was gone since the last call. Then the station leaves the bus, even if it comes back.
+    bool take_departure();
 
     /// Passes outputs, orders and events on. False: a full ring has refused an order; call again.
     bool forward();
@@ -46,6 +50,7 @@ private:
     std::shared_ptr<const dp::Personality> personality_; // the slave refers to it
     dp::Slave slave_;
     BusOrders orders_;                         ///< as taken last
+    std::uint32_t departures_ = 0;             ///< StationLink::departures, as taken last
     std::optional<DemandOrder> waiting_order_; ///< refused by a full ring: late, not lost
 };
 

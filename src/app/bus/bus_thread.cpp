@@ -19,7 +19,7 @@ BusThread::BusThread(const config::BusConfig& config, io::Port port, io::DriverE
       stations_(std::move(stations), link.stations, layer2_),
       link_(link)
 {
-    layer2_.listen(&members_);
+    layer2_.listen(&monitor_);
     link_.baud.store(layer2_.baud(), std::memory_order_relaxed);
 }
 
@@ -39,12 +39,12 @@ void BusThread::run(const std::stop_token& stop, io::EventFd& wake)
         }
         process(octets_before(next_wake()));
         if (layer2_.next_deadline() - io::monotonic_now() < kSpin) wait_for_window();
-        const auto reply = send();
+        send();
         port_.finish_sending(); // a short reply is over before anything else could be done
-        if (reply) hear_ourselves(*reply);
         stations_.forward();
         port_.commit_trace(layer2_);
         port_.finish_sending();
+        if (!layer2_.reply_waits()) monitor_.catch_up();
         follow_rate();
         const Instant now = io::monotonic_now();
         if (may_publish(now)) publish(now);
@@ -101,7 +101,7 @@ void BusThread::process(bool octets)
 {
     if (octets) port_.read(layer2_);
     processed_at_ = io::monotonic_now();
-    port_.looked(processed_at_);
+    port_.emptied(processed_at_);
     layer2_.on_time(processed_at_);
     port_.note_silence(layer2_);
 }
@@ -121,27 +121,21 @@ void BusThread::wait_for_window()
     process(octets);
 }
 
-/// The reply if it was sent, until more is heard.
-std::optional<Bytes> BusThread::send()
+/// A reply that was sent is on the bus like all other telegrams, but is not read back.
+void BusThread::send()
 {
     const auto reply = layer2_.take_transmit();
-    if (!reply) return std::nullopt;
+    if (!reply) return;
     const Baud baud = layer2_.baud();
     const BusPort::Reply outgoing{.octets = *reply,
-                                  .address = layer2_.answered_address(),
+                                  .address = layer2_.sent()->sa,
                                   .baud = baud,
                                   .begins = processed_at_,
                                   .window_ended = layer2_.window_ended()};
     const auto written = port_.send(outgoing);
-    if (!written) return std::nullopt;
+    if (!written) return;
     count_turnaround(*written, baud);
-    return reply;
-}
-
-/// Our stations are on the bus like all others, but what they send is not read back.
-void BusThread::hear_ourselves(Bytes reply)
-{
-    if (const auto telegram = fdl::decode(reply)) members_.on_telegram(*telegram, processed_at_);
+    if (const fdl::Telegram* const telegram = layer2_.sent()) monitor_.on_telegram(*telegram, processed_at_);
 }
 
 /// From the read of the request's last octet to the end of the write: the newest octets heard are that
@@ -175,7 +169,7 @@ void BusThread::publish(Instant now)
     if (now >= next_bus_snapshot_) publish_bus(now);
     if (now >= next_members_) {
         next_members_ = now + kMembersInterval;
-        link_.members.publish(members_.table());
+        link_.members.publish(monitor_.members().table());
     }
     stations_.publish(now);
     published_until_ = now;
@@ -192,13 +186,13 @@ void BusThread::follow_memory()
 void BusThread::publish_bus(Instant now)
 {
     follow_memory();
-    next_bus_snapshot_ = now + SnapshotTurns::kInterval;
+    next_bus_snapshot_ = now + SnapshotSchedule::kInterval;
     BusSnapshot snapshot{.baud = layer2_.baud(),
                          .baud_state = layer2_.baud_state(),
                          .taken_at = now,
                          .last_telegram = layer2_.last_telegram(),
                          .counters = layer2_.counters(),
-                         .unanswered = members_.unanswered(),
+                         .unanswered = monitor_.members().unanswered(),
                          .turnaround_us = turnaround_us_,
                          .turnaround_tbit = turnaround_tbit_,
                          .too_late = too_late_,

@@ -4,12 +4,12 @@
 /// is open, nothing blocks but the wait for octets.
 #pragma once
 
-#include "app/links.hpp"
+#include "app/links/links.hpp"
+#include "bus_monitor.hpp"
 #include "bus_port.hpp"
 #include "station_set.hpp"
 
 #include "dpslave/config/config.hpp"
-#include "dpslave/dp/bus_members.hpp"
 #include "dpslave/fdl/layer2.hpp"
 #include "dpslave/io/epoll.hpp"
 #include "dpslave/io/event_fd.hpp"
@@ -47,8 +47,7 @@ private:
     bool octets_before(Instant when);
     void process(bool octets);
     void wait_for_window();
-    std::optional<Bytes> send();
-    void hear_ourselves(Bytes reply);
+    void send();
     void count_turnaround(Instant written, Baud baud);
     void follow_rate();
     bool may_publish(Instant now) const;
@@ -61,7 +60,7 @@ private:
     BusPort port_;
     fdl::Layer2 layer2_;
     StationSet stations_;
-    dp::BusMembers members_;
+    BusMonitor monitor_;
     BusLink& link_;
     io::Ticker ticker_{kTick};
     bool update_due_ = true; ///< the stations are updated with each tick

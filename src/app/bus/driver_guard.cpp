@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "driver_guard.hpp"
 
-#include "dpslave/fdl/transmission.hpp"
 #include "dpslave/io/clock.hpp"
 #include "dpslave/io/realtime.hpp"
 
@@ -11,11 +10,11 @@
 
 namespace dpslave::app {
 
-void DriverGuard::start(int bus_priority)
+void DriverGuard::start(int watched)
 {
     if (!driver_.by_hand()) return;
     constexpr int kHighest = 99;
-    const int priority = bus_priority == 0 ? 0 : std::min(bus_priority + 1, kHighest);
+    const int priority = watched == 0 ? 0 : std::min(watched + 1, kHighest);
     thread_ = std::jthread([this, priority](const std::stop_token& stop) { watch(stop, priority); });
 }
 
@@ -26,9 +25,9 @@ void DriverGuard::watch(const std::stop_token& stop, int priority)
         spdlog::warn("guard of the driver enable: {}", refused);
     while (!stop.stop_requested()) {
         std::this_thread::sleep_for(kLook);
-        const Baud baud = baud_.load(std::memory_order_relaxed);
-        if (driver_.drop_if_stuck(io::monotonic_now(), fdl::transmission_guard(baud)))
-            dropped_.fetch_add(1, std::memory_order_relaxed);
+        if (!driver_.drop_if_stuck(io::monotonic_now(), limit_())) continue;
+        dropped_.fetch_add(1, std::memory_order_relaxed);
+        if (total_ != nullptr) total_->fetch_add(1, std::memory_order_relaxed);
     }
 }
 

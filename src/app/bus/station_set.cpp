@@ -79,13 +79,13 @@ void StationSet::apply_orders()
         if (slot.station == nullptr) continue;
         if (slot.station->take_orders())
             turns_.changed(i); // a new diagnosis is published although no master asks for it
-        const BusOrders& wanted = slot.station->orders();
-        if (slot.address && (!wanted.enabled || *slot.address != wanted.address)) detach(i);
+        const bool drive_was_gone = slot.station->take_departure();
+        const bool is_elsewhere = slot.address && *slot.address != slot.station->orders().address;
+        if (slot.address && (drive_was_gone || !slot.station->is_wanted() || is_elsewhere)) detach(i);
     }
     for (std::size_t i = 0; i < kSlots; ++i) { // an address that another one leaves is free by now
         const Slot& slot = slots_[i];
-        if (slot.station != nullptr && !slot.address && !slot.leaves && slot.station->orders().enabled)
-            attach(i);
+        if (slot.station != nullptr && !slot.address && !slot.leaves && slot.station->is_wanted()) attach(i);
     }
 }
 

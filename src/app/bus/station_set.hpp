@@ -3,9 +3,9 @@
 /// thread wants it. The bus thread's own. Nothing here allocates or blocks.
 #pragma once
 
-#include "app/links.hpp"
+#include "app/links/links.hpp"
 #include "bus_station.hpp"
-#include "snapshot_turns.hpp"
+#include "snapshot_schedule.hpp"
 
 #include "dpslave/base/handover.hpp"
 #include "dpslave/fdl/layer2.hpp"
@@ -37,7 +37,7 @@ public:
     void stop();
 
 private:
-    static constexpr std::size_t kSlots = SnapshotTurns::kSlots;
+    static constexpr std::size_t kSlots = SnapshotSchedule::kSlots;
 
     /// Where a station is held: it keeps its slot while others come and go.
     struct Slot {
@@ -59,7 +59,7 @@ private:
     std::array<Slot, kSlots> slots_{};
     std::array<std::optional<std::uint8_t>, kSlots> slot_at_{}; ///< by address
     std::bitset<kSlots> waiting_; ///< slots with an order that could not be passed on yet
-    SnapshotTurns turns_;
+    SnapshotSchedule turns_;
 };
 
 } // namespace dpslave::app

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Which incidents are kept: the first 8 and the last 24, of which those of a storm push out each other
-/// before what was there when it began. Equal ones are counted on the one that is kept, and what happens
-/// within the time that an incident covers belongs to it. Pure; main thread only. The telegrams are in files
-/// (folder.hpp), not here.
+/// Keeps the first 8 and the last 24 incidents; in a storm, its own incidents are dropped before older ones.
+/// Equal ones are counted on the one that is kept, and what happens within the time that an incident covers
+/// belongs to it. Pure; main thread only. The telegrams are in files (folder.hpp), not here.
 #pragma once
 
 #include "dpslave/base/units.hpp"

@@ -3,20 +3,20 @@
 
 namespace dpslave::app {
 
-bool Burst::look(std::uint64_t count, Instant now)
+bool Burst::count(std::uint64_t total, Instant now)
 {
     if (!at_begin_ || now - begin_ > kWithin) {
         begin_ = at_begin_ ? looked_at_ : now;
-        at_begin_ = at_begin_ ? newest_ : count;
+        at_begin_ = at_begin_ ? newest_ : total;
     }
     looked_at_ = now;
-    if (count != newest_) grew_at_ = now;
-    newest_ = count;
+    if (total != newest_) grew_at_ = now;
+    newest_ = total;
     if (lasts_) {
         lasts_ = now - grew_at_ < kWithin;
         return false;
     }
-    lasts_ = count - *at_begin_ >= kLeast;
+    lasts_ = total - *at_begin_ >= kLeast;
     return lasts_;
 }
 

@@ -17,7 +17,7 @@ public:
     static constexpr std::chrono::seconds kWithin{1};
 
     /// The counter as it is now. True: a burst has begun.
-    bool look(std::uint64_t count, Instant now);
+    bool count(std::uint64_t total, Instant now);
 
 private:
     std::optional<std::uint64_t> at_begin_; ///< of the present second

@@ -82,7 +82,7 @@ Result<OpenFile, std::string> open_file(const fs::path& path)
     return open;
 }
 
-/// The head of a file whose check sum is right. Read in pieces, so that memory does not grow with the files.
+/// The head of a file whose checksum is right. Read in pieces, so that memory does not grow with the files.
 Result<report::IncidentHead, std::string> judged_head(const fs::path& path)
 {
     const auto open = open_file(path);
@@ -106,7 +106,7 @@ Result<report::IncidentHead, std::string> judged_head(const fs::path& path)
     if (!said) return Failure{said.error()};
     const auto computed = trace::checksum_octets(crc);
     if (!std::equal(said->begin(), said->end(), computed.begin(), computed.end()))
-        return Failure{std::string{"it is cut off or damaged: its check sum is wrong"}};
+        return Failure{std::string{"it is cut off or damaged: its checksum is wrong"}};
     return report::read<report::IncidentHead>(json);
 }
 

@@ -4,6 +4,7 @@
 #include "dpslave/app/version.hpp"
 #include "dpslave/base/base64.hpp"
 #include "dpslave/io/clock.hpp"
+#include "dpslave/refusal/words.hpp"
 #include "dpslave/report/words.hpp"
 
 #include <fmt/format.h>
@@ -20,6 +21,7 @@ using control::Json;
 
 namespace {
 
+constexpr std::chrono::seconds kLongestRead{30};          // a disk that hangs keeps no caller
 constexpr std::chrono::seconds kCountsInterval{60};       // a flash memory wears out
 constexpr std::chrono::milliseconds kOldestSnapshot{200}; // one is published every 50 ms
 constexpr std::size_t kMostEarly = 32, kMostWaiting = 4, kMostAsked = 8;
@@ -68,22 +70,32 @@ std::string reason_to_be_off(const config::TraceConfig& config, const std::files
 
 } // namespace
 
-Incidents::Incidents(const Monitor& monitor, const BusLink& bus, const Runtime& runtime, Replies& replies,
+Incidents::Incidents(const Monitor& monitor, const BusLink& bus, const DriveLines& lines,
                      const std::filesystem::path& state)
     : monitor_(monitor),
       bus_(bus),
-      runtime_(runtime),
-      replies_(replies),
+      lines_(lines),
       folder_(state / "incidents"),
       off_because_(reason_to_be_off(monitor.config().trace, state))
 {}
 
-void Incidents::look(const Station& station, const dp::Event& event, const std::string& text, Instant now)
+void Incidents::on_happening(const Happening& happening, Instant now)
+{
+    if (!off_because_.empty()) return;
+    for (const Station* const station : happening.recorded) {
+        if (happening.bus_event != nullptr) on_bus_event(*station, *happening.bus_event, happening.text, now);
+        if (!happening.drive_loss.empty())
+            happened(IncidentKind::drive, station_of(*station), std::string{happening.drive_loss},
+                     happening.text, now);
+    }
+}
+
+void Incidents::on_bus_event(const Station& station, const dp::Event& event, const std::string& text,
+                             Instant now)
 {
     using Kind = dp::Event::Kind;
-    if (!off_because_.empty()) return;
     if (event.kind == Kind::refused)
-        happened(IncidentKind::refused, station_of(station), std::string{report::code(event.refusal.why)},
+        happened(IncidentKind::refused, station_of(station), std::string{refusal::code(event.refusal.why)},
                  text, now);
     if (event.kind == Kind::foreign_set_prm)
         happened(IncidentKind::refused, station_of(station), "foreign_set_prm", text, now);
@@ -124,7 +136,7 @@ void Incidents::look_at_flaws(Instant now)
     const auto& flaws = monitor_.view().bus.counters.flaws;
     std::uint64_t all = 0;
     for (const std::uint64_t count : flaws) all += count;
-    if (!flaws_.look(all, now)) return;
+    if (!flaws_.count(all, now)) return;
     std::size_t most = 0;
     for (std::size_t i = 0; i < flaws.size(); ++i)
         if (flaws[i] - flaws_before_[i] > flaws[most] - flaws_before_[most]) most = i;
@@ -136,68 +148,59 @@ void Incidents::look_at_flaws(Instant now)
         now);
 }
 
-void Incidents::look_at_drives(Instant now)
+void Incidents::look_at_answers(Instant now)
 {
     const auto has_left = [this](const auto& one) { return monitor_.find(one.first) == nullptr; };
-    if (seen_.size() > monitor_.view().stations.size()) {
-        std::erase_if(seen_, has_left);
+    if (heard_.size() > monitor_.view().stations.size()) {
+        std::erase_if(heard_, has_left);
         std::erase_if(exchanges_, has_left);
     }
     for (const Station& station : monitor_.view().stations) {
-        const auto& drive = station.drive;
-        const Seen next{drive.losses, drive.heard, station.line_open};
-        const auto [found, is_new] = seen_.try_emplace(station.number, next);
-        const Seen before = std::exchange(found->second, next);
+        const drive::AnswerCounts& next = station.drive.heard;
+        const auto [found, is_new] = heard_.try_emplace(station.number, next);
+        const drive::AnswerCounts before = std::exchange(found->second, next);
         if (is_new) continue;
-        const std::string& name = station.config->name;
-        const auto say = [&](IncidentKind kind, const char* reason, const char* what) {
-            happened(kind, station_of(station), reason, name + ": " + what, now);
+        const auto say = [&](const char* reason, const char* what) {
+            happened(IncidentKind::answer, station_of(station), reason,
+                     station.config->name + ": an answer of the drive was refused: " + what, now);
         };
-        if (before.line_open && !next.line_open)
-            say(IncidentKind::drive, "port", "the port of the drive line is gone");
-        else if (next.losses > before.losses)
-            say(IncidentKind::drive, "silent", "the drive does not answer");
-        if (next.heard.damaged > before.heard.damaged)
-            say(IncidentKind::answer, "damaged", "an answer of the drive was refused: it is damaged");
-        if (next.heard.late > before.heard.late)
-            say(IncidentKind::answer, "late", "an answer of the drive was refused: it came too late");
-        if (next.heard.foreign > before.heard.foreign)
-            say(IncidentKind::answer, "foreign",
-                "an answer of the drive was refused: it answers nothing that was asked");
+        if (next.damaged > before.damaged) say("damaged", "it is damaged");
+        if (next.late > before.late) say("late", "it came too late");
+        if (next.foreign > before.foreign) say("foreign", "it answers nothing that was asked");
     }
 }
 
 void Incidents::happened(IncidentKind kind, std::optional<report::IncidentStation> station,
                          std::string reason, std::string text, Instant now)
 {
-    Happening happening{.key = {kind, station ? station->name : std::string{}, std::move(reason)},
-                        .text = std::move(text),
-                        .now = now,
-                        .unix_ns = io::unix_now().count(),
-                        .station = std::move(station)};
-    if (is_searched_) return note(happening);
-    if (early_.size() < kMostEarly) early_.push_back(std::move(happening));
+    Noticed noticed{.key = {kind, station ? station->name : std::string{}, std::move(reason)},
+                    .text = std::move(text),
+                    .now = now,
+                    .unix_ns = io::unix_now().count(),
+                    .station = std::move(station)};
+    if (is_searched_) return note(noticed);
+    if (early_.size() < kMostEarly) early_.push_back(std::move(noticed));
 }
 
-void Incidents::note(const Happening& happening)
+void Incidents::note(const Noticed& noticed)
 {
     using Verdict = IncidentBook::Verdict;
-    const auto verdict = book_.happened(happening.key, happening.text, happening.now, happening.unix_ns);
+    const auto verdict = book_.happened(noticed.key, noticed.text, noticed.now, noticed.unix_ns);
     const auto add_station = [&] {
-        const auto& station = happening.station;
+        const auto& station = noticed.station;
         const auto is_it = [&](const report::IncidentStation& one) { return one.name == station->name; };
         if (station && std::none_of(head_->stations.begin(), head_->stations.end(), is_it))
             head_->stations.push_back(*station);
     };
     if (verdict == Verdict::joined && head_ && head_->also.size() < IncidentBook::kMostAlso) {
-        head_->also.push_back(part_of(happening.key, happening.text));
+        head_->also.push_back(part_of(noticed.key, noticed.text));
         add_station();
     }
     if (verdict != Verdict::opened) return;
     head_ = report::IncidentHead{.number = integer(book_.opened()->number),
-                                 .what = part_of(happening.key, happening.text),
-                                 .at_ns = happening.now.time_since_epoch().count(),
-                                 .unix_ns = happening.unix_ns,
+                                 .what = part_of(noticed.key, noticed.text),
+                                 .at_ns = noticed.now.time_since_epoch().count(),
+                                 .unix_ns = noticed.unix_ns,
                                  .hold_back_ns = bus_.hold_back_ns.load(std::memory_order_relaxed),
                                  .program = kVersion};
     add_station();
@@ -210,7 +213,7 @@ void Incidents::on_time(Instant now)
     if (!off_because_.empty()) return;
     look_at_exchanges(now);
     look_at_flaws(now);
-    look_at_drives(now);
+    look_at_answers(now);
     if (book_.is_complete(now) && head_) {
         to_write_.push_back({.head = *std::exchange(head_, std::nullopt), .is_complete = true});
         // A disk that hangs: what cannot be written while its telegrams are there is given up.
@@ -223,6 +226,17 @@ void Incidents::on_time(Instant now)
     }
     counts_wait_ = book_.take_counts_changed() || counts_wait_;
     if (job_.is_idle()) start_next(now);
+    end_late_reads(now);
+}
+
+void Incidents::end_late_reads(Instant now)
+{
+    for (; !unanswered_.empty() && unanswered_.front().due <= now; unanswered_.pop_front()) {
+        const Asked& late = unanswered_.front();
+        late.to.end(
+            Error{"IncidentUnreadable", {{"number", late.number}, {"reason", "the disk does not answer"}}});
+    }
+    std::erase_if(asked_, [](const Asked& one) { return !one.to.is_open(); });
 }
 
 /// The most urgent piece of work. False: there is none.
@@ -241,7 +255,7 @@ bool Incidents::start_search()
             book_.restore(std::move(found->kept), found->next_number);
             for (const std::uint64_t number : book_.take_dropped()) to_remove_.push_back(number);
             is_searched_ = true;
-            for (const Happening& happening : std::exchange(early_, {})) note(happening);
+            for (const Noticed& noticed : std::exchange(early_, {})) note(noticed);
         };
     });
 }
@@ -253,7 +267,7 @@ bool Incidents::start_writing()
     const Stretch stretch{.from = at - IncidentBook::kBefore, .at = at, .to = at + IncidentBook::kAfter};
     // The job keeps the rings of lines: a reload may take a line away while it reads.
     std::vector<std::pair<std::string, std::shared_ptr<const LineTrace>>> lines;
-    for (const auto& line : runtime_.lines())
+    for (const auto& line : lines_)
         if (line->link.trace->ring().is_on()) lines.emplace_back(line->config.name, line->link.trace);
     const bool is_started =
         job_.start([this, folder = folder_, writing = to_write_.front(), stretch, lines]() -> SideJob::Then {
@@ -289,12 +303,10 @@ bool Incidents::start_reading()
             read_piece(folder, asked.number, asked.offset));
         return [this, piece, asked] {
             if (*piece)
-                replies_.server->complete(asked.token,
-                                          Done{json_of(report::GetIncidentReply{to_base64((*piece)->octets),
-                                                                                integer((*piece)->size)})});
+                asked.to.end(Done{
+                    json_of(report::GetIncidentReply{to_base64((*piece)->octets), integer((*piece)->size)})});
             else
-                replies_.server->complete(
-                    asked.token,
+                asked.to.end(
                     Error{"IncidentUnreadable", {{"number", asked.number}, {"reason", piece->error()}}});
         };
     });
@@ -347,7 +359,7 @@ control::Reply Incidents::list() const
     return Done{json_of(reply)};
 }
 
-control::Reply Incidents::piece(const Json& parameters)
+control::Reply Incidents::piece(const Json& parameters, const control::Caller& caller)
 {
     if (!off_because_.empty()) return Error{"IncidentsOff", {{"reason", off_because_}}};
     const auto number = parameters["number"].get<std::int64_t>();
@@ -358,10 +370,12 @@ control::Reply Incidents::piece(const Json& parameters)
         return Error{"NoSuchIncident", {{"number", number}, {"known", std::move(known)}}};
     }
     if (asked_.size() == kMostAsked) return Error{"Busy", Json::object()};
-    asked_.push_back({.token = replies_.next_token++,
+    asked_.push_back({.to = caller.reply_to,
                       .number = static_cast<std::uint64_t>(number),
-                      .offset = static_cast<std::uint64_t>(offset)});
-    return control::Later{.token = asked_.back().token};
+                      .offset = static_cast<std::uint64_t>(offset),
+                      .due = io::monotonic_now() + kLongestRead});
+    unanswered_.push_back(asked_.back());
+    return control::Later{};
 }
 
 bool Incidents::end(std::chrono::milliseconds limit)

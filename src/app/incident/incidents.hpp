@@ -4,8 +4,9 @@
 /// SideJob.
 #pragma once
 
-#include "app/main/monitor.hpp"
-#include "app/main/replies.hpp"
+#include "app/line/drive_line.hpp"
+#include "app/state/happenings.hpp"
+#include "app/state/monitor.hpp"
 #include "book.hpp"
 #include "burst.hpp"
 #include "folder.hpp"
@@ -24,16 +25,16 @@ class Incidents {
 public:
     /// `state`: the folder for what outlives the program; empty: there is none, so nothing is kept. All
     /// outlive this object.
-    Incidents(const Monitor& monitor, const BusLink& bus, const Runtime& runtime, Replies& replies,
+    Incidents(const Monitor& monitor, const BusLink& bus, const DriveLines& lines,
               const std::filesystem::path& state);
 
-    /// An event of a station, as it comes from the bus thread; `text`: its sentence.
-    void look(const Station& station, const dp::Event& event, const std::string& text, Instant now);
-    /// Looks for what no event tells, and takes the files further.
+    /// Keeps what surrounds it, if it is an incident.
+    void on_happening(const Happening& happening, Instant now);
+    /// Looks for incidents that no happening tells, and takes the files further.
     void on_time(Instant now);
 
     control::Reply list() const;
-    control::Reply piece(const control::Json& parameters);
+    control::Reply piece(const control::Json& parameters, const control::Caller& caller);
     /// A caller waits for a file: on_time() is to be called soon.
     bool is_waited_for() const { return !asked_.empty(); }
 
@@ -41,8 +42,8 @@ public:
     bool end(std::chrono::milliseconds limit);
 
 private:
-    /// What happened, with all that its head needs.
-    struct Happening {
+    /// An incident that was noticed, with all that its head needs.
+    struct Noticed {
         IncidentKey key;
         std::string text;
         Instant now{};
@@ -55,7 +56,9 @@ private:
         bool is_complete = false; ///< else the time behind the incident is not over yet
     };
     struct Asked {
-        std::uint64_t token = 0, number = 0, offset = 0;
+        control::ReplyTo to{};
+        std::uint64_t number = 0, offset = 0;
+        Instant due{}; ///< the call ends then
     };
     /// The state of a station as the events say, and the parameters of the exchange that it is or was in.
     struct Exchange {
@@ -63,49 +66,44 @@ private:
         Instant since{};
         std::string set_prm{}, chk_cfg{}; ///< hexadecimal; empty: not known for certain
     };
-    /// What was seen of a drive before.
-    struct Seen {
-        std::uint64_t losses = 0;
-        drive::AnswerCounts heard{};
-        bool line_open = false;
-    };
-
+    void on_bus_event(const Station& station, const dp::Event& event, const std::string& text, Instant now);
     void happened(IncidentKind kind, std::optional<report::IncidentStation> station, std::string reason,
                   std::string text, Instant now);
-    void note(const Happening& happening);
+    void note(const Noticed& noticed);
     void look_at_exchanges(Instant now);
     void look_at_flaws(Instant now);
-    void look_at_drives(Instant now);
+    void look_at_answers(Instant now);
     bool start_next(Instant now);
     bool start_search();
     bool start_writing();
     bool start_removing();
     bool start_reading();
     bool start_counts(Instant now);
+    void end_late_reads(Instant now);
     bool is_written(const std::optional<std::string>& failure);
     report::IncidentCounts counts() const;
 
     const Monitor& monitor_;
     const BusLink& bus_;
-    const Runtime& runtime_;
-    Replies& replies_;
+    const DriveLines& lines_;
     std::filesystem::path folder_;
     std::string off_because_; ///< a sentence; empty: incidents are kept
 
     IncidentBook book_;
     bool is_searched_ = false;                 ///< the folder
-    std::vector<Happening> early_;             ///< before it was
+    std::vector<Noticed> early_;               ///< before it was
     std::optional<report::IncidentHead> head_; ///< of the open one
     std::deque<Writing> to_write_;
     std::vector<std::uint64_t> to_remove_;
     std::deque<Asked> asked_;
+    std::deque<Asked> unanswered_; ///< in the order of `due`; some of them have their reply
     bool counts_wait_ = false;
     Instant next_counts_{};
     std::uint64_t failures_ = 0;         ///< files that could not be written
     std::optional<std::string> trouble_; ///< of the last one, until one is written
 
-    std::map<std::uint32_t, Exchange> exchanges_; ///< by the number of the station
-    std::map<std::uint32_t, Seen> seen_;          ///< likewise
+    std::map<std::uint32_t, Exchange> exchanges_;        ///< by the number of the station
+    std::map<std::uint32_t, drive::AnswerCounts> heard_; ///< likewise: of the drive
     Burst flaws_;
     std::array<std::uint64_t, fdl::kFlaws> flaws_before_{};
     SideJob job_; ///< last: it ends first

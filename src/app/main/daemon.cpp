@@ -3,12 +3,13 @@
 
 #include "app/bus/bus_thread.hpp"
 #include "app/bus/driver_guard.hpp"
+#include "app/reload/plant.hpp"
 #include "main_thread.hpp"
-#include "runtime.hpp"
 #include "self_test.hpp"
 
 #include "dpslave/app/service.hpp"
 #include "dpslave/app/version.hpp"
+#include "dpslave/fdl/transmission.hpp"
 #include "dpslave/io/clock.hpp"
 #include "dpslave/io/driver_enable.hpp"
 #include "dpslave/io/port.hpp"
@@ -71,8 +72,9 @@ std::string begin_in_words(const config::Config& config)
 {
     const std::string at = fmt::format("on {} at {}", config.bus.port, rate_in_words(config.bus));
     if (config.bus.listen)
-        return fmt::format("dpslaved {}: only listens {}: it has no station and sends nothing", kVersion, at);
-    return fmt::format("dpslaved {}: {} station(s) {}", kVersion, config.stations.size(), at);
+        return fmt::format("dpslaved {} started: it only listens {}, it has no station and sends nothing",
+                           kVersion, at);
+    return fmt::format("dpslaved {} started: {} station(s) {}", kVersion, config.stations.size(), at);
 }
 
 /// Runs the self-test and logs what has failed.
@@ -118,7 +120,7 @@ bool end(std::jthread& thread, io::EventFd& wake, const BusLink& link)
 ExitStatus run_daemon(const config::Config& config, const std::filesystem::path& profiles)
 {
     io::Signals signals; // first: every later thread inherits the blocked signals
-    for (const toml::Fault& warning : config.warnings) spdlog::warn("{}", to_string(warning));
+    for (const input::Fault& warning : config.warnings) spdlog::warn("{}", to_string(warning));
 
     // Everything that can fail comes first, in this thread, before anything is sent on the bus.
     auto driver = io::DriverEnable::open(config.bus.driver_enable);
@@ -128,29 +130,24 @@ ExitStatus run_daemon(const config::Config& config, const std::filesystem::path&
     }
     auto port = open_bus(config, *driver);
     if (!port) return ExitStatus::device_not_opened;
-    if (const auto trouble = keep({config.bus.driver_enable, config.bus.port}, runtime_folder()))
-        spdlog::warn("{}", *trouble);
+    if (const auto trouble = keep(drivers_of(config), runtime_folder())) spdlog::warn("{}", *trouble);
+    io::make_stacks_small(); // before the guards of the drive lines, the first threads
+    if (config.realtime.lock_memory) io::keep_memory();
     BusLink link{std::size_t{config.trace.bus_kib} * 1024};
-    Runtime runtime{link.failed, passes_self_test()};
-    const auto give_up = [&driver] {
-        driver->detach(); // the port goes before it
-        return ExitStatus::device_not_opened;
-    };
-    if (const auto trouble = runtime.open(config)) {
-        spdlog::error("{}", *trouble);
-        return give_up();
-    }
-    DriverGuard guard{*driver, link.baud};
-    MainThread main_thread(config, profiles, state_folder(), runtime, link, guard, signals);
+    Plant plant{link.failed, passes_self_test()};
+    plant.open(config);
+    DriverGuard guard{*driver,
+                      [&link] { return fdl::transmission_guard(link.baud.load(std::memory_order_relaxed)); }};
+    MainThread main_thread(config, profiles, state_folder(), plant, link, guard, signals);
+    main_thread.tell_lines(); // of ports that are missing
     if (const auto trouble = main_thread.open_socket()) {
         spdlog::error("{}: [control] socket: {}; set it to a place where this user may write",
                       config.file.string(), *trouble);
-        return give_up();
+        driver->detach(); // the port goes before it
+        return ExitStatus::device_not_opened;
     }
 
-    BusThread bus(config.bus, std::move(*port), *driver, runtime.bus_stations(), link);
-    io::make_stacks_small();
-    if (config.realtime.lock_memory) io::keep_memory();
+    BusThread bus(config.bus, std::move(*port), *driver, plant.bus_stations(), link);
     link.memory_is_ready.store(false, std::memory_order_relaxed);
     guard.start(config.realtime.priority);
     io::EventFd bus_wake;
@@ -165,20 +162,21 @@ ExitStatus run_daemon(const config::Config& config, const std::filesystem::path&
     await_first_round(link); // the bus is served: what takes milliseconds comes now
     if (config.realtime.lock_memory) say_warnings(io::lock_memory());
     link.memory_is_ready.store(true, std::memory_order_relaxed);
-    runtime.start();
-    spdlog::info("{}", begin_in_words(config));
-    const bool by_signal = main_thread.run();
+    plant.start();
+    const bool by_signal = main_thread.run(begin_in_words(config));
 
     // The bus first: the end that it publishes makes the drive lines write the safe state.
     if (!end(bus_thread, bus_wake, link)) {
         spdlog::critical("the bus thread hangs in a system call for {}; the program ends without it",
                          config.bus.port);
-        runtime.end(); // meanwhile the guard has the driver enable
+        plant.end(); // meanwhile the guard has the driver enable
+        main_thread.tell_rest();
         main_thread.release();
         std::_Exit(static_cast<int>(ExitStatus::device_not_opened)); // what it uses cannot be freed
     }
     static_cast<void>(driver->set(false, io::monotonic_now())); // also after a bus thread that has failed
-    runtime.end();
+    plant.end();
+    main_thread.tell_rest();
     const auto status = by_signal ? ExitStatus::ended_by_signal : ExitStatus::device_not_opened;
     if (!main_thread.end_incidents()) {
         spdlog::warn("the folder of the incidents hangs; the program ends without the last one");

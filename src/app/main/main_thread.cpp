@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "main_thread.hpp"
 
-#include "device_state.hpp"
+#include "app/state/device_news.hpp"
+#include "first_start.hpp"
 
 #include "dpslave/app/version.hpp"
 #include "dpslave/io/clock.hpp"
@@ -27,28 +28,29 @@ constexpr std::chrono::milliseconds kTickWhilePending{5};   // while a call wait
 } // namespace
 
 MainThread::MainThread(config::Config config, const std::filesystem::path& profiles,
-                       const std::filesystem::path& state, Runtime& runtime, BusLink& bus,
+                       const std::filesystem::path& state, Plant& plant, BusLink& bus,
                        const DriverGuard& guard, io::Signals& signals)
-    : runtime_(runtime),
+    : plant_(plant),
       bus_(bus),
       guard_(guard),
       signals_(signals),
-      monitor_(std::move(config), runtime, bus),
+      monitor_(std::move(config), plant.stations(), bus),
       file_(monitor_.config(), profiles, io::monotonic_now()),
-      traces_(bus, runtime, replies_),
-      incidents_(monitor_, bus, runtime, replies_, state),
-      methods_({monitor_, lamps_, file_, accesses_, probes_, watchers_, traces_, incidents_, reload_, events_,
-                event_streams_, log_level_},
+      traces_(bus, plant.lines()),
+      incidents_(monitor_, bus, plant.lines(), state),
+      methods_({monitor_, lamps_, file_, accesses_, probes_, watchers_, traces_, incidents_, reload_,
+                happenings_, event_streams_, log_level_},
                io::monotonic_now())
 {
-    events_.add(Happened::daemon, {}, fmt::format("dpslaved {} started", kVersion), io::monotonic_now());
     for (const std::string& warning : lamps_.exchange(monitor_.config())) spdlog::warn("{}", warning);
+    if (const auto words = first_start_words(monitor_.config(), state))
+        tell(Happened::daemon, Severity::warning, *words);
 }
 
 void MainThread::release()
 {
     lamps_ = Lamps{};
-    replies_.server.reset();
+    server_.reset();
 }
 
 std::optional<std::string> MainThread::open_socket()
@@ -63,9 +65,10 @@ std::optional<std::string> MainThread::open_socket()
     settings.socket = config.control.socket;
     settings.version = kVersion;
     settings.url = kUrl;
-    auto server = control::Server::open(std::move(settings), methods_.handlers());
+    settings.read_only = config.control.read_only;
+    auto server = control::Server::open(std::move(settings), methods_.methods());
     if (!server) return server.error();
-    replies_.server.emplace(std::move(*server));
+    server_.emplace(std::move(*server));
     return std::nullopt;
 }
 
@@ -75,13 +78,24 @@ void MainThread::admit_operators()
     const config::Config& config = monitor_.config();
     const auto group = config::operator_group_of(config.control);
     if (!group) spdlog::warn("{}", to_string(config::without_operator_group(config)));
-    replies_.server->set_operators(group, config.control.operator_group);
+    server_->set_operators(group, config.control.operator_group);
 }
 
-bool MainThread::run()
+/// A reload has put another configuration in force.
+void MainThread::on_applied(const std::vector<Station>& left)
 {
+    const config::ControlConfig& control = monitor_.config().control;
+    server_->set_operators(config::operator_group_of(control), control.operator_group);
+    server_->set_read_only(control.read_only);
+    accesses_.refuse(left);
+    probes_.refuse(left);
+}
+
+bool MainThread::run(const std::string& begin)
+{
+    tell(Happened::daemon, Severity::info, begin);
     admit_operators();
-    control::Server& server = *replies_.server;
+    control::Server& server = *server_;
     epoll_.add(server.fd(), EPOLLIN, kServerKey);
     epoll_.add(signals_.fd(), EPOLLIN, kSignalKey);
     monitor_.refresh();
@@ -119,7 +133,7 @@ std::chrono::milliseconds MainThread::tick_length() const
 {
     if (!accesses_.empty() || !reload_.is_idle() || incidents_.is_waited_for()) return kTickWhilePending;
     if (!traces_.empty()) return kTickWithDiagnosis;
-    const auto& stations = runtime_.stations();
+    const auto& stations = plant_.stations();
     const bool has_diagnosis = std::any_of(stations.begin(), stations.end(), [](const Station& station) {
         return station.config->profile->diagnosis != profile::DiagForm::none;
     });
@@ -130,14 +144,14 @@ void MainThread::tick(Instant now)
 {
     reload_.advance();
     monitor_.refresh();
-    monitor_.set_calls(replies_.server->counters());
+    monitor_.set_calls(server_->counters());
     monitor_.sample(now);
-    log_news();
-    const auto& stations = runtime_.stations();
+    tell_news();
+    const auto& stations = plant_.stations();
     for (std::size_t i = 0; i < stations.size(); ++i) lamps_.set(i, stations[i].device->condition());
     lamps_.show(now);
-    accesses_.answer();
-    probes_.answer();
+    accesses_.answer(now);
+    probes_.answer(now);
     watchers_.push(now);
     event_streams_.push(now);
     traces_.push();
@@ -165,86 +179,136 @@ bool MainThread::is_end_signalled()
     return false;
 }
 
-void MainThread::log_news()
+/// Of neither a station nor a line.
+void MainThread::tell(Happened kind, Severity severity, std::string text)
 {
-    for (const Station& station : runtime_.leaving()) log_events(station);
-    for (const Station& station : runtime_.stations()) log_events(station);
-    log_port_events();
-    for (const Station& station : runtime_.stations())
-        for (const Sentence& news : station.device->take_news()) {
-            log_.say(news.is_warning ? LimitedLog::Level::warning : LimitedLog::Level::info, news.text,
-                     io::monotonic_now());
-            events_.add(Happened::device, station.config->name, news.text, io::monotonic_now());
-        }
-    drive_news_.look(runtime_.stations(), events_, io::monotonic_now());
-    log_.on_time(io::monotonic_now());
+    happenings_.tell({.kind = kind, .severity = severity, .text = std::move(text)}, io::monotonic_now());
 }
 
-void MainThread::log_events(const Station& station)
+/// A drive that is lost takes its station off the bus; a master that is lost begins a RIDE THROUGH. So the
+/// one is told before the events of the bus, and the other behind them.
+void MainThread::tell_news()
+{
+    tell_lines();
+    for (const Station& station : plant_.leaving()) tell_bus_events(station);
+    for (const Station& station : plant_.stations()) tell_bus_events(station);
+    for (const auto& [line, happening] : std::exchange(of_masters_, {})) tell_line(*line, happening);
+    tell_port_events();
+    for (const Station& station : plant_.stations())
+        for (const Sentence& news : station.news->take())
+            happenings_.tell({.kind = Happened::device,
+                              .severity = news.is_warning ? Severity::warning : Severity::info,
+                              .text = news.text,
+                              .stations = {station.config->name}},
+                             io::monotonic_now());
+    happenings_.on_time(io::monotonic_now());
+}
+
+void MainThread::tell_lines()
+{
+    for (const auto* const lines : {&plant_.lines(), &plant_.leaving_lines()})
+        for (const auto& line : *lines)
+            while (const auto happening = line->link.happenings.take())
+                if (happening->kind == LineHappening::Kind::ride_through)
+                    of_masters_.emplace_back(line, *happening);
+                else
+                    tell_line(*line, *happening);
+}
+
+void MainThread::tell_rest()
+{
+    tell_news();
+    happenings_.end(io::monotonic_now());
+}
+
+/// The port of a line is that of each of its drives.
+void MainThread::tell_line(const DriveLine& line, const LineHappening& happening)
+{
+    using Kind = LineHappening::Kind;
+    Happening told{.kind = Happened::drive,
+                   .severity = happening.severity,
+                   .text = happening.text.data(),
+                   .key = happening.key.data(),
+                   .is_of_line = happening.station == 0};
+    const bool has_port = line.link.port_open.load(std::memory_order_relaxed);
+    if (happening.kind == Kind::silent && has_port) told.drive_loss = "silent";
+    if (happening.kind == Kind::port_missing) told.drive_loss = "port";
+    for (const auto* const stations : {&std::as_const(plant_).stations(), &plant_.leaving()})
+        for (const Station& station : *stations) {
+            const bool is_it = happening.station == 0 ? station.drive_line.get() == &line
+                                                      : station.number == happening.station;
+            const std::string& name = station.config->name;
+            const bool is_new =
+                std::find(told.stations.begin(), told.stations.end(), name) == told.stations.end();
+            if (!is_it || !is_new) continue; // while one is exchanged both have the name
+            told.stations.push_back(name);
+            told.recorded.push_back(&station);
+        }
+    happenings_.tell(told, io::monotonic_now());
+}
+
+void MainThread::tell_bus_events(const Station& station)
 {
     while (const auto event = station.link->events.pop()) {
         using Kind = dp::Event::Kind;
         const bool is_warning = event->kind == Kind::refused || event->kind == Kind::foreign_set_prm ||
                                 event->kind == Kind::watchdog_of_master || event->kind == Kind::overflow;
-        // Without what was got and expected: a master that counts it up is still refused for one cause.
-        const std::string key =
-            fmt::format("{}/{}/{}/{}/{}/{}", station.number, static_cast<int>(event->kind),
-                        static_cast<int>(event->state), static_cast<int>(event->reason), event->master,
-                        static_cast<int>(event->refusal.why));
-        const std::string text = report::sentence(station.config->name, *event);
-        log_.say(is_warning ? LimitedLog::Level::warning : LimitedLog::Level::info, key, text,
-                 io::monotonic_now());
         const bool is_refusal = event->kind == Kind::refused || event->kind == Kind::foreign_set_prm;
-        events_.add(is_refusal ? Happened::refused : Happened::state, station.config->name, text, key,
-                    io::monotonic_now());
-        incidents_.look(station, *event, text, io::monotonic_now());
+        happenings_.tell(
+            {.kind = is_refusal ? Happened::refused : Happened::state,
+             .severity = is_warning ? Severity::warning : Severity::info,
+             .text = report::sentence(station.config->name, *event),
+             // Without what was got and expected: a master that counts it up is still refused for one cause.
+             .key = fmt::format("{}/{}/{}/{}/{}/{}", station.number, static_cast<int>(event->kind),
+                                static_cast<int>(event->state), static_cast<int>(event->reason),
+                                event->master, static_cast<int>(event->refusal.why)),
+             .stations = {station.config->name},
+             .recorded = {&station},
+             .bus_event = &*event},
+            io::monotonic_now());
     }
 }
 
-void MainThread::log_port_events()
+void MainThread::tell_port_events()
 {
-    using Level = LimitedLog::Level;
     const std::string& port = monitor_.config().bus.port;
-    const auto say = [&](Level level, std::string text) {
-        events_.add(Happened::port, {}, text, io::monotonic_now());
-        log_.say(level, std::move(text), io::monotonic_now());
+    const auto say = [this](Severity severity, std::string text) {
+        tell(Happened::port, severity, std::move(text));
     };
     while (const auto news = bus_.port_events.pop()) {
         switch (*news) {
             case PortEvent::lost:
-                say(Level::error, port + " is missing; it is opened again as soon as it returns");
+                say(Severity::error, port + " is missing; it is opened again as soon as it returns");
                 break;
-            case PortEvent::back: say(Level::info, port + " is back"); break;
+            case PortEvent::back: say(Severity::info, port + " is back"); break;
             case PortEvent::driver_lost:
-                say(Level::error, "the driver enable of " + port +
-                                      " cannot be switched: nothing is sent until it works again; check "
-                                      "that the GPIO chip is still there");
+                say(Severity::error,
+                    "the driver enable of " + port +
+                        " cannot be switched: nothing is sent until it works again; check that the GPIO chip is still there");
                 break;
             case PortEvent::driver_guarded:
-                say(Level::warning, "the driver enable of " + port +
-                                        " was made inactive by the guard time: the UART did not report in "
-                                        "time that it has sent all; `dpctl counters` shows how often "
-                                        "(driver_guarded)");
+                say(Severity::warning,
+                    "the driver enable of " + port +
+                        " was made inactive by the guard time: the UART did not report in time that it has sent all; `dpctl counters` shows how often (driver_guarded)");
                 break;
             case PortEvent::driver_back:
-                say(Level::info, "the driver enable of " + port + " works again");
+                say(Severity::info, "the driver enable of " + port + " works again");
                 break;
         }
     }
     if (std::unique_ptr<PortMessage> words; bus_.port_messages.take(words))
-        say(words->is_warning ? Level::warning : Level::error, words->text);
+        say(words->is_warning ? Severity::warning : Severity::error, words->text);
     if (const std::uint64_t dropped = guard_.dropped(); std::exchange(dropped_seen_, dropped) != dropped)
-        say(Level::error, "the driver enable of " + port +
-                              " was active for longer than any telegram takes, and was made inactive: the "
-                              "bus thread was late; run `dpctl tune`");
+        say(Severity::error,
+            "the driver enable of " + port +
+                " was active for longer than any telegram takes, and was made inactive: the bus thread was late; run `dpctl tune`");
 }
 
 void MainThread::let_log_level_end(Instant now)
 {
     if (!log_level_.falls_back(now)) return;
     spdlog::default_logger()->set_level(spdlog::level::info);
-    spdlog::info("level of the log: info again");
-    events_.add(Happened::setting, {}, "level of the log: info again", now);
+    tell(Happened::setting, Severity::info, "level of the log: info again");
 }
 
 void MainThread::feed_watchdog(Instant now)

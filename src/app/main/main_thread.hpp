@@ -4,10 +4,10 @@
 #pragma once
 
 #include "app/bus/driver_guard.hpp"
-#include "app/limited_log.hpp"
-#include "app/watch/drive_news.hpp"
-#include "control_methods.hpp"
+#include "app/calls/control_methods.hpp"
+#include "app/state/happenings.hpp"
 
+#include "dpslave/control/server.hpp"
 #include "dpslave/io/epoll.hpp"
 #include "dpslave/io/signals.hpp"
 
@@ -15,10 +15,10 @@ namespace dpslave::app {
 
 class MainThread {
 public:
-    /// `config`: what `runtime` was opened with; `profiles`: where its profiles were read from; `state`: the
+    /// `config`: what `plant` was opened with; `profiles`: where its profiles were read from; `state`: the
     /// folder for incidents, empty: none. What `guard` had to do is logged.
     MainThread(config::Config config, const std::filesystem::path& profiles,
-               const std::filesystem::path& state, Runtime& runtime, BusLink& bus, const DriverGuard& guard,
+               const std::filesystem::path& state, Plant& plant, BusLink& bus, const DriverGuard& guard,
                io::Signals& signals);
 
     /// For an end without the destructor: switches the lamps off and removes the socket.
@@ -29,42 +29,53 @@ public:
     /// Opens the control socket. The reason of a failure is a sentence.
     std::optional<std::string> open_socket();
 
-    /// Serves until SIGTERM or SIGINT (true), or until another thread had to end early (false).
-    bool run();
+    /// Serves until SIGTERM or SIGINT (true), or until another thread had to end early (false). `begin`: the
+    /// sentence that it has begun.
+    bool run(const std::string& begin);
+    /// What the drive lines have told until now.
+    void tell_lines();
+    /// What was told since run() returned, and what the log holds back. The threads have ended.
+    void tell_rest();
 
 private:
     void admit_operators();
+    void on_applied(const std::vector<Station>& left);
     std::chrono::milliseconds tick_length() const;
     void tick(Instant now);
-    void log_news();
-    void log_events(const Station& station);
-    void log_port_events();
+    void tell_news();
+    void tell_bus_events(const Station& station);
+    void tell_line(const DriveLine& line, const LineHappening& happening);
+    void tell(Happened kind, Severity severity, std::string text);
+    void tell_port_events();
     void let_log_level_end(Instant now);
     void feed_watchdog(Instant now);
     bool is_end_signalled();
 
-    Runtime& runtime_;
+    Plant& plant_;
     BusLink& bus_;
     const DriverGuard& guard_;
     io::Signals& signals_;
     io::Epoll epoll_;
     io::Notifier notifier_;
     Lamps lamps_;
-    LimitedLog log_;
 
     Monitor monitor_;
     ConfigFile file_;
-    Replies replies_; ///< its server uses methods_, and serves in run() only
-    EventHistory events_;
-    EventStreams event_streams_{monitor_, events_, replies_};
-    DriveNews drive_news_;
+    std::optional<control::Server> server_; ///< it uses methods_, and serves in run() only
+    RecentEvents events_;
+    EventStreams event_streams_{monitor_, events_};
     LogLevel log_level_;
-    PendingAccesses accesses_{monitor_, runtime_, replies_, events_};
-    PendingProbes probes_{monitor_, runtime_, replies_};
-    Watchers watchers_{monitor_, replies_};
+    Happenings happenings_{events_,
+                           [this](const Happening& one, Instant now) { incidents_.on_happening(one, now); }};
+    std::vector<std::pair<std::shared_ptr<DriveLine>, LineHappening>>
+        of_masters_; ///< told behind the bus events
+    PendingAccesses accesses_{monitor_, plant_.lines(), happenings_};
+    PendingProbes probes_{monitor_, plant_.lines()};
+    Watchers watchers_{monitor_};
     Traces traces_;
     Incidents incidents_;
-    Reload reload_{{file_, monitor_, runtime_, bus_, lamps_, accesses_, replies_, notifier_, events_}};
+    Reload reload_{{file_, monitor_, plant_, bus_, lamps_, notifier_, happenings_,
+                    [this](const std::vector<Station>& left) { on_applied(left); }}};
     ControlMethods methods_;
 
     std::string status_sent_;        ///< to systemd

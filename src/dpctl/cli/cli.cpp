@@ -1,80 +1,97 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli.hpp"
 
-#include "arguments.hpp"
-#include "commands.hpp"
-#include "dpctl/gsd/gsd.hpp"
-#include "suggest.hpp"
+#include "dpctl/commands/commands.hpp"
+
+#include "dpslave/arguments/command_line.hpp"
+#include "dpslave/arguments/exit_status.hpp"
+#include "dpslave/arguments/options.hpp"
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
-#include <cctype>
+#include <chrono>
+#include <utility>
 
 namespace dpslave::dpctl {
 namespace {
 
-/// Behind every subcommand, too; in the help of the program only.
-void add_version(CLI::App& app)
+constexpr const char* kFooter =
+    "Without a command: dpctl status. STATION is a name or an address. TAG is a number (55, 0x37, 55-57) or a name. TIME is a number with a unit (500ms, 10s, 5m, 1h, 3d); a number alone is seconds. Values are in the drive's displayed units: dpctl write 56 -12.5\n"
+    "--json prints the unchanged parameters of the daemon's reply (an error with its name and parameters). The Varlink interface org.dpslaved.Control describes them: " DPSLAVE_DATA_FOLDER
+    "/org.dpslaved.Control.varlink. Some commands have their own form: see JSON in dpctl(1).\n";
+
+void add_json(CLI::App& app, CommonOptions& options)
 {
-    for (CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; })) {
-        command->set_version_flag("--version", "dpctl " DPSLAVE_VERSION)->group("");
-        add_version(*command);
-    }
+    app.add_flag("-j,--json", options.json, "Print JSON");
+    arguments::add_text(app, "--field", options.field, "NAME",
+                        "Print only this field of the JSON: bus.baud, stations.state");
 }
 
-void add_commands(CLI::App& app, Options& options, Action& chosen)
+void add_common(CLI::App& app, CommonOptions& options)
 {
-    for (const Command& command : commands()) {
-        CLI::App& own = *app.add_subcommand(command.name, command.help);
-        own.group(command.group);
-        own.footer(footer_of(command));
-        command.group == kOffline ? add_json(own, options) : add_common(own, options);
-        command.arguments(own, options);
-        own.callback([&chosen, &command, &options, &own] {
-            chosen = command.run;
-            const auto deeper = own.get_subcommands();
-            const CLI::App& level = deeper.empty() ? own : *deeper.front();
-            options.station_is_option = level.get_option_no_throw("--station") != nullptr;
-        });
-    }
-    add_gsd(app, chosen);
-    app.get_subcommand("gsd")->group(kOffline);
+    using namespace std::chrono_literals;
+    add_json(app, options);
+    arguments::add_text(app, "--socket", options.socket, "PATH", "The daemon's control socket");
+    arguments::add_time(app, "--timeout", options.timeout, "How long to wait for an answer", {10ms, 1h});
 }
 
-/// CLI11 takes -12.5 as a number, but -.5 as an option.
-std::string with_leading_zero(std::string argument)
+void add_command(CLI::App& app, const Command& command, Chosen& chosen)
 {
-    const bool bare = argument.size() > 2 && argument[0] == '-' && argument[1] == '.' &&
-                      std::isdigit(static_cast<unsigned char>(argument[2])) != 0;
-    return bare ? argument.insert(1, "0") : argument;
+    const std::string names = command.name;
+    const std::size_t blank = names.find(' ');
+    const bool is_below = blank != std::string::npos;
+    CLI::App& above = is_below ? *app.get_subcommand(names.substr(0, blank)) : app;
+    CLI::App& own = *above.add_subcommand(is_below ? names.substr(blank + 1) : names, command.help);
+    if (!is_below) own.group(command.group);
+    own.footer(footer_of(command));
+    command.asks == Asks::daemon ? add_common(own, chosen.common) : add_json(own, chosen.common);
+    if (command.add == nullptr) {
+        own.require_subcommand(1);
+        return;
+    }
+    own.callback([&chosen, run = command.add(own)] { chosen.run = run; });
 }
 
 } // namespace
 
-int run(const std::vector<std::string>& arguments, Terminal& terminal)
+std::string footer_of(const Command& command)
 {
-    Options options;
-    CLI::App app{"Shows and operates a running dpslaved, the PROFIBUS-DP slave.", "dpctl"};
-    app.footer(kFooter);
-    app.require_subcommand(1);
-    app.set_version_flag("--version", "dpctl " DPSLAVE_VERSION);
-    add_common(app, options);
-    Action chosen;
-    add_commands(app, options, chosen);
-    add_version(app);
-    try {
-        std::vector<std::string> reversed(arguments.rbegin(), arguments.rend()); // the order CLI11 wants
-        std::transform(reversed.begin(), reversed.end(), reversed.begin(), with_leading_zero);
-        app.parse(std::move(reversed));
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() != 0 && suggest(app, arguments, terminal)) {
-            terminal.err << "Run with --help for more information.\n";
-            return kUsage;
-        }
-        return app.exit(error, terminal.out, terminal.err) == 0 ? kFine : kUsage;
+    std::string footer;
+    if (*command.examples != '\0') {
+        footer = std::string{"Examples:\n"} + command.examples;
+        for (std::size_t at = 0; (at = footer.find('\n', at)) != std::string::npos; at += 3)
+            footer.insert(at + 1, "  ");
+        footer += '\n';
     }
-    return chosen(options, terminal);
+    const std::string json = command.json;
+    if (json == kOwnForm)
+        footer += "--json prints a form of its own: see JSON in dpctl(1).\n";
+    else if (!json.empty())
+        footer += "--json prints the reply of " + json + " (org.dpslaved.Control.varlink).\n";
+    const std::string exits = command.exits;
+    return footer + "Exit status: " + (exits.empty() ? "" : exits + "; all others: ") + "as in dpctl --help.";
+}
+
+void add_command_line(CLI::App& app, Chosen& chosen)
+{
+    app.footer(std::string{kFooter} + arguments::kExitTable);
+    add_common(app, chosen.common);
+    for (const Command* const command : commands()) add_command(app, *command, chosen);
+    CLI::App without_words; // dpctl alone
+    chosen.run = kStatus.add(without_words);
+}
+
+int run(std::vector<std::string> words, Terminal& terminal)
+{
+    CLI::App app{"Shows and operates a running dpslaved, the PROFIBUS-DP slave.", "dpctl"};
+    Chosen chosen;
+    add_command_line(app, chosen);
+    if (const auto ended = arguments::read_command_line(app, "dpctl " DPSLAVE_VERSION, std::move(words),
+                                                        terminal.out, terminal.err))
+        return *ended;
+    Session session{chosen.common, terminal};
+    const int code = chosen.run(session);
+    return session.misses_field() ? static_cast<int>(kUsage) : code;
 }
 
 } // namespace dpslave::dpctl

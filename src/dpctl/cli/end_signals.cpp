@@ -13,6 +13,7 @@ EndSignals::EndSignals()
     sigemptyset(&signals);
     sigaddset(&signals, SIGINT);
     sigaddset(&signals, SIGTERM);
+    sigaddset(&signals, SIGHUP);
     ::sigprocmask(SIG_BLOCK, &signals, &before_);
     fd_ = ::signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK);
 }
@@ -26,9 +27,9 @@ EndSignals::~EndSignals()
     ::sigprocmask(SIG_SETMASK, &before_, nullptr);
 }
 
-bool EndSignals::within(int milliseconds) const
+bool becomes_readable(int fd, int milliseconds)
 {
-    pollfd one{.fd = fd_, .events = POLLIN, .revents = 0};
+    pollfd one{.fd = fd, .events = POLLIN, .revents = 0};
     return ::poll(&one, 1, milliseconds) > 0;
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// SIGINT or SIGTERM: the end of a command that runs on.
+/// SIGINT, SIGTERM or SIGHUP (the terminal was closed): the end of a command that runs on.
 #pragma once
 
 #include <csignal>
 
 namespace dpslave::dpctl {
 
-/// SIGINT and SIGTERM as a descriptor: the end is something to read, and no moment is lost before the wait.
+/// All three as a descriptor: the end is something to read, and no moment is lost before the wait.
 class EndSignals {
 public:
     EndSignals();
@@ -15,12 +15,13 @@ public:
     ~EndSignals();
 
     int fd() const { return fd_; } ///< readable as soon as one has come
-    /// Waits at most this long. True: one has come.
-    bool within(int milliseconds) const;
 
 private:
     sigset_t before_{};
     int fd_ = -1;
 };
+
+/// Waits at most this long until `fd` is readable; -1 never is.
+bool becomes_readable(int fd, int milliseconds);
 
 } // namespace dpslave::dpctl

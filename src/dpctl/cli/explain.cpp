@@ -4,6 +4,7 @@
 #include "fields.hpp"
 
 #include "dpslave/report/replies.hpp"
+#include "dpslave/report/words.hpp"
 
 #include <fmt/format.h>
 
@@ -56,15 +57,13 @@ std::string station_required(const report::StationRequired& p)
 }
 std::string only_listens(const Json&)
 {
-    return "the daemon only listens, so it has no station: 'listen' is set in [bus] of its configuration. "
-           "See who is on the bus: dpctl bus";
+    return "the daemon only listens, so it has no station: 'listen' is set in [bus] of its configuration. See who is on the bus: dpctl bus";
 }
 std::string not_permitted(const report::NotPermitted& p)
 {
     if (p.group.empty()) return "only root may do this; try: sudo dpctl ...";
     return fmt::format(
-        "only root and members of the group '{0}' may do this; try: sudo dpctl ..., or let root add you: "
-        "adduser YOUR_NAME {0}",
+        "only root and members of the group '{0}' may do this; try: sudo dpctl ..., or let root add you: adduser YOUR_NAME {0}",
         p.group);
 }
 std::string drive_refused(const report::DriveRefused& p)
@@ -88,15 +87,18 @@ std::string bad_tec_value(const report::BadTecValue& p)
 std::string would_silence(const report::WouldSilence& p)
 {
     return fmt::format(
-        "{} = {} would take station '{}' off the bus while a master exchanges data with it ({}); "
-        "to do it anyway, add --yes",
+        "{} = {} would take station '{}' off the bus while a master exchanges data with it ({}); to do it anyway, add --yes",
         p.parameter, p.value, p.station, p.reason);
 }
 std::string line_in_use(const report::LineInUse& p)
 {
-    return fmt::format("line {} serves {}, with which a master exchanges data: its drives would get no "
-                       "requests for up to a minute; to do it anyway, add --yes",
-                       p.line, joined(p.stations, ", "));
+    return fmt::format(
+        "line {} serves {}, with which a master exchanges data: its drives would get no requests for up to a minute; to do it anyway, add --yes",
+        p.line, joined(p.stations, ", "));
+}
+std::string probe_ended(const report::ProbeEnded& p)
+{
+    return fmt::format("the search for the drive of station '{}' was ended: {}", p.station, p.reason);
 }
 std::string bad_log_level(const report::BadLogLevel& p)
 {
@@ -104,14 +106,11 @@ std::string bad_log_level(const report::BadLogLevel& p)
 }
 std::string read_only(const Json&)
 {
-    return "the daemon only shows: 'read_only' is set in [control] of its configuration; to write, remove it "
-           "and "
-           "reload";
+    return "the daemon only shows: 'read_only' is set in [control] of its configuration; to write, remove it and reload";
 }
 std::string trace_off(const Json&)
 {
-    return "the daemon records nothing of it: set bus_kib, of a drive line drive_kib, in [trace] of its "
-           "configuration, and restart it";
+    return "the daemon records nothing of it: set bus_kib, of a drive line drive_kib, in [trace] of its configuration, and restart it";
 }
 std::string samples_off(const Json&)
 {
@@ -152,14 +151,22 @@ std::string interface_not_found(const InterfaceNotFound& p)
                        p.interface);
 }
 
+/// The drive did not refuse: it has not answered in time.
+bool is_silence(std::string_view reason)
+{
+    return reason == report::text(AccessError::no_answer) || reason == report::text(AccessError::deferred) ||
+           reason == report::text(AccessError::not_known) || reason.starts_with(report::kLineDidNotServe);
+}
+
 struct Row {
     std::string_view error;
     std::string (*sentence)(const Json& parameters);
+    Exit exit = kRefused;
 };
 constexpr std::array kSentences = std::to_array<Row>({
-    {"org.dpslaved.Control.NoSuchStation", said<report::NoSuchStation, no_such_station>},
-    {"org.dpslaved.Control.NoSuchLine", said<report::NoSuchLine, no_such_line>},
-    {"org.dpslaved.Control.StationRequired", said<report::StationRequired, station_required>},
+    {"org.dpslaved.Control.NoSuchStation", said<report::NoSuchStation, no_such_station>, kUsage},
+    {"org.dpslaved.Control.NoSuchLine", said<report::NoSuchLine, no_such_line>, kUsage},
+    {"org.dpslaved.Control.StationRequired", said<report::StationRequired, station_required>, kUsage},
     {"org.dpslaved.Control.OnlyListens", only_listens},
     {"org.dpslaved.Control.NotPermitted", said<report::NotPermitted, not_permitted>},
     {"org.dpslaved.Control.DriveRefused", said<report::DriveRefused, drive_refused>},
@@ -168,20 +175,31 @@ constexpr std::array kSentences = std::to_array<Row>({
     {"org.dpslaved.Control.BadTecValue", said<report::BadTecValue, bad_tec_value>},
     {"org.dpslaved.Control.WouldSilence", said<report::WouldSilence, would_silence>},
     {"org.dpslaved.Control.LineInUse", said<report::LineInUse, line_in_use>},
+    {"org.dpslaved.Control.ProbeEnded", said<report::ProbeEnded, probe_ended>, kNo},
     {"org.dpslaved.Control.BadLogLevel", said<report::BadLogLevel, bad_log_level>},
     {"org.dpslaved.Control.ReadOnly", read_only},
     {"org.dpslaved.Control.TraceOff", trace_off},
     {"org.dpslaved.Control.SamplesOff", samples_off},
     {"org.dpslaved.Control.IncidentsOff", said<report::IncidentsOff, incidents_off>},
-    {"org.dpslaved.Control.NoSuchIncident", said<report::NoSuchIncident, no_such_incident>},
-    {"org.dpslaved.Control.IncidentUnreadable", said<report::IncidentUnreadable, incident_unreadable>},
+    {"org.dpslaved.Control.NoSuchIncident", said<report::NoSuchIncident, no_such_incident>, kUsage},
+    {"org.dpslaved.Control.IncidentUnreadable", said<report::IncidentUnreadable, incident_unreadable>, kNo},
     {"org.dpslaved.Control.Busy", busy},
-    {"org.varlink.service.InvalidParameter", said<InvalidParameter, invalid_parameter>},
-    {"org.varlink.service.MethodNotFound", said<MethodNotFound, method_not_found>},
-    {"org.varlink.service.InterfaceNotFound", said<InterfaceNotFound, interface_not_found>},
+    {"org.varlink.service.InvalidParameter", said<InvalidParameter, invalid_parameter>, kNo},
+    {"org.varlink.service.MethodNotFound", said<MethodNotFound, method_not_found>, kNo},
+    {"org.varlink.service.InterfaceNotFound", said<InterfaceNotFound, interface_not_found>, kNo},
 });
 
 } // namespace
+
+Exit exit_of(const control::ReplyMessage& error)
+{
+    if (error.error == "org.dpslaved.Control.DriveRefused" &&
+        is_silence(report::read<report::DriveRefused>(error.parameters).reason))
+        return kNoAnswer;
+    for (const Row& row : kSentences)
+        if (row.error == error.error) return row.exit;
+    return kNo;
+}
 
 std::string explain(const control::ReplyMessage& error)
 {

@@ -14,11 +14,13 @@
 namespace dpslave::dpctl {
 
 std::string render_status(const Json& reply, Look look);
-/// `document` as kShowJson (json_forms.hpp) describes it.
+/// `document` as the manual page of dpctl describes it.
 std::string render_show(const Json& document, Look look);
 std::string render_io(const Json& reply, Look look);
 std::string render_diagnosis(const Json& reply, Look look);
 std::string render_counters(const Json& reply, Look look);
+/// One line for each address, then whom the masters ask without an answer.
+std::string render_bus(const report::GetBusReply& reply, Look look);
 /// TEC OPTION of a station, with the three steps of its set-up where it is not set up (B-054).
 std::string render_tec(const report::Tec& tec, Look look);
 /// What a reload changes, or why it is refused; of a dry run also who would leave the bus.

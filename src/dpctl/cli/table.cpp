@@ -85,6 +85,15 @@ std::string headline(const std::string& name, const std::string& rest, Look look
     return out;
 }
 
+std::string title(std::string_view text, Tone tone, Look look)
+{
+    constexpr std::size_t kIndent = 3;
+    std::string out;
+    for (const std::string& line : wrapped(text, std::max(look.width, kNarrowest) - kIndent))
+        out += std::string(out.empty() ? 0 : kIndent, ' ') + painted(line, tone, look) + '\n';
+    return out;
+}
+
 Table::Table(std::vector<std::string> header) : header_(std::move(header))
 {
     for (std::string& name : header_) {

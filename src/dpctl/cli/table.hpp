@@ -31,6 +31,9 @@ std::string paragraph(std::string_view first, std::string_view text, std::size_t
 /// `name` in bold and `rest` behind it: the head of a block. Each line ended.
 std::string headline(const std::string& name, const std::string& rest, Look look);
 
+/// The head of a finding: further lines are indented by three. Each line ended.
+std::string title(std::string_view text, Tone tone, Look look);
+
 struct Cell {
     Cell(std::string t, Tone with = Tone::plain) : text(std::move(t)), tone(with) {}
     Cell(const char* t) : text(t) {}

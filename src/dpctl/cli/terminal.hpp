@@ -4,7 +4,10 @@
 
 #include "table.hpp"
 
+#include "dpslave/arguments/exit_status.hpp"
+
 #include <cstddef>
+#include <istream>
 #include <ostream>
 
 namespace dpslave::dpctl {
@@ -17,16 +20,12 @@ struct Terminal {
     std::size_t width = 80; ///< characters of a line
     bool cursor = false; ///< out is a terminal whose cursor can be moved (ECMA-48): dpctl top draws a screen
     bool utf8 = false;   ///< the locale says so: block elements may be used
+    std::istream* user = nullptr; ///< who can be asked; null: nobody, as in a script
 
     Look look() const { return {colour, width}; }
 };
 
-/// Exit codes; --help lists them.
-enum Exit : int {
-    kFine = 0,
-    kNo = 1,    ///< refused, faulty, or not so
-    kUsage = 2, ///< of the command line, or there is no such station
-    kNoDaemon = 3,
-};
+using arguments::Exit, arguments::kFine, arguments::kNo, arguments::kUsage, arguments::kNoDaemon,
+    arguments::kNoAnswer, arguments::kRefused;
 
 } // namespace dpslave::dpctl

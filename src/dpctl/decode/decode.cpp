@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "decode.hpp"
 
-#include "dpctl/cli/subcommands.hpp"
 #include "dpctl/cli/table.hpp"
-#include "dpctl/cli/words.hpp"
-
-#include "dpslave/io/file.hpp"
 
 #include <fmt/format.h>
 
@@ -185,34 +181,6 @@ std::string render_decoded(const std::vector<Decoded>& parts, Look look)
         out += render_details(with_octets, 2, look);
     }
     return out;
-}
-
-int do_decode(const Options& options, Terminal& terminal)
-{
-    const auto octets = read_octets(options.words);
-    if (!octets) {
-        terminal.err << "dpctl: " << octets.error() << '\n';
-        return kUsage;
-    }
-    std::optional<profile::Profile> device;
-    if (!options.profile.empty()) {
-        auto loaded = profile::load_profile(io::read_regular_file, options.profiles, options.profile);
-        if (!loaded) {
-            for (const toml::Fault& fault : loaded.error())
-                terminal.err << "dpctl: " << to_string(fault) << '\n';
-            return kNo;
-        }
-        device = *std::move(loaded);
-    }
-    const DecodeContext context{.device = device ? &*device : nullptr, .tags = {}};
-    const auto form = form_called(options.form); // another name does not pass the command line
-    const auto parts =
-        form ? std::vector<Decoded>{decode_as(*form, *octets, context)} : decode_all(*octets, context);
-    terminal.out << (options.json ? json_text(decoded_json(parts)) + '\n'
-                                  : render_decoded(parts, terminal.look()));
-    const bool sound =
-        std::all_of(parts.begin(), parts.end(), [](const Decoded& part) { return part.faults.empty(); });
-    return sound ? kFine : kNo;
 }
 
 } // namespace dpslave::dpctl

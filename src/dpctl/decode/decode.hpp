@@ -84,6 +84,8 @@ bool are_blocks(Bytes octets);
 
 /// "Set_Prm", "Slave_Diag, reply", "Data_Exchange", "request, FDL status". Precondition: telegram.has_fc().
 std::string service_name(const fdl::Telegram& telegram);
+/// All names that it has, but those of unknown SAPs.
+std::vector<std::string> service_names();
 
 /// "271 SPEED TRIM".
 std::string tag_words(std::uint16_t tag, const profile::Profile& device);

@@ -61,7 +61,7 @@ bool decode_exchange(Bytes data, bool is_request, DecodeContext& context, Decode
         data = data.subspan(dp::kDemandOctets);
     }
     for (std::size_t i = 0; i < configuration.layout.count; ++i) {
-        const Parameter& one = configuration.layout.parameters[i];
+        const LayoutEntry& one = configuration.layout.parameters[i];
         if (!(is_request ? one.writes : one.reads)) continue;
         into.lines.push_back(
             {tag_words(one.tag, *context.device), shown(*context.device, one.tag, be16(data, 0))});

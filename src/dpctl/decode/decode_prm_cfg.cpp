@@ -6,6 +6,7 @@
 
 #include "dpslave/dp/chk_cfg.hpp"
 #include "dpslave/dp/set_prm.hpp"
+#include "dpslave/refusal/words.hpp"
 
 #include <fmt/format.h>
 
@@ -83,9 +84,8 @@ std::string user_octet(Bytes user, std::size_t at, const profile::Profile* devic
 /// Where and why the device would refuse it.
 void add_refusal(const dp::RefusalDetail& refusal, const profile::Profile& device, Decoded& into)
 {
-    const std::string where = refusal.octet == 0 ? "" : fmt::format(", octet {}", refusal.octet);
-    into.faults.push_back(fmt::format("profile {} would refuse it: {}{} (expected {}, here {})", device.name,
-                                      dp::text(refusal.why), where, refusal.expected, refusal.got));
+    into.faults.push_back(
+        fmt::format("profile {} would refuse it: {}", device.name, refusal::clause(refusal)));
 }
 
 void judge_set_prm(Bytes data, DecodeContext& context, Decoded& into)
@@ -158,11 +158,11 @@ private:
     void special(std::uint8_t octet)
     {
         const unsigned form = octet >> 6, vendor = (octet & 0x0FU) == 15 ? 0 : octet & 0x0FU;
-        add(fmt::format("special format: {}{}",
-                        form == 0   ? "no inputs or outputs"
-                        : form == 1 ? "inputs"
-                        : form == 2 ? "outputs"
-                                    : "outputs and inputs",
+        add(fmt::format("special format{}{}",
+                        form == 0   ? ", empty slot: no inputs or outputs"
+                        : form == 1 ? ": inputs"
+                        : form == 2 ? ": outputs"
+                                    : ": outputs and inputs",
                         vendor == 0 ? "" : ", then " + plural(vendor, "vendor octet")));
         if ((form & 2) != 0) length_octet(false);
         if ((form & 1) != 0) length_octet(true);

@@ -299,8 +299,7 @@ std::string flaw_words(Flaw flaw, Bytes frame)
             return fmt::format("0x{:02X} begins no telegram: 10, 68, A2, DC or E5 do", frame[0]);
         case Flaw::length_mismatch:
             return fmt::format(
-                "LE is 0x{:02X}, LEr 0x{:02X}, the fourth octet 0x{:02X}: LE and LEr must be equal and "
-                "0x68 must follow",
+                "LE is 0x{:02X}, LEr 0x{:02X}, the fourth octet 0x{:02X}: LE and LEr must be equal and 0x68 must follow",
                 frame[1], frame[2], frame[3]);
         case Flaw::length_range: return fmt::format("LE is {}: 4 to 249 are legal", frame[1]);
         case Flaw::missing_sap: return "an address announces a SAP, but no octet is left for it";
@@ -329,6 +328,15 @@ std::string service_name(const Telegram& telegram)
     for (const Sap& row : kSaps)
         if (row.number == *sap) return fmt::format("{}{}", row.name, side);
     return fmt::format("SAP {}{}", *sap, side);
+}
+
+std::vector<std::string> service_names()
+{
+    std::vector<std::string> names{"Data_Exchange", "Data_Exchange without data",
+                                   "acknowledgement without data"};
+    for (const Sap& row : kSaps) names.emplace_back(row.name);
+    for (const std::string_view request : kRequests) names.push_back(fmt::format("request, {}", request));
+    return names;
 }
 
 void decode_service(const Telegram& telegram, DecodeContext& context, Decoded& into)

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hex.hpp"
 
-#include "dpctl/cli/subcommands.hpp"
 #include "dpctl/cli/table.hpp"
-#include "dpctl/cli/words.hpp"
 
 #include "dpslave/base/bytes.hpp"
 
@@ -129,30 +127,6 @@ std::string render_range(const std::vector<Number16>& numbers, Look look)
     }
     if (!line.empty()) table.add(std::move(line));
     return table.str(look);
-}
-
-int do_hex(const Options& options, Terminal& terminal)
-{
-    std::vector<Number16> all, single;
-    std::string ranges;
-    for (const std::string& argument : options.words) {
-        const auto numbers = read_numbers(argument);
-        if (!numbers) {
-            terminal.err << "dpctl: " << numbers.error() << '\n';
-            return kUsage;
-        }
-        all.insert(all.end(), numbers->begin(), numbers->end());
-        if (numbers->size() == 1)
-            single.push_back(numbers->front());
-        else
-            ranges += (ranges.empty() ? "" : "\n") + render_range(*numbers, terminal.look());
-    }
-    if (options.json)
-        terminal.out << json_text(hex_json(all)) << '\n';
-    else
-        terminal.out << (single.empty() ? "" : render_numbers(single, terminal.look()))
-                     << (single.empty() || ranges.empty() ? "" : "\n") << ranges;
-    return kFine;
 }
 
 } // namespace dpslave::dpctl

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// From the daemon's replies to the likely cause and the next step, by the troubleshooting tables of the
-/// manuals: HA389815 ch. 9, HA463561U002 "Troubleshooting", 2408f/2404f handbook ch. 6. Pure but for
-/// do_doctor().
+/// manuals: HA389815 ch. 9, HA463561U002 "Troubleshooting", 2408f/2404f handbook ch. 6. Pure.
 #pragma once
 
 #include "dpctl/cli/fields.hpp"

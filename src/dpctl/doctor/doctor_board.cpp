@@ -41,8 +41,7 @@ constexpr std::array kBoardRules = std::to_array<Rule>({
      "Internal communications fault",
      "Check that PROTOCOL of the drive is what the gateway's port needs (for the board itself: OPTION).\n"
      "Check that the address is 0 to 125 (620: 1 to 125).\n"
-     "620: check the connections between the PROFIBUS side and the drive. Check P3 MODE (or P1 MODE) and the "
-     "baud rate.\n"
+     "620: check the connections between the PROFIBUS side and the drive. Check P3 MODE (or P1 MODE) and the baud rate.\n"
      "Check port, baud, format and unit of the line in the configuration against the drive's settings.",
      kBoard, seen_internal},
     {"board.configuration", Rank::checklist, "red on, green flashing 1 Hz: Set_Prm or Chk_Cfg was refused",
@@ -53,11 +52,9 @@ constexpr std::array kBoardRules = std::to_array<Rule>({
      kBoard, seen_configuration},
     {"board.external", Rank::checklist, "red on, green flashing 1 Hz: nothing was refused",
      "External communications fault",
-     "Check the terminal connections: A and B of the transceiver (D-sub 8 and 3), both continuous to the "
-     "master. On the old board B was terminal 3 and A was terminal 4.\n"
+     "Check the terminal connections: A and B of the transceiver (D-sub 8 and 3), both continuous to the master. On the old board B was terminal 3 and A was terminal 4.\n"
      "Check that the master communicates at 1.5 Mbaud or less.\n"
-     "Check that the address of the station ([[station]] address, OPTION ADDRESS of the board) is the one in "
-     "the master's project.\n"
+     "Check that the address of the station ([[station]] address, OPTION ADDRESS of the board) is the one in the master's project.\n"
      "Check that no other PROFIBUS-DP slave or master has the same address.",
      kBoard, seen_external},
 });

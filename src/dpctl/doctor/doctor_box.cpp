@@ -107,8 +107,7 @@ constexpr std::array kBoxRules = std::to_array<Rule>({
      "Not installed correctly: check the connections between gateway and drive (605A & B: the ribbon "
      "cable).\n"
      "Hardware fault: look which port cannot be opened: journalctl -u dpslaved\n"
-     "With the box itself: if HEALTH and RUN are off, replace the drive, else the box. BEWARE OF ELECTRIC "
-     "SHOCK under the terminal cover.",
+     "With the box itself: if HEALTH and RUN are off, replace the drive, else the box. BEWARE OF ELECTRIC SHOCK under the terminal cover.",
      kBox, seen_no_power},
     {"box.self_test", Rank::stands, "NETWORK off, MODULE short flash (FAULT is SELF TEST)",
      "The self-test has failed",
@@ -117,32 +116,27 @@ constexpr std::array kBoxRules = std::to_array<Rule>({
      kBox, seen_self_test},
     {"box.type", Rank::stands, "NETWORK off, MODULE flash (FAULT is TYPE MISMATCH)",
      "Incorrect option fitted or selected",
-     "Select the matching value for TYPE in the TEC OPTION function block: dpctl tec set TYPE \"PROFIBUS "
-     "DP\"\n"
+     "Select the matching value for TYPE in the TEC OPTION function block: dpctl tec set TYPE \"PROFIBUS DP\"\n"
      "With the box itself: fit the right one.",
      kBox, seen_type},
     {"box.parameter", Rank::stands, "NETWORK off, MODULE long flash (FAULT is PARAMETER)",
      "Set-up fault: a TEC OPTION parameter is out of range",
-     "Select a legal value for the parameter in the TEC OPTION function block: dpctl show has values and "
-     "ranges.",
+     "Select a legal value for the parameter in the TEC OPTION function block: dpctl show has values and ranges.",
      kBox, seen_parameter},
     {"box.no_communications", Rank::checklist,
      "NETWORK off, MODULE on (NETWORK STATE is BAUD SEARCH or DISABLED)",
      "No communications or intermittent failure",
-     "Check wiring: continuity of A and B to the master, the correct terminals, the integrity of the "
-     "screening.\n"
+     "Check wiring: continuity of A and B to the master, the correct terminals, the integrity of the screening.\n"
      "Ensure that the maximum line length for the baud rate is not exceeded (below).\n"
-     "Ensure that the last unit on the line is terminated correctly. Some equipment has built-in resistors "
-     "that may be switched in and out of circuit.",
+     "Ensure that the last unit on the line is terminated correctly. Some equipment has built-in resistors that may be switched in and out of circuit.",
      kBox, seen_box_silent},
     {"box.wait_param", Rank::checklist, "NETWORK short flash, MODULE on (NETWORK STATE is WAIT PARAM)",
      "Waiting for valid parameterisation data",
      "Check the slave ADDRESS. Check that it is unique.\n"
      "Ensure that the network has been correctly configured and that the configuration has been downloaded "
      "to the master.\n"
-     "Verify that the GSD file is correct: dpctl gsd check FILE\n"
-     "Read INT DIAGNOSTIC with INT DIAG SELECT 0. It is the code of the last refused telegram. In words: "
-     "dpctl diag",
+     "Verify that the GSD file is correct: dpctl gsd check FILE --station NAME\n"
+     "Read INT DIAGNOSTIC with INT DIAG SELECT 0. It is the code of the last refused telegram. In words: dpctl diag",
      kBox, seen_wait_prm},
     {"box.wait_config", Rank::checklist, "NETWORK flash, MODULE on (NETWORK STATE is WAIT CONFIG)",
      "Waiting for valid configuration data",
@@ -152,17 +146,14 @@ constexpr std::array kBoxRules = std::to_array<Rule>({
      kBox, seen_wait_cfg},
     {"box.read_write", Rank::checklist, "NETWORK long flash, MODULE on (NETWORK STATE is DATA EX ERROR)",
      "Read or write failure",
-     "Refer to the internal diagnostics. INT DIAG SELECT 300 to 329 shows the access error of parameter 0 to "
-     "29.\n"
+     "Refer to the internal diagnostics. INT DIAG SELECT 300 to 329 shows the access error of parameter 0 to 29.\n"
      "See which tag it is: dpctl io, dpctl diag",
      kBox, seen_read_write},
     {"box.trip", Rank::stands, "HEALTH off: the drive reports a trip", "The drive has tripped",
-     "Remove the cause at the drive and reset the trip there. The master reads it in the diagnosis of the "
-     "slave.",
+     "Remove the cause at the drive and reset the trip there. The master reads it in the diagnosis of the slave.",
      "HA463561U002, PROFIBUS Diagnostics", seen_trip},
     {"box.works", Rank::note, "NETWORK on, MODULE on (NETWORK STATE is DATA EXCHANGE)", "It works",
-     "The unit should now be working. If there is still a problem, check your tag numbers: dpctl io, dpctl "
-     "tag.",
+     "The unit should now be working. If there is still a problem, check your tag numbers: dpctl io, dpctl tag.",
      kBox, seen_works},
     {"station.tec_notes", Rank::note, "the TEC OPTION function block has notes", "TEC OPTION",
      "Look at the function block: dpctl show", "HA463561U002, MMI parameter descriptions", seen_tec_notes},

@@ -138,10 +138,10 @@ std::string seen_late(const Facts& f)
     const std::int64_t all = late.minute + written_late.minute + overtaken.minute;
     if (all < 10 || all * kOften < counted(f.counters, "requests").minute) return {};
     const Count& longest = late.minute > 0 ? late : written_late.minute > 0 ? written_late : overtaken;
-    return fmt::format("{} suppressed because MaxTsdr had passed, {} begun in time and written too late, {} "
-                       "dropped because something followed them, {}",
-                       late.minute == 1 ? "1 reply was" : fmt::format("{} replies were", late.minute),
-                       written_late.minute, plural(overtaken.minute, "request"), lately(longest));
+    return fmt::format(
+        "{} suppressed because MaxTsdr had passed, {} begun in time and written too late, {} dropped because something followed them, {}",
+        late.minute == 1 ? "1 reply was" : fmt::format("{} replies were", late.minute), written_late.minute,
+        plural(overtaken.minute, "request"), lately(longest));
 }
 std::string seen_flaws(const Facts& f)
 {
@@ -193,8 +193,7 @@ constexpr std::array kBusRules = std::to_array<Rule>({
      kGateway, seen_echo},
     {"bus.no_echo", Rank::stands, "[bus] echo is on, and replies do not come back",
      "No echo comes: the transceiver has none, or it does not send",
-     "If the transceiver has no echo: set echo = \"off\" under [bus]. Then restart the service: systemctl "
-     "restart dpslaved\n"
+     "If the transceiver has no echo: set echo = \"off\" under [bus]. Then restart the service: systemctl restart dpslaved\n"
      "If it has one: it does not send. Check its power and its driver enable ([bus] direction).",
      kGateway, seen_no_echo},
     {"bus.double_address", Rank::stands, "another device sends with one of our addresses",
@@ -231,8 +230,7 @@ constexpr std::array kBusRules = std::to_array<Rule>({
      "The line of the bus is disturbed",
      "Check wiring, paying particular attention to the screening.\n"
      "Check that the line is not longer than the rate allows (below).\n"
-     "Check that both ends of the segment are terminated, and no device between. Some equipment has "
-     "resistors that can be switched in and out.\n"
+     "Check that both ends of the segment are terminated, and no device between. Some equipment has resistors that can be switched in and out.\n"
      "See which flaws grow: dpctl counters",
      kBox, seen_flaws},
     {"bus.late", Rank::recent,

@@ -41,19 +41,29 @@ std::string seen_format(const Facts& f)
                                                                    : std::string{};
 }
 
+std::string seen_scale_register(const Facts& f)
+{
+    return f.diagnosis.scale_register.value_or("");
+}
+
 constexpr std::array kControllerRules = std::to_array<Rule>({
+    {"controller.scale_register", Rank::stands,
+     "the drive says that it gives its values in another way than the station",
+     "The resolution, or the decimals of the display, are others in the drive than in the station",
+     "Set resolution or display_decimals of the station as the drive has them. Then: dpctl reload\n"
+     "Or set the drive as the master's project needs it. Then the master can start: it is read again every "
+     "10 s.",
+     kGateway, seen_scale_register},
     {"controller.no_communications", Rank::checklist, "status rdY, REM dark: no data exchange",
      "No communications",
      "Check the wiring: continuity of A (HE) and B (HD) to the master, the correct terminals.\n"
      "Check that the controller side is set up: function of the slot (PROFIBUS in the controller itself, "
      "Modbus behind this gateway), the right module in slot H.\n"
      "Check that the node address is right for the network, and unique.\n"
-     "Ensure that the network is correctly configured and the configuration has been transmitted to the "
-     "master.\n"
-     "Verify that the GSD file is correct: dpctl gsd check FILE\n"
+     "Ensure that the network is correctly configured and the configuration has been transmitted to the master.\n"
+     "Verify that the GSD file is correct: dpctl gsd check FILE --station NAME\n"
      "Verify that the line is not longer than the rate allows (below). Never use more than 1.5 Mbaud.\n"
-     "Ensure that the last device of the segment is terminated, and that no device but those at the ends "
-     "is.\n"
+     "Ensure that the last device of the segment is terminated, and that no device but those at the ends is.\n"
      "If possible, replace the suspect device with a duplicate and test again.",
      kHandbook, seen_controller_silent},
     {"controller.intermittent", Rank::recent,
@@ -69,11 +79,9 @@ constexpr std::array kControllerRules = std::to_array<Rule>({
     {"controller.jammed", Rank::note,
      "setpoint, output power or auto/manual cannot be altered at the front panel",
      "The master writes its outputs continuously",
-     "The master's outputs are written continuously and override the front panel: setpoint, output power or "
-     "auto/manual seem jammed.\n"
+     "The master's outputs are written continuously and override the front panel: setpoint, output power or auto/manual seem jammed.\n"
      "Write such values with Demand Data, only when they change.\n"
-     "Setpoints: use SP2 as the local one, selected with a digital input or key, and SP1 as the one of "
-     "PROFIBUS.\n"
+     "Setpoints: use SP2 as the local one, selected with a digital input or key, and SP1 as the one of PROFIBUS.\n"
      "When the network fails the front panel regains control: a local island.",
      kHandbook, seen_jammed},
     {"controller.format", Rank::note, "data format or parameter data seem incorrect",

@@ -27,20 +27,20 @@ constexpr double kOfNow = 15'000;         ///< ms: a lost drive is asked every f
 bool is_silent(const Facts& f)
 {
     const report::Drive& d = f.station.drive;
-    return d.port_open && d.link == "silent";
+    return d.port_open && (d.link == "silent" || d.link == "gone");
 }
 
-/// "EI-ASCII unit 00 on p3: /dev/ttyS2 at 9.6 kbit/s, 7E1".
+/// "EI-ASCII unit 00 on p3: /dev/ttyS2 at 9.6 kbit/s, 7E1, direction gpio".
 std::string settings_of(const report::Drive& d)
 {
-    return fmt::format("{} unit {} on {}: {} at {}, {}", d.protocol, d.unit, d.line, d.port, rate(d.baud),
-                       d.format);
+    return fmt::format("{} unit {} on {}: {} at {}, {}, direction {}", d.protocol, d.unit, d.line, d.port,
+                       rate(d.baud), d.format, d.direction);
 }
 
 std::string seen_drive_port_gone(const Facts& f)
 {
     const report::Drive& d = f.station.drive;
-    return !d.port_open ? fmt::format("{} of line {} is not there", d.port, d.line) : "";
+    return !d.port_open ? fmt::format("{} of line {} is not there, or cannot be opened", d.port, d.line) : "";
 }
 /// Do we hear ourselves? Then what else is heard says nothing of the drive.
 bool is_drive_echo(const Facts& f)
@@ -55,7 +55,7 @@ std::string seen_drive_echo(const Facts& f)
     return fmt::format("{} came back {}: the adapter of {} receives what it sends, and [[line]] echo is off",
                        plural(back.minute, "request"), lately(back), f.station.drive.port);
 }
-/// Is it the time-out, and not the drive, that is wrong? Then it is not silent.
+/// Is it the timeout, and not the drive, that is wrong? Then it is not silent.
 bool is_late(const Facts& f)
 {
     return counted(f.station_counters, "drive_late").within(kOfNow);
@@ -172,6 +172,14 @@ std::string seen_not_understood(const Facts& f)
     if (others < kSome) return {};
     return fmt::format("the drive could not take {} {}", plural(others, "request"), lately(refused));
 }
+/// Octets before answers: between question and answer nothing holds the line at rest.
+std::string seen_noise_before(const Facts& f)
+{
+    const Count noise = counted(f.station_counters, "drive_noise");
+    if (noise.minute < kSome || is_drive_echo(f) || is_unreadable(f)) return {};
+    return fmt::format("noise came before or instead of {} {}", plural(noise.minute, "answer"),
+                       lately(noise));
+}
 std::string seen_noise(const Facts& f)
 {
     if (f.station.drive.link != "answers") return {};
@@ -185,6 +193,35 @@ std::string seen_noise(const Facts& f)
     return fmt::format("{} of {} were not answered {}", silences.minute, plural(all, "request"),
                        lately(silences));
 }
+std::string seen_own_value(const Facts& f)
+{
+    std::string all;
+    for (const report::RefusedTag& one : f.diagnosis.refused)
+        if (one.code == "does_not_fit") all += (all.empty() ? "" : "; ") + one.text;
+    return all;
+}
+std::string seen_not_zeroed(const Facts& f)
+{
+    const auto tag = f.station.drive.not_zeroed;
+    return tag ? fmt::format("tag {} was not set to 0 when the drive came back", *tag) : std::string{};
+}
+std::string seen_late_release(const Facts& f)
+{
+    const Count late = counted(f.station_counters, "line_late_releases");
+    if (late.minute < kSome) return {};
+    return fmt::format("the transceiver of line {} (direction {}) was released late {} {}",
+                       f.station.drive.line, f.station.drive.direction, plural(late.minute, "time"),
+                       lately(late));
+}
+std::string seen_line_driver(const Facts& f)
+{
+    const Count failed = counted(f.station_counters, "line_driver_errors"),
+                guarded = counted(f.station_counters, "line_driver_guarded");
+    if (failed.minute + guarded.minute < kSome) return {};
+    return fmt::format("line {} (direction {}): {} failed, and the guard released the driver {} {}",
+                       f.station.drive.line, f.station.drive.direction, plural(failed.minute, "edge"),
+                       plural(guarded.minute, "time"), lately(failed.minute > 0 ? failed : guarded));
+}
 std::string seen_unknown(const Facts& f)
 {
     const report::Drive& d = f.station.drive;
@@ -193,8 +230,8 @@ std::string seen_unknown(const Facts& f)
 }
 
 constexpr std::array kDriveRules = std::to_array<Rule>({
-    {"drive.gone", Rank::gone, "the port of the drive line has vanished",
-     "The port of the drive line is missing: the adapter was unplugged, or its driver failed",
+    {"drive.gone", Rank::gone, "the port of the drive line is missing",
+     "The port of the drive line is missing: no adapter is plugged in there, or its driver failed",
      "Check that the adapter is plugged in. See where it is now: ls -l /dev/serial/by-id\n"
      "Name the port under [[line]] by its stable path in /dev/serial/by-id.\n"
      "See what the system answered: journalctl -u dpslaved. It is tried again every second.",
@@ -208,17 +245,21 @@ constexpr std::array kDriveRules = std::to_array<Rule>({
      "The drive answers, but damaged: rate or format of the line, or a disturbed cable",
      "Compare rate and format of [[line]] with those of the drive.\n"
      "Run dpctl doctor --probe. It tries other rates and formats, and names those that are answered.\n"
-     "Check the cable to the drive: screen, routing away from motor cables, the common of the port (0 V), A "
-     "and B.\n"
+     "Check the cable to the drive: screen, routing away from motor cables, the common of the port (0 V), A and B.\n"
      "If only the checksums are wrong: look for a converter or a gateway between.",
      kGateway, seen_unreadable},
     {"drive.never", Rank::stands, "the drive has never answered",
      "The drive has never answered: cable, unit, rate or format",
-     "Check the cable, its plug and the power of the drive. If there are several lines: check that their "
-     "cables are not swapped.\n"
+     "Check the cable, its plug and the power of the drive. If there are several lines: check that their cables are not swapped.\n"
      "Compare the port of the drive with the configuration: protocol, group and unit, rate, format.\n"
+     "Two-wire line: check direction of [[line]], and A and B.\n"
      "Run dpctl doctor --probe. It tries other rates, formats and units, and names those that are answered.",
      kGateway, seen_never},
+    {"drive.not_zeroed", Rank::stands, "an output was not set to 0 when the drive came back",
+     "The drive may still hold an old word in an output",
+     "Look what it holds before the shaft turns: dpctl read TAG\n"
+     "If the drive refuses 0: look for the limits of this tag in its manual.",
+     kGateway, seen_not_zeroed},
     {"drive.late", Rank::stands, "answers of the drive come after timeout_ms",
      "The drive answers later than timeout_ms allows",
      "Set timeout_ms of its [[line]] above what was measured. Then: dpctl reload\n"
@@ -228,14 +269,32 @@ constexpr std::array kDriveRules = std::to_array<Rule>({
      "The drive is lost from time to time: a loose plug, its power, or a disturbed cable",
      "Check the plugs at both ends. Check the supply of the drive, and of a converter between.\n"
      "Check the cable: screen, routing away from motor cables, the common of the port (0 V).\n"
-     "If one tag alone is not answered: take it out of the master's project. Check whether the rest is "
-     "steady.",
+     "If one tag alone is not answered: take it out of the master's project. Check whether the rest is steady.",
      kGateway, seen_unsteady},
     {"drive.silent", Rank::stands, "the drive answered once, and does not answer now",
      "The drive no longer answers: power, cable, or changed settings of its port", kSilentSteps, kGateway,
      seen_drive_silent},
     {"drive.not_asked", Rank::stands, "the drive was not asked yet", "The line has not asked this drive yet",
      kSilentSteps, kGateway, seen_unknown},
+    {"drive.value", Rank::stands, "the drive itself has a value beyond 16 bits, or no number",
+     "A value of the drive does not fit on the bus: it is the drive's own, not the master's",
+     "Look at this value on the drive. A broken sensor, an overflow or a calculation without a result shows there.\n"
+     "Correct number: give the row of the tag fewer decimals. Then: dpctl reload\n"
+     "Meanwhile the master has the last value that did fit: dpctl io",
+     kGateway, seen_own_value},
+    {"drive.driver", Rank::recent, "the driver enable of a drive line fails, or only the guard releases it",
+     "The transceiver of the drive line is not switched as configured",
+     "Run gpioinfo. Check that gpio_chip under [[line]] is there, and that no other program has gpio_line.\n"
+     "See which values of direction this port can do: journalctl -u dpslaved\n"
+     "Check whether line_driver_errors and line_driver_guarded still grow: dpctl counters",
+     kGateway, seen_line_driver},
+    {"drive.late_release", Rank::recent, "the transceiver of a drive line is released late",
+     "This machine releases the transceiver of the drive line too late: an answer may lose its first octet",
+     "Set priority under [realtime] to 2 or more. Then other programs delay the drive line less.\n"
+     "Use direction = \"kernel\" where the port can do it, or an adapter that switches by itself.\n"
+     "Do not use a line of an I2C or USB expander: each edge takes long.\n"
+     "Check whether line_late_releases still grows: dpctl counters",
+     kGateway, seen_late_release},
     {"drive.foreign", Rank::recent, "answers of the drive are not to what was asked",
      "Another device answers on this line",
      "Check that no other drive of this line has the same unit.\n"
@@ -244,6 +303,12 @@ constexpr std::array kDriveRules = std::to_array<Rule>({
     {"drive.damaged", Rank::recent, "answers of the drive are damaged",
      "The cable from the drive is disturbed, or its format is another one", kNoiseSteps, kGateway,
      seen_damaged},
+    {"drive.noise_before", Rank::recent, "noise comes before the answers of the drive",
+     "Nothing holds the line at rest before an answer: bias resistors are missing, or the direction is switched at the wrong moment",
+     "RS-485: fit bias resistors at one place of the line, or switch them on at the adapter. Check A, B and the terminators.\n"
+     "Check what switches the direction of the transceiver: it must be released right behind the request.\n"
+     "Check whether drive_noise still grows: dpctl counters. The noise itself: dpctl trace --line LINE",
+     kGateway, seen_noise_before},
     {"drive.not_accepted", Rank::recent, "the drive refuses requests for their checksum (EE 02)",
      "Checksum refused: the cable to the drive is disturbed",
      "Check the cable from the gateway to the drive. This direction is disturbed.\n"

@@ -29,6 +29,7 @@ constexpr std::array kOfStation = std::to_array<Named>({
     {"drive_late", "answers of the drive that came too late"},
     {"drive_came_back", "requests to the drive that came back from the line"},
     {"drive_damaged", "answers of the drive that were damaged"},
+    {"drive_noise", "times that noise came before an answer of the drive"},
     {"drive_not_accepted", "writes that the drive refused for a wrong checksum"},
     {"drive_not_understood", "requests that the drive could not take"},
 });

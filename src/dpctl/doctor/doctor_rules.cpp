@@ -124,7 +124,7 @@ std::string tag_trouble(const Facts& f)
 std::string drive_silence(const Facts& f)
 {
     const report::Drive& d = f.station.drive;
-    if (d.link != "silent") return {};
+    if (d.link != "silent" && d.link != "gone") return {};
     return fmt::format("unit {} on {} ({}, {}) does not answer: {} unanswered", d.unit, d.line, d.port,
                        d.protocol, plural(d.silences, "request"));
 }
@@ -179,8 +179,8 @@ std::span<const Rule> rules()
 {
     static const std::vector<Rule> all = [] {
         std::vector<Rule> joined;
-        for (const auto table :
-             {bus_rules(), drive_rules(), station_rules(), board_rules(), box_rules(), controller_rules()})
+        for (const auto table : {bus_rules(), drive_rules(), station_rules(), board_rules(), box_rules(),
+                                 controller_rules(), lamp_rules()})
             joined.insert(joined.end(), table.begin(), table.end());
         return joined;
     }();

@@ -16,6 +16,7 @@ std::span<const Rule> board_rules();
 std::span<const Rule> box_rules();
 std::span<const Rule> controller_rules();
 std::span<const Rule> station_rules();
+std::span<const Rule> lamp_rules();
 
 // Where a rule comes from.
 inline constexpr std::string_view kGateway = "dpslaved";

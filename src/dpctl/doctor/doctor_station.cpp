@@ -63,17 +63,17 @@ std::string seen_asked_only(const Facts& f)
 {
     if (!is_in(f, "Wait_Prm") || is_tried(f) || !is_asked(f.station_counters)) return {};
     const Count diag = counted(f.station_counters, "slave_diag");
-    return fmt::format("{} for its diagnosis {} and no Set_Prm",
-                       diag.minute == 1 ? "1 request" : fmt::format("{} requests", diag.minute),
+    return fmt::format("{} for its diagnosis {} and no Set_Prm", plural(diag.minute, "request"),
                        lately(diag));
 }
 
-/// The request was spoilt on its way: that says nothing about the tag.
-bool was_spoilt(const Facts& f, const report::Word& word)
+/// The request was spoilt on its way, or the drive's own value does not fit: that says nothing of what the
+/// master sends.
+bool is_of_drive(const Facts& f, const report::Word& word)
 {
     const auto& refused = f.diagnosis.refused;
     return std::any_of(refused.begin(), refused.end(), [&](const report::RefusedTag& one) {
-        return one.code == "not_understood" && one.tag == word.tag;
+        return (one.code == "not_understood" || one.code == "does_not_fit") && one.tag == word.tag;
     });
 }
 
@@ -83,7 +83,7 @@ std::string words_that_are(const Facts& f, std::string_view direction, std::stri
     std::string all;
     for (const report::Word& word : f.io.words) {
         if (word.state != state || (!direction.empty() && word.direction != direction)) continue;
-        if (was_spoilt(f, word)) continue;
+        if (is_of_drive(f, word)) continue;
         const std::string name = word.name.value_or("");
         all += fmt::format("{}tag {}{} = {} ({} octet {})", all.empty() ? "" : ", ", word.tag,
                            name.empty() ? "" : " " + name, word.value, word.direction, word.octet);
@@ -103,8 +103,7 @@ std::string said(const Facts& f, std::string_view code)
 /// The words that are so, else what was said for this reason (Demand Data has no words).
 std::string either(const std::string& words, const std::string& reasons)
 {
-    if (words.empty() || reasons.empty()) return words + reasons;
-    return words + "; " + reasons;
+    return words + (words.empty() || reasons.empty() ? "" : "; ") + reasons;
 }
 
 std::string seen_read_only(const Facts& f)
@@ -120,7 +119,7 @@ bool is_other_device(const Facts& f)
 {
     std::int64_t denied = 0, inputs = 0;
     for (const report::Word& word : f.io.words) {
-        if (word.direction != "in") continue;
+        if (word.direction != "in" && word.state != "invalid_tag") continue;
         ++inputs;
         denied += word.state == "invalid_tag";
     }
@@ -128,16 +127,22 @@ bool is_other_device(const Facts& f)
     for (const report::RefusedTag& one : f.diagnosis.refused) denied += one.code == "invalid_tag";
     return denied >= 2 && inputs + static_cast<std::int64_t>(f.diagnosis.refused.size()) >= 2;
 }
+/// Which tags are denied, and whether that holds the start.
+std::string denied(const Facts& f)
+{
+    std::string tags = either(words_that_are(f, "", "invalid_tag"), said(f, "invalid_tag"));
+    return tags += f.diagnosis.held && !tags.empty() ? "; the master is held at the start" : "";
+}
 std::string seen_other_device(const Facts& f)
 {
     if (!exchanges(f) || !is_other_device(f)) return {};
-    return either(words_that_are(f, "", "invalid_tag"), said(f, "invalid_tag"));
+    return fmt::format("{}; mnemonic rule {}{}, profile {}, unit {}", denied(f),
+                       f.info.mnemonic_rule.value_or("none"), f.info.mnemonics_assumed ? " (assumed)" : "",
+                       f.station.profile, f.station.drive.unit);
 }
 std::string seen_invalid(const Facts& f)
 {
-    return exchanges(f) && !is_other_device(f)
-               ? either(words_that_are(f, "", "invalid_tag"), said(f, "invalid_tag"))
-               : "";
+    return exchanges(f) && !is_other_device(f) ? denied(f) : std::string{};
 }
 std::string seen_not_now(const Facts& f)
 {
@@ -240,11 +245,12 @@ constexpr std::array kStationRules = std::to_array<Rule>({
      "The master's project does not fit this device: parameters",
      "Compare what came with what was expected, octet by octet: dpctl diag\n"
      "See what each octet means: dpctl decode --as prm OCTETS\n"
-     "Compare the slave in the master's project with the GSD that dpctl gsd make writes for this device.",
+     "Check the GSD of the plant's project: dpctl gsd check FILE --station NAME",
      kGateway, seen_prm},
     {"station.cfg_refused", Rank::stands, "the master's Chk_Cfg is refused",
      "The master's project does not fit this device: modules",
      "Compare what came with what was expected, identifier by identifier: dpctl diag\n"
+     "Check the GSD of the plant's project: dpctl gsd check FILE --station NAME\n"
      "Put the modules of the slave in the master's project in the order of the tags, one for each tag.",
      kGateway, seen_cfg},
     {"station.just_started", Rank::stands, "the station waits for its master, and dpslaved has just started",
@@ -257,8 +263,7 @@ constexpr std::array kStationRules = std::to_array<Rule>({
      kGateway, seen_not_asked},
     {"station.asked_only", Rank::stands, "the diagnosis is read, and no Set_Prm comes",
      "The master asks, but does not start this slave: it does not hear the replies, or it is a tool",
-     "Check that the replies reach the master: driver enable ([bus] direction), power of the transceiver, "
-     "both wires, termination.\n"
+     "Check that the replies reach the master: driver enable ([bus] direction), power of the transceiver, both wires, termination.\n"
      "Check whether a diagnosis tool asks (master class 2). It starts no slave.\n"
      "Check that the slave is switched on in the master's project and the master is not in STOP.",
      kGateway, seen_asked_only},
@@ -305,8 +310,7 @@ constexpr std::array kStationRules = std::to_array<Rule>({
      kGateway, seen_watchdog},
     {"station.read_only", Rank::stands, "an output word belongs to a tag that is read only",
      "Modules in the wrong order, or an output module for a tag that is read only",
-     "Put the modules in the master's project in the order of the tags. The first module is that of the "
-     "first tag.\n"
+     "Put the modules in the master's project in the order of the tags. The first module is that of the first tag.\n"
      "Use an input module for a tag that is read only: dpctl tag NUMBER",
      kGateway, seen_read_only},
     {"station.range", Rank::stands, "an output word is outside the limits of its tag",
@@ -315,21 +319,20 @@ constexpr std::array kStationRules = std::to_array<Rule>({
      "Check the scaling in the master's program. 12.34 with two decimals is 1234 on the bus.",
      kGateway, seen_range},
     {"station.other_device", Rank::stands, "the drive knows none of the chosen tags",
-     "The drive is of another type than the station: profile, tag table or unit is wrong",
+     "The gateway asks wrongly: mnemonic rule, profile, tag table or unit is wrong",
      "Compare the type of the drive with the profile of the station: dpctl show\n"
-     "Check that the unit and the line are those of this drive, and not of another one.\n"
-     "Check that the tag table is the one of this type of drive.",
+     "Look under which mnemonic rule its tags answer: dpctl doctor --probe. It is set in the profile.\n"
+     "Check that the unit and the line are those of this drive, and the tag table that of its type.",
      kGateway, seen_other_device},
     {"station.other_type", Rank::stands, "the drive answers in another form than its row says",
      "The tag table gives another type than the drive",
-     "Correct type and decimals of the tag in the tag table, from the drive's product manual. Then: dpctl "
-     "reload\n"
+     "Correct type and decimals of the tag in the tag table, from the drive's product manual. Then: dpctl reload\n"
      "Check that the table is for this type of drive: dpctl show",
      kGateway, seen_other_type},
     {"station.tags", Rank::stands, "the drive does not know a tag", "A tag number is wrong",
-     "Check the tag numbers in the master's project, and those of Demand Data in the PLC program: dpctl io, "
-     "dpctl tag NUMBER\n"
-     "Check that the profile of the station is that of the drive: dpctl show",
+     "Check the tag numbers in the master's project, and those of Demand Data in the PLC program: dpctl io, dpctl tag NUMBER\n"
+     "Check that the profile of the station is that of the drive: dpctl show\n"
+     "If the start is held, and the input may read 0: set denied_tags = \"zero\". Then: dpctl reload",
      kGateway, seen_invalid},
     {"station.unscaled", Rank::stands, "a chosen tag answers with a number whose scale is not known",
      "The tag table gives no decimals for a tag, or too few",
@@ -349,13 +352,11 @@ constexpr std::array kStationRules = std::to_array<Rule>({
      kGateway, seen_freeze},
     {"station.no_table", Rank::note, "the station has no tag table",
      "The scale of the drive's numbers is not known",
-     "Make a tag table with dpctl survey and the drive's product manual. Name it with 'tags' in [[station]]. "
-     "Then: dpctl reload",
+     "Make a tag table with dpctl survey and the drive's product manual. Name it with 'tags' in [[station]]. Then: dpctl reload",
      kGateway, seen_no_table},
     {"station.no_trip", Rank::note, "no tag reports the trip of the drive",
      "Trips are not known: the diagnosis never reports a trip",
-     "Set trip_tag in [station.tec] to the tag of the trip code, or to a bit that is set while the drive has "
-     "tripped (\"272.3\").",
+     "Set trip_tag in [station.tec] to the tag of the trip code, or to a bit that is set while the drive has tripped (\"272.3\").",
      "HA463561U002, PROFIBUS Diagnostics", seen_no_trip},
     {"station.not_now", Rank::stands, "a tag cannot be written in this state of the drive",
      "The drive accepts this parameter only while it is stopped, or in configuration mode",
@@ -368,8 +369,7 @@ constexpr std::array kStationRules = std::to_array<Rule>({
      kGateway, seen_other_refusal},
     {"station.restless", Rank::recent, "data exchange is left more than once in a minute",
      "Intermittent failure",
-     "Check wiring: continuity of A and B to the master, the correct terminals, the integrity of the "
-     "screening.\n"
+     "Check wiring: continuity of A and B to the master, the correct terminals, the integrity of the screening.\n"
      "Ensure that the maximum line length for the baud rate is not exceeded (below).\n"
      "Ensure that the last unit on the line is terminated correctly.\n"
      "Look at the master too. Does it go to STOP? Is its watchdog time for this slave too short?",

@@ -33,10 +33,10 @@ std::string line_table(Look look)
 
 std::string termination(Look look)
 {
-    return paragraph("",
-                     "termination: at both ends of the segment and nowhere else, 390 ohm to +5 V, 220 ohm "
-                     "between B and A, 390 ohm to 0 V",
-                     look.width);
+    return paragraph(
+        "",
+        "termination: at both ends of the segment and nowhere else, 390 ohm to +5 V, 220 ohm between B and A, 390 ohm to 0 V",
+        look.width);
 }
 
 std::string line_words(const report::Bus& bus, Look look)
@@ -112,10 +112,8 @@ std::string paragraphs(const std::vector<Finding>& findings, Kind kind, Look loo
                     findings[i].evidence, look.width);
         if (kind_of(rule) != kind) continue;
         const std::string head = head_of(kind, ++count);
-        for (const std::string& line :
-             wrapped(fmt::format("{}{} ({})", head, rule.cause, rule.source), look.width))
-            out += (line.starts_with(head) ? "\n" : "   ") +
-                   painted(line, kind == Kind::cause ? Tone::bad : Tone::strong, look) + '\n';
+        out += '\n' + title(fmt::format("{}{} ({})", head, rule.cause, rule.source),
+                            kind == Kind::cause ? Tone::bad : Tone::strong, look);
         out += seen + steps(rule, look);
     }
     return out;

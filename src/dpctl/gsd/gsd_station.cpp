@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gsd_station.hpp"
 
-#include "dpctl/cli/ask.hpp"
+#include "dpctl/cli/station_keys.hpp"
 
 #include "dpslave/report/replies.hpp"
 
@@ -21,13 +21,13 @@ std::optional<std::uint32_t> natural(std::optional<std::int64_t> value)
 /// Asks several methods; after the first failure none.
 class Questions {
 public:
-    Questions(const Options& options, Terminal& terminal) : options_(options), terminal_(terminal) {}
+    explicit Questions(Session& session) : session_(session) {}
 
     template <class Reply>
-    Reply ask(std::string_view method, const Json& parameters)
+    Reply ask(std::string_view method, const Json& parameters = Json::object())
     {
         if (exit_) return {};
-        const auto reply = dpctl::ask(options_, terminal_, method, parameters);
+        const auto reply = session_.ask(method, parameters);
         if (reply) return report::read<Reply>(*reply);
         exit_ = reply.error();
         return {};
@@ -36,8 +36,7 @@ public:
     std::optional<int> exit() const { return exit_; }
 
 private:
-    const Options& options_;
-    Terminal& terminal_;
+    Session& session_;
     std::optional<int> exit_;
 };
 
@@ -74,17 +73,17 @@ void take_diagnosis(configurator::RunningStation& station, const report::GetDiag
 
 } // namespace
 
-Result<FetchedStation, int> fetch_station(const Options& options, Terminal& terminal)
+Result<FetchedStation, int> fetch_station(const std::string& name, Session& session)
 {
-    Questions questions{options, terminal};
-    const Json which = station_parameter(options);
+    Questions questions{session};
+    const Json which = station_parameter(name);
     const auto infos = questions.ask<report::GetInfoReply>("GetInfo", which);
-    const auto status = questions.ask<report::GetStatusReply>("GetStatus", Json::object());
+    const auto status = questions.ask<report::GetStatusReply>("GetStatus");
     const auto diagnoses = questions.ask<report::GetDiagnosisReply>("GetDiagnosis", which);
-    const auto counters = questions.ask<report::GetCountersReply>("GetCounters", Json::object());
+    const auto counters = questions.ask<report::GetCountersReply>("GetCounters");
     if (questions.exit()) return Failure{*questions.exit()};
     if (infos.stations.empty()) {
-        terminal.err << "dpctl: the daemon has no such station\n";
+        session.terminal().err << "dpctl: the daemon has no such station\n";
         return Failure{static_cast<int>(kUsage)};
     }
     const report::Info& info = infos.stations.front();
@@ -92,7 +91,7 @@ Result<FetchedStation, int> fetch_station(const Options& options, Terminal& term
     configurator::RunningStation& station = fetched.station;
     station.name = info.name;
     station.profile = info.profile;
-    station.ident = natural(info.ident);
+    station.keys = keys_of(info);
     for (std::size_t i = 0; i < info.bauds.size() && i < info.max_tsdr.size(); ++i)
         station.rates.emplace_back(natural(info.bauds[i]), natural(info.max_tsdr[i]));
     take_bus(station, status, counters);

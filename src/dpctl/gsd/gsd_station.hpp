@@ -2,7 +2,7 @@
 /// What the daemon says of a station, as the check of a GSD file wants it.
 #pragma once
 
-#include "dpctl/cli/subcommands.hpp"
+#include "dpctl/cli/session.hpp"
 
 #include "dpslave/base/result.hpp"
 #include "dpslave/configurator/station_check.hpp"
@@ -14,7 +14,7 @@ struct FetchedStation {
     std::string tag_table; ///< its path on the machine of the daemon
 };
 
-/// The station of `options`, or the exit code of a failure that is printed already.
-Result<FetchedStation, int> fetch_station(const Options& options, Terminal& terminal);
+/// This station, or the exit code of a failure that is printed already.
+Result<FetchedStation, int> fetch_station(const std::string& station, Session& session);
 
 } // namespace dpslave::dpctl

@@ -49,10 +49,12 @@ std::string render_diagnosis(const Json& reply, Look look)
         out += block.str(2, look);
     }
     if (!out.empty())
-        out += '\n' + paragraph("",
-                                "octet: counted from 1, as the PROFIBUS standard does; offset: counted from "
-                                "0, as PLC programs do",
-                                look.width);
+        out +=
+            '\n' +
+            paragraph(
+                "",
+                "octet: counted from 1, as the PROFIBUS standard does; offset: counted from 0, as PLC programs do",
+                look.width);
     return out;
 }
 

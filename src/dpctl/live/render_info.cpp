@@ -43,6 +43,15 @@ std::string rates(const report::Info& info)
     return result;
 }
 
+/// "rule 590plus, assumed: ...".
+std::string mnemonics(const report::Info& info)
+{
+    std::string result = "rule " + *info.mnemonic_rule;
+    if (info.mnemonics_assumed) result += ", assumed";
+    if (info.mnemonic_source) result += ": " + *info.mnemonic_source;
+    return result;
+}
+
 } // namespace
 
 void add_info(Block& block, const report::Info& info, std::string_view version)
@@ -53,6 +62,8 @@ void add_info(Block& block, const report::Info& info, std::string_view version)
     block.add("host firmware", info.firmware);
     block.add("manual", info.manual);
     block.add("Ident_Number", fmt::format("0x{:04X}", info.ident));
+    if (info.tags_at) block.add("tags at octet", fmt::format("{} of User_Prm_Data", *info.tags_at));
+    if (const std::string own = joined(info.identifiers, ", "); !own.empty()) block.add("identifiers", own);
     block.add("address", address(info));
     if (info.comms_status) block.add("comms status", comms_status(*info.comms_status));
     if (info.resolution) block.add("resolution", *info.resolution);
@@ -62,6 +73,8 @@ void add_info(Block& block, const report::Info& info, std::string_view version)
     block.add("has Sync, Freeze", yes_no(info.sync) + ", " + yes_no(info.freeze));
     block.add("rates", rates(info));
     block.add("tag table", fmt::format("{}, {}", info.tag_table, plural(info.tags_in_table, "tag")));
+    if (info.mnemonic_rule)
+        block.add("mnemonics", mnemonics(info), info.mnemonics_assumed ? Tone::bad : Tone::plain);
     if (const std::string notes = joined(info.notes, "\n"); !notes.empty()) block.add("notes", notes);
 }
 

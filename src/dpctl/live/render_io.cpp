@@ -104,13 +104,12 @@ std::string render_io(const Json& json, Look look)
         if (s.demand) out += demand_lines(*s.demand, look);
     }
     if (!out.empty())
-        out += '\n' +
-               paragraph(
-                   "",
-                   "in: drive to master, out: master to drive; octet: place in the Data_Exchange telegram, "
-                   "counted from 0; word: place among the words of its direction, counted from 1 after "
-                   "Demand Data, as gsd make and dpsim count",
-                   look.width);
+        out +=
+            '\n' +
+            paragraph(
+                "",
+                "in: drive to master, out: master to drive; octet: place in the Data_Exchange telegram, counted from 0; word: place among the words of its direction, counted from 1 after Demand Data, as gsd make and dpsim count",
+                look.width);
     return out;
 }
 

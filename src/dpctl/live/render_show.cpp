@@ -41,8 +41,8 @@ std::string diagnosis(const report::Station& station)
 
 std::string drive(const report::Drive& d)
 {
-    std::string result =
-        fmt::format("unit {} on {} ({}, {}): {}\n", d.unit, d.line, d.port, d.protocol, d.link);
+    std::string result = fmt::format("unit {} on {} ({}, {}, direction {}): {}\n", d.unit, d.line, d.port,
+                                     d.protocol, d.direction, d.link);
     if (d.cycle_ms) result += fmt::format("a round takes {}; ", age(d.cycle_ms));
     result += fmt::format("{}, {}, {} unanswered, {} refused, lost {}", plural(d.reads, "read"),
                           plural(d.writes, "write"), d.silences, d.refusals, plural(d.losses, "time"));
@@ -56,8 +56,7 @@ void add_state(Block& block, const report::Station& s)
     block.add("state", s.state + (s.master ? fmt::format(", master {}", *s.master) : ", no master"),
               s.state == "Data_Exch" ? Tone::good : Tone::bad);
     if (s.held)
-        block.add("held", "the scale of a tag is not known, and no data are exchanged: dpctl diag",
-                  Tone::bad);
+        block.add("held", s.held_because.value_or("") + ", and no data are exchanged: dpctl diag", Tone::bad);
     if (s.clear) block.add("Clear", "the master is in Clear: 0 goes to every output", Tone::bad);
     if (s.ride) block.add("RIDE THROUGH", ride_text(*s.ride), Tone::bad);
     if (s.silent_because) block.add("silent", *s.silent_because);
@@ -78,8 +77,11 @@ std::string lamp_table(const report::StationLeds& leds, Look look)
 {
     Table table({"LED", "NOW", "PATTERN", "SINK"});
     for (const report::Led& led : leds.leds)
-        table.add({led.name, led.lit ? "lit" : "dark", led.pattern,
-                   led.sink == "none" ? "no lamp is configured" : led.sink});
+        table.add({led.name,
+                   led.trouble ? "cannot be switched"
+                   : led.lit   ? "lit"
+                               : "dark",
+                   led.pattern, led.sink == "none" ? "no lamp is configured" : led.sink});
     return table.empty() ? "" : table.str(look, 2);
 }
 

@@ -13,7 +13,8 @@ std::string remarks_of(const report::Station& s, Look look)
 {
     std::string out;
     const auto add = [&](const std::string& what) { out += paragraph(s.name + ": ", what, look.width); };
-    if (s.held) add("held at the start: the scale of a tag is not known; dpctl diag names tag and answer");
+    if (s.held)
+        add("held at the start: " + s.held_because.value_or("") + "; dpctl diag names tag and answer");
     if (s.clear) add("the master is in Clear: 0 goes to every output of the drive");
     if (s.sync) add("Sync holds the outputs: new values wait for the next Sync or Unsync");
     if (s.freeze)

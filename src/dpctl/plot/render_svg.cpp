@@ -13,12 +13,12 @@ constexpr int kWidth = 960, kLeft = 90, kRight = 40, kInner = kWidth - kLeft - k
 constexpr int kHead = 44, kTitle = 22, kHeight = 150, kAxis = 26, kNote = 18;
 constexpr std::size_t kTicks = 6, kTimeTicks = 9;
 
-constexpr const char* kStyle = "text{font:12px sans-serif;fill:#222}\n"
-                               ".head{font-size:15px}.y{text-anchor:end}.x{text-anchor:middle}\n"
-                               ".grid{stroke:#ccc;stroke-width:1}.gap{fill:#ddd}\n"
-                               "path{fill:none;stroke-width:1.5}\n"
-                               ".good{stroke:#1f5fa8}.held{stroke:#b45f06;stroke-dasharray:7 "
-                               "3}.failed{stroke:#b00020;stroke-dasharray:2 3}\n";
+constexpr const char* kStyle =
+    "text{font:12px sans-serif;fill:#222}\n"
+    ".head{font-size:15px}.y{text-anchor:end}.x{text-anchor:middle}\n"
+    ".grid{stroke:#ccc;stroke-width:1}.gap{fill:#ddd}\n"
+    "path{fill:none;stroke-width:1.5}\n"
+    ".good{stroke:#1f5fa8}.held{stroke:#b45f06;stroke-dasharray:7 3}.failed{stroke:#b00020;stroke-dasharray:2 3}\n";
 
 const char* class_of(Mark mark)
 {
@@ -168,12 +168,12 @@ std::string render_svg(const Plot& plot)
     }
     const std::string head = xml_text(fmt::format(
         "{}, {} to {}", plot.station, date_and_clock(plot.time.from_ms), date_and_clock(plot.time.to_ms)));
-    return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-                       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
-                       "viewBox=\"0 0 {0} {1}\">\n<title>{2}</title>\n<style>\n{3}</style>\n"
-                       "<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n"
-                       "<text class=\"head\" x=\"{4}\" y=\"24\">{2}</text>\n{5}</svg>\n",
-                       kWidth, y + kNote, head, kStyle, kLeft, body);
+    return fmt::format(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n<title>{2}</title>\n<style>\n{3}</style>\n"
+        "<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n"
+        "<text class=\"head\" x=\"{4}\" y=\"24\">{2}</text>\n{5}</svg>\n",
+        kWidth, y + kNote, head, kStyle, kLeft, body);
 }
 
 } // namespace dpslave::dpctl

@@ -119,8 +119,8 @@ std::string render_survey(const SurveyReport& report)
         for (const std::string& one : report.joined.contradictions) out += "  " + printable(one) + '\n';
     }
     if (!report.joined.waiting.empty())
-        out += "Next: compare these rows with the drive's manual, above all the decimals, and set confirmed "
-               "to yes.\n";
+        out +=
+            "Next: compare these rows with the drive's manual, above all the decimals, and set confirmed to yes.\n";
     return out;
 }
 

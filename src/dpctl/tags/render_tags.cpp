@@ -48,7 +48,7 @@ std::string_view access_text(const TagHit& hit)
         case Access::write_only: return "write only";
         case Access::unknown: break;
     }
-    return "not stated, the device decides";
+    return "not known: the device decides";
 }
 
 std::string demand_text(const TagHit& hit)
@@ -72,6 +72,7 @@ std::string type_text(const Tag& tag)
     if (tag.is_unsigned) text += ", unsigned";
     if (tag.follows_display)
         return text + fmt::format(", decimals as the display has them ({} here)", tag.decimals);
+    if (tag.in_counts) return text + ", in counts: its decimals are not known";
     return text + (tag.decimals == 0 ? "" : ", " + plural(tag.decimals, "decimal"));
 }
 
@@ -263,9 +264,7 @@ std::string render_tables(const std::vector<TagFile>& files, Look look)
     std::string out = tables.str(look);
     if (!without.empty())
         out +=
-            "\nOf these devices no public tag table exists. Their tags and scaling are those of the drive's "
-            "product manual,\nin decimal: write a table of the tags that you use, and name it in the station "
-            "(tags = \"FILE.csv\").\n" +
+            "\nOf these devices no public tag table exists. Their tags and scaling are those of the drive's product manual,\nin decimal: write a table of the tags that you use, and name it in the station (tags = \"FILE.csv\").\n" +
             without.str(look, 2);
     return out;
 }

@@ -20,10 +20,12 @@ namespace dpslave::dpctl {
 /// would write the same ones is refused meanwhile.
 class SurveyFiles {
 public:
-    /// `begin_with`: a table whose rows stand in the new one where there is no `table` yet; empty = none. The
+    /// `subject`: the station, and the rule where one is named; only its own record is continued.
+    /// `begin_with`: a table whose rows are in the new one where there is no `table` yet; empty = none. The
     /// error is a sentence.
-    static Result<SurveyFiles, std::string> open(const std::string& station, std::filesystem::path table,
-                                                 const std::filesystem::path& begin_with, bool resume);
+    static Result<SurveyFiles, std::string>
+    open(const std::string& subject, std::filesystem::path table, const std::filesystem::path& begin_with,
+         bool resume, profile::MnemonicCells mnemonics = profile::MnemonicCells::keep);
 
     /// Joins what was seen with the table as it is now and writes both files, each whole or not at all. The
     /// error is a sentence.
@@ -45,7 +47,8 @@ private:
     Result<Text, std::string> table_now() const;
     std::optional<std::string> join(const Text& now);
 
-    std::string station_;
+    std::string subject_;
+    profile::MnemonicCells mnemonics_ = profile::MnemonicCells::keep;
     std::filesystem::path table_, record_;
     std::string first_table_; ///< until `table_` is there
     std::size_t rows_taken_over_ = 0;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dpctl/gsd/gsd_files.hpp"
+#include "dpctl/cli/whole_file.hpp"
 #include "survey.hpp"
 
+#include "dpslave/input/text_source.hpp"
 #include "dpslave/io/file.hpp"
 #include "dpslave/profile/profile.hpp"
-#include "dpslave/toml/text_source.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -34,10 +34,10 @@ std::optional<io::Fd> lock_on(const std::filesystem::path& file)
     return is_taken ? std::nullopt : std::optional{std::move(open)}; // none where it is not there yet
 }
 
-std::string sentence(const toml::Faults& faults)
+std::string sentence(const input::Faults& faults)
 {
     std::string all;
-    for (const toml::Fault& fault : faults) all += (all.empty() ? "" : "\n") + to_string(fault);
+    for (const input::Fault& fault : faults) all += (all.empty() ? "" : "\n") + to_string(fault);
     return all;
 }
 
@@ -48,29 +48,30 @@ std::filesystem::path record_beside(const std::filesystem::path& table)
     return table.parent_path() / (table.stem().string() + ".survey.csv");
 }
 
-Result<SurveyFiles, std::string> SurveyFiles::open(const std::string& station, std::filesystem::path table,
-                                                   const std::filesystem::path& begin_with, bool resume)
+Result<SurveyFiles, std::string> SurveyFiles::open(const std::string& subject, std::filesystem::path table,
+                                                   const std::filesystem::path& begin_with, bool resume,
+                                                   profile::MnemonicCells mnemonics)
 {
     SurveyFiles files;
-    files.station_ = station;
+    files.subject_ = subject;
+    files.mnemonics_ = mnemonics;
     files.table_ = std::move(table);
     files.record_ = record_beside(files.table_);
     for (const auto& file : {files.table_, files.record_})
         if (const auto other = no_file(file)) return Failure{*other};
     auto lock = lock_on(files.record_);
     if (!lock)
-        return Failure{
-            fmt::format("{}: another survey writes this file: wait until it ends, or name another table "
-                        "with --table",
-                        files.record())};
+        return Failure{fmt::format(
+            "{}: another survey writes this file: wait until it ends, or name another table with --output",
+            files.record())};
     files.lock_ = *std::move(lock);
     files.begin_with(begin_with);
     if (resume) {
-        const auto record = toml::read_text(io::read_regular_file, files.record());
+        const auto record = input::read_text(io::read_regular_file, files.record());
         if (!record)
             return Failure{to_string(record.error()) +
                            " There is no survey to continue: leave out --resume to begin one."};
-        auto seen = profile::read_record(*record, files.record(), station);
+        auto seen = profile::read_record(*record, files.record(), subject);
         if (!seen) return Failure{sentence(seen.error())};
         files.seen = *std::move(seen);
     }
@@ -83,12 +84,12 @@ Result<SurveyFiles, std::string> SurveyFiles::open(const std::string& station, s
     return files;
 }
 
-/// The rows of `file` stand in a new table.
+/// The rows of `file` are in a new table.
 void SurveyFiles::begin_with(const std::filesystem::path& file)
 {
     std::error_code ignored;
     if (file.empty() || std::filesystem::exists(table_, ignored)) return;
-    auto first = toml::read_text(io::read_regular_file, file.string());
+    auto first = input::read_text(io::read_regular_file, file.string());
     if (!first) {
         not_taken_over_ = to_string(first.error());
         return;
@@ -111,7 +112,7 @@ Result<SurveyFiles::Text, std::string> SurveyFiles::table_now() const
 
 std::optional<std::string> SurveyFiles::join(const Text& now)
 {
-    auto joined = profile::merge_survey(now.text, table(), seen);
+    auto joined = profile::merge_survey(now.text, table(), seen, mnemonics_);
     if (!joined) return sentence(joined.error());
     joined_ = *std::move(joined);
     added_.insert(added_.end(), joined_.added.begin(), joined_.added.end());
@@ -123,7 +124,7 @@ std::optional<std::string> SurveyFiles::join(const Text& now)
 /// The record first: it holds what was read, even if an edit has made the table unreadable.
 std::optional<std::string> SurveyFiles::save()
 {
-    if (const auto failed = write_file(record_, profile::record_text(seen, station_), true))
+    if (const auto failed = write_file(record_, profile::record_text(seen, subject_), true))
         return fmt::format("{}: it cannot be written: {}", record(), failed->why);
     if (auto lock = lock_on(record_)) lock_ = *std::move(lock); // it is a new file
     const auto before = table_now();

@@ -2,11 +2,11 @@
 #include "tag_search.hpp"
 
 #include "dpslave/base/letters.hpp"
+#include "dpslave/base/number.hpp"
 #include "dpslave/io/file.hpp"
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <optional>
 
 namespace dpslave::dpctl {
@@ -44,18 +44,9 @@ Words words_of(std::string_view text)
 /// 270, 0x10E, >10E.
 std::optional<std::uint16_t> tag_number(std::string_view text)
 {
-    int base = 10;
-    if (text.starts_with("0x") || text.starts_with("0X")) {
-        text.remove_prefix(2);
-        base = 16;
-    } else if (text.starts_with('>')) {
-        text.remove_prefix(1);
-        base = 16;
-    }
-    std::uint16_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, base);
-    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return value;
+    const auto number = text.starts_with('>') ? read_number("0x" + std::string{text.substr(1)}, 0, 0xFFFF)
+                                              : read_number(text, 0, 0xFFFF);
+    return number ? std::optional{static_cast<std::uint16_t>(*number)} : std::nullopt;
 }
 
 /// Is `wanted` in `words`, and, where it is a number, behind a word with `before` (empty = anywhere)?
@@ -103,9 +94,9 @@ Match match(const drive::Tag& tag, const Words& query)
     return best;
 }
 
-void collect_faults(const toml::Faults& from, std::vector<std::string>& into)
+void collect_faults(const input::Faults& from, std::vector<std::string>& into)
 {
-    for (const toml::Fault& fault : from) into.push_back(to_string(fault));
+    for (const input::Fault& fault : from) into.push_back(to_string(fault));
 }
 
 /// What the profile adds to what is known of its table.

@@ -1,46 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "observer.hpp"
 
-#include "dpctl/cli/ask.hpp"
 #include "dpctl/cli/words.hpp"
 
 #include <algorithm>
 
 namespace dpslave::dpctl {
 
-Result<Json, Stopped> Observer::ask(const char* method, const Json& parameters, int wake,
-                                    const std::function<bool()>& on_wake)
-{
-    if (auto failed = client_.start_one(method, parameters)) return Failure{Stopped{std::move(failed), {}}};
-    for (;;) {
-        auto reply = client_.next(wake);
-        if (!reply) return Failure{Stopped{reply.error(), {}}};
-        if (!*reply && on_wake()) continue;
-        if (!*reply) return Failure{Stopped{}};
-        if (!(*reply)->error.empty()) return Failure{Stopped{{}, **reply}};
-        return std::move((*reply)->parameters);
-    }
-}
-
 /// With the last ones once more: equal events in a row are counted under the number of the first.
 Json Observer::event_parameters() const
 {
     constexpr std::int64_t kOnceMore = 8;
-    Json parameters = station_parameter(options_);
+    Json parameters = station_parameter(station_);
     if (newest_) parameters["after"] = std::max<std::int64_t>(*newest_, kOnceMore) - kOnceMore;
     return parameters;
 }
 
-Result<Observer::Replies, Stopped> Observer::look(int wake, const std::function<bool()>& on_wake)
+Result<Observer::Replies, Stopped> Observer::look()
 {
     Replies replies;
     replies.all = Json::object();
     // GetIo first: it says whether there is such a station.
-    for (const auto& [key, method, parameters] : {std::tuple{"io", "GetIo", station_parameter(options_)},
+    for (const auto& [key, method, parameters] : {std::tuple{"io", "GetIo", station_parameter(station_)},
                                                   {"status", "GetStatus", Json::object()},
                                                   {"events", "GetEvents", event_parameters()},
                                                   {"counters", "GetCounters", Json::object()}}) {
-        auto reply = ask(method, parameters, wake, on_wake);
+        auto reply = session_.call(method, parameters);
         if (!reply) return Failure{reply.error()};
         replies.all[key] = *std::move(reply);
     }

@@ -1,47 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Asks the daemon for all that `dpctl top` shows, and can be interrupted meanwhile.
+/// Asks the daemon for all that `dpctl top` shows.
 #pragma once
 
-#include "dpctl/cli/subcommands.hpp"
+#include "dpctl/cli/session.hpp"
 #include "figures.hpp"
 
-#include "dpslave/control/client.hpp"
-
-#include <functional>
 #include <optional>
+#include <string>
 #include <utility>
 
 namespace dpslave::dpctl {
 
-/// Why there is no further look. Neither: the end was wanted.
-struct Stopped {
-    std::optional<control::ClientError> failed{};
-    std::optional<control::ReplyMessage> refused{};
-};
-
-/// Over one connection, one call at a time.
+/// One call after the other.
 class Observer {
 public:
-    /// The replies as they came, by key as kTopJson (json_forms.hpp) describes them, and their moment.
+    /// The replies as they came, by key as the manual page of dpctl describes them, and their moment.
     struct Replies {
-        control::Json all;
+        Json all;
         std::chrono::nanoseconds at{}; ///< steady clock, when the counters came
         double unix_seconds = 0;       ///< since 1970, likewise
     };
 
-    Observer(control::Client client, const Options& options) : client_(std::move(client)), options_(options)
-    {}
-    /// Waits for the daemon. `on_wake` is called whenever `wake` is readable meanwhile; false from it: the
-    /// end is wanted.
-    Result<Replies, Stopped> look(int wake, const std::function<bool()>& on_wake);
+    Observer(Session& session, std::string station) : session_(session), station_(std::move(station)) {}
+    Result<Replies, Stopped> look();
 
 private:
-    Result<control::Json, Stopped> ask(const char* method, const control::Json& parameters, int wake,
-                                       const std::function<bool()>& on_wake);
-    control::Json event_parameters() const;
+    Json event_parameters() const;
 
-    control::Client client_;
-    const Options& options_;
+    Session& session_;
+    std::string station_;                ///< name or address; empty = all
     std::optional<std::int64_t> newest_; ///< number of the last event; none: it was not asked yet
 };
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "screen.hpp"
 
-#include <poll.h>
+#include "dpctl/cli/end_signals.hpp"
+
 #include <sys/epoll.h>
 #include <sys/ioctl.h>
 #include <sys/signalfd.h>
@@ -32,12 +33,6 @@ void add_readable(int epoll, int fd)
 {
     epoll_event wanted{.events = EPOLLIN, .data = {.fd = fd}};
     ::epoll_ctl(epoll, EPOLL_CTL_ADD, fd, &wanted);
-}
-
-bool is_readable(int fd)
-{
-    pollfd one{.fd = fd, .events = POLLIN, .revents = 0};
-    return ::poll(&one, 1, 0) > 0;
 }
 
 } // namespace
@@ -87,12 +82,6 @@ void Screen::leave()
     if (before_) ::tcsetattr(STDIN_FILENO, TCSADRAIN, &*before_);
 }
 
-void Screen::wait(int milliseconds) const
-{
-    pollfd one{.fd = epoll_, .events = POLLIN, .revents = 0};
-    ::poll(&one, 1, milliseconds);
-}
-
 Screen::Input Screen::fetch()
 {
     Input all;
@@ -117,7 +106,7 @@ void Screen::fetch_signals(Input& into)
 
 void Screen::fetch_keys(Input& into)
 {
-    while (is_readable(STDIN_FILENO)) {
+    while (becomes_readable(STDIN_FILENO, 0)) {
         std::array<char, 256> octets;
         const auto got = ::read(STDIN_FILENO, octets.data(), octets.size());
         if (got < 0 && errno == EINTR) continue;

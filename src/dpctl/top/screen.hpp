@@ -27,13 +27,11 @@ public:
 
     /// Readable as soon as there is something for fetch().
     int fd() const { return epoll_; }
-    /// Waits for it, at most this long.
-    void wait(int milliseconds) const;
 
     /// What has come since the last time.
     struct Input {
         bool is_end = false;       ///< SIGINT, SIGTERM, SIGHUP, SIGQUIT, or the terminal has gone
-        bool wants_redraw = false; ///< the size is another one, or the program stood still
+        bool wants_redraw = false; ///< the size is another one, or the program was stopped
         std::vector<Key> keys{};
     };
     Input fetch();

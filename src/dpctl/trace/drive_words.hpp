@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A frame of a drive line in words. It is taken as it is: whether its check sum is right, the daemon says.
+/// A frame of a drive line in words. It is taken as it is: whether its checksum is right, the daemon says.
 /// Pure. Source: docs/reference/drive-protocols.md, sections 1 and 5.
 #pragma once
 
@@ -12,7 +12,7 @@ namespace dpslave::dpctl {
 
 struct DriveWords {
     std::string words;        ///< "read PV"; empty: it has the form of no frame
-    std::string_view check{}; ///< the name of its check sum: "BCC", "CRC"; empty: it has none
+    std::string_view check{}; ///< the name of its checksum: "BCC", "CRC"; empty: it has none
 };
 
 DriveWords ei_ascii_words(Bytes frame);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "incident.hpp"
 
-#include "dpctl/cli/ask.hpp"
 #include "dpctl/cli/words.hpp"
+#include "trace_printer.hpp"
 
 #include "dpslave/base/base64.hpp"
 #include "dpslave/base/printable.hpp"
@@ -46,17 +46,14 @@ Octets octets_of(std::string_view text)
 }
 
 /// The whole file, piece by piece. The failure is an exit code; why is printed.
-Result<Octets, int> fetch(const Options& options, Terminal& terminal)
+Result<Octets, int> fetch_incident(std::int64_t number, Session& session)
 {
-    auto client = control::Client::connect(options.socket, options.timeout());
-    if (!client) return Failure{print_error(client.error(), terminal)};
     Octets file;
     for (;;) {
-        const auto reply = client->call("GetIncident", {{"number", options.incident},
-                                                        {"offset", static_cast<std::int64_t>(file.size())}});
-        if (!reply) return Failure{print_error(reply.error(), terminal)};
-        if (!reply->error.empty()) return Failure{print_error(*reply, options, terminal)};
-        const auto piece = report::read<report::GetIncidentReply>(reply->parameters);
+        const auto reply = session.ask(
+            "GetIncident", {{"number", number}, {"offset", static_cast<std::int64_t>(file.size())}});
+        if (!reply) return Failure{reply.error()};
+        const auto piece = report::read<report::GetIncidentReply>(*reply);
         const auto octets = from_base64(piece.octets);
         if (!octets || octets->empty() || std::cmp_greater(file.size() + octets->size(), piece.size))
             return file;
@@ -143,7 +140,7 @@ void add_start_up(const report::IncidentStation& station, const std::vector<trac
 }
 
 /// The frames of the drive lines. Gives the names of the lines.
-std::vector<std::string> print_lines(Bytes rest, const std::function<void(const LineEntry&)>& print)
+std::vector<std::string> take_lines(Bytes rest, std::vector<LineEntry>& frames)
 {
     std::vector<std::string> lines;
     std::uint64_t expected = 0; // number of the next record; 0: not known
@@ -156,21 +153,20 @@ std::vector<std::string> print_lines(Bytes rest, const std::function<void(const 
         }
         const auto entry = lines.empty() ? std::nullopt : line_entry_of(*record, lines.back());
         if (!entry) continue;
-        if (expected != 0 && record->number > expected) print(gap_before(*entry, record->number - expected));
+        if (expected != 0 && record->number > expected)
+            frames.push_back(gap_before(*entry, record->number - expected));
         expected = record->number + 1;
-        print(*entry);
+        frames.push_back(*entry);
     }
     return lines;
 }
 
-void print_head(const report::IncidentHead& head, const Options& options, Terminal& terminal)
+void print_head(const report::IncidentHead& head, Session& session)
 {
-    if (!options.json) {
-        terminal.out << render_incident(head);
-        return;
-    }
-    const Json json{{"what", "incident"}, {"incident", json_of(head)}};
-    terminal.out << printable_json(json.dump(-1, ' ', false, Json::error_handler_t::replace)) << '\n';
+    if (session.json())
+        session.print_line({{"what", "incident"}, {"incident", json_of(head)}});
+    else
+        session.terminal().out << render_incident(head);
 }
 
 } // namespace
@@ -227,46 +223,51 @@ std::vector<trace::Entry> start_up(const std::vector<report::IncidentStation>& s
     return entries;
 }
 
-int list_incidents(const Options& options, Terminal& terminal)
+int list_incidents(Session& session)
 {
-    return show(options, terminal, "ListIncidents", Json::object(), [&](const Json& json) {
-        return render_incidents(report::read<report::ListIncidentsReply>(json), terminal.look());
+    return session.show("ListIncidents", Json::object(), [&](const Json& json) {
+        return render_incidents(report::read<report::ListIncidentsReply>(json), session.terminal().look());
     });
 }
 
-int print_incident(const Options& options, Terminal& terminal, const IncidentPrinter& print,
+int print_incident(const TraceOptions& options, Session& session, const EntryPrinter& print,
                    std::int64_t& ended_at)
 {
-    const auto octets = fetch(options, terminal);
+    const auto octets = fetch_incident(options.incident, session);
     if (!octets) return octets.error();
     const auto file = trace::read_incident(*octets);
     if (!file) {
-        terminal.err << "dpctl: incident " << options.incident << ": " << file.error()
-                     << ". It may have been replaced while it was read: try again.\n";
+        session.terminal().err << "dpctl: incident " << options.incident << ": " << file.error()
+                               << ". It may have been replaced while it was read: try again.\n";
         return kNo;
     }
     const Json json = Json::parse(file->head, nullptr, false);
     const auto head = report::read<report::IncidentHead>(json.is_object() ? json : Json::object());
-    if (options.file.empty()) print_head(head, options, terminal);
+    if (options.file.empty()) print_head(head, session);
     const UnixOffset offset{head.unix_ns - head.at_ns};
     ended_at = head.unix_ns;
     const auto ends = [&](Instant last) { ended_at = std::max(ended_at, unix_ns(last, offset)); };
     Bytes records = file->records;
     const auto telegrams = take_bus(records, std::chrono::nanoseconds{head.hold_back_ns});
     for (const trace::Entry& entry : start_up(head.stations, telegrams))
-        print.telegram(entry, offset, "from the head of the incident: it was before");
-    for (const trace::Entry& entry : telegrams) {
-        print.telegram(entry, offset, {});
-        ends(entry.last);
+        print.telegram(entry, offset, kBefore);
+    const auto cause = cause_in(head, telegrams);
+    for (std::size_t i = 0; i < telegrams.size(); ++i) {
+        print.telegram(telegrams[i], offset, cause == i ? kCause : std::string_view{});
+        ends(telegrams[i].last);
     }
-    const auto lines = print_lines(records, [&](const LineEntry& entry) {
-        print.frame(entry, offset);
-        ends(entry.last);
-    });
-    if (options.drive.empty() || std::find(lines.begin(), lines.end(), options.drive) != lines.end())
+    std::vector<LineEntry> frames;
+    const auto lines = take_lines(records, frames);
+    const auto cause_on_line = cause_in(head, frames);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        print.frame(frames[i], offset, cause_on_line == i ? kCause : std::string_view{});
+        ends(frames[i].last);
+    }
+    if (options.line.empty() || std::find(lines.begin(), lines.end(), options.line) != lines.end())
         return kFine;
-    terminal.err << fmt::format("dpctl: incident {} has no drive line '{}'; it has: {}\n", options.incident,
-                                printable(options.drive), printable(joined(lines, ", ")));
+    session.terminal().err << fmt::format("dpctl: incident {} has no drive line '{}'; it has: {}\n",
+                                          options.incident, printable(options.line),
+                                          printable(joined(lines, ", ")));
     return kUsage;
 }
 

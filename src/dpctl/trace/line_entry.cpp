@@ -34,11 +34,11 @@ std::string drive_text(const LineEntry& entry)
     return fmt::format("{:X}{:X}", entry.drive >> 4U, entry.drive & 0xFU);
 }
 
-/// It is put together as a frame, though its check sum may be wrong.
+/// It is put together as a frame, though its checksum may be wrong.
 bool has_form(const LineEntry& entry)
 {
     return entry.judgement != Judgement::bad_character && entry.judgement != Judgement::truncated &&
-           entry.judgement != Judgement::no_frame;
+           entry.judgement != Judgement::no_frame && entry.judgement != Judgement::noise_before;
 }
 
 DriveWords frame_words(const LineEntry& entry)
@@ -49,7 +49,70 @@ DriveWords frame_words(const LineEntry& entry)
                                                       : ei_ascii_words(entry.octets);
 }
 
+std::optional<std::uint8_t> hex_digit(std::uint8_t octet)
+{
+    if (octet >= '0' && octet <= '9') return static_cast<std::uint8_t>(octet - '0');
+    if (octet >= 'A' && octet <= 'F') return static_cast<std::uint8_t>(octet - 'A' + 10);
+    return std::nullopt;
+}
+
+/// Whom a question asks: in EI-ASCII behind EOT, each digit twice; in Modbus the first octet.
+std::optional<std::uint8_t> asked_by(Bytes question, LineProtocol protocol)
+{
+    if (protocol == LineProtocol::modbus_rtu)
+        return question.empty() ? std::nullopt : std::optional{question[0]};
+    if (question.size() < 5) return std::nullopt;
+    const auto group = hex_digit(question[1]), unit = hex_digit(question[3]);
+    return group && unit ? std::optional{static_cast<std::uint8_t>(*group << 4U | *unit)} : std::nullopt;
+}
+
+std::optional<Judgement> judgement_called(const std::vector<std::string>& comments)
+{
+    for (std::size_t i = 0; i < drive::kJudgements; ++i)
+        if (std::find(comments.begin(), comments.end(), drive::text(static_cast<Judgement>(i))) !=
+            comments.end())
+            return static_cast<Judgement>(i);
+    return std::nullopt;
+}
+
 } // namespace
+
+std::optional<std::string> line_called(const pcapng::Interface& interface)
+{
+    constexpr std::string_view kDrive = "drive ";
+    const bool is_line = interface.link_type == static_cast<std::uint16_t>(pcapng::LinkType::user1) ||
+                         interface.link_type == static_cast<std::uint16_t>(pcapng::LinkType::user2);
+    if (!is_line) return std::nullopt;
+    const std::string& name = interface.name;
+    return name.starts_with(kDrive) ? name.substr(kDrive.size()) : name;
+}
+
+std::optional<LineEntry> line_entry_of(const pcapng::Packet& packet, const pcapng::Interface& interface,
+                                       std::uint8_t asked)
+{
+    const auto line = line_called(interface);
+    if (!line || packet.direction == pcapng::Direction::unknown) return std::nullopt;
+    LineEntry entry;
+    entry.line = *line;
+    entry.protocol = interface.link_type == static_cast<std::uint16_t>(pcapng::LinkType::user2)
+                         ? LineProtocol::modbus_rtu
+                         : LineProtocol::ei_ascii;
+    entry.drive = asked;
+    entry.octets = packet.octets;
+    if (packet.direction == pcapng::Direction::outbound) {
+        entry.drive = asked_by(entry.octets, entry.protocol).value_or(asked);
+        return entry;
+    }
+    if (packet.octets.empty()) {
+        entry.what = Said::silence;
+        return entry;
+    }
+    entry.what = Said::answer;
+    const auto judgement = judgement_called(packet.comments);
+    entry.is_judged = judgement.has_value();
+    entry.judgement = judgement.value_or(packet.checksum_error ? Judgement::bad_checksum : Judgement::taken);
+    return entry;
+}
 
 std::optional<LineEntry> line_entry_of(const trace::Record& record, const std::string& line)
 {
@@ -89,10 +152,10 @@ std::string words_of(const LineEntry& entry)
     if (entry.what == Said::lost) return fmt::format("{} records were lost here", entry.count);
     const DriveWords frame = frame_words(entry);
     std::string words = frame.words;
-    if (!frame.check.empty())
+    if (!frame.check.empty() && entry.is_judged)
         words += fmt::format(", {} {}", frame.check,
                              entry.judgement == Judgement::bad_checksum ? "wrong" : "right");
-    if (entry.what == Said::question) return words;
+    if (entry.what == Said::question || !entry.is_judged) return words;
     return words + (words.empty() ? "" : ": ") + std::string{drive::text(entry.judgement)};
 }
 
@@ -127,7 +190,7 @@ Json json_of(const LineEntry& entry, const std::string& words, UnixOffset offset
               {"judgement", nullptr},
               {"octets", hex(entry.octets)},
               {"lost", entry.count}};
-    if (entry.what == Said::answer) json["judgement"] = drive::name(entry.judgement);
+    if (entry.what == Said::answer && entry.is_judged) json["judgement"] = drive::name(entry.judgement);
     return json;
 }
 
@@ -148,7 +211,8 @@ std::optional<pcapng::Packet> packet_of(const LineEntry& entry, UnixOffset offse
     packet.octets = entry.octets;
     if (entry.what == Said::silence)
         packet.comments.push_back(fmt::format("{}: {}", drive_text(entry), words_of(entry)));
-    if (entry.what == Said::answer) packet.comments.emplace_back(drive::text(entry.judgement));
+    if (entry.what == Said::answer && entry.is_judged)
+        packet.comments.emplace_back(drive::text(entry.judgement));
     return packet;
 }
 

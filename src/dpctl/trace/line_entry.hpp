@@ -5,11 +5,13 @@
 
 #include "trace_text.hpp"
 
-#include "dpslave/drive/line_frames.hpp"
+#include "dpslave/drive/frame_notes.hpp"
 #include "dpslave/trace/record.hpp"
 
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dpslave::dpctl {
@@ -24,8 +26,9 @@ struct LineEntry {
     What what = What::question;
     std::string line; ///< its name
     drive::LineProtocol protocol = drive::LineProtocol::ei_ascii;
-    std::uint8_t drive = 0; ///< as drive::LineFrame has it
+    std::uint8_t drive = 0; ///< as drive::TracedFrame has it
     drive::Judgement judgement = drive::Judgement::taken;
+    bool is_judged = true;   ///< else nobody said how: a capture of another program
     Instant first{}, last{}; ///< begin of the first and end of the last character
     std::vector<std::uint8_t> octets;
     std::uint64_t count = 0;
@@ -47,5 +50,18 @@ Json json_of(const LineEntry& entry, const std::string& words, UnixOffset offset
 /// Nothing: it is no packet (a gap in the records).
 std::optional<pcapng::Packet> packet_of(const LineEntry& entry, UnixOffset offset);
 pcapng::LinkType link_type_of(drive::LineProtocol protocol);
+/// The frame of a packet that packet_of() made, whose interface has the name of the line behind "drive ".
+/// `asked`: the drive of the question before it. Of another program's packet without a judgement. Nothing: it
+/// is of no drive line, or nothing says who sent it.
+std::optional<LineEntry> line_entry_of(const pcapng::Packet& packet, const pcapng::Interface& interface,
+                                       std::uint8_t asked);
+/// The line of an interface that TraceFile made; nothing: it is of none.
+std::optional<std::string> line_called(const pcapng::Interface& interface);
+
+/// What prints entries, those of the bus and those of the drive lines, with a note or none.
+struct EntryPrinter {
+    std::function<void(const trace::Entry&, UnixOffset, std::string_view note)> telegram;
+    std::function<void(const LineEntry&, UnixOffset, std::string_view note)> frame;
+};
 
 } // namespace dpslave::dpctl

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trace_condition.hpp"
 
+#include "dpslave/base/number.hpp"
+
 #include <fmt/format.h>
 
-#include <charconv>
 #include <utility>
 
 namespace dpslave::dpctl {
@@ -12,16 +13,13 @@ namespace {
 using What = trace::Entry::What;
 
 constexpr std::string_view kLegal =
-    "Write one of these, or several with commas, which then must all hold: bad, "
-    "unanswered, service=NAME, station=STATION, from=ADDRESS, to=ADDRESS";
+    "Write one of these, or several with commas, which then must all hold: bad, unanswered, service=NAME, station=STATION, from=ADDRESS, to=ADDRESS";
 
 std::optional<std::uint8_t> address_in(std::string_view text)
 {
-    constexpr unsigned kHighest = 127;
-    unsigned number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc{} || end != text.data() + text.size() || number > kHighest) return std::nullopt;
-    return static_cast<std::uint8_t>(number);
+    constexpr std::int64_t kHighest = 127;
+    const auto number = read_number(text, 0, kHighest);
+    return number ? std::optional{static_cast<std::uint8_t>(*number)} : std::nullopt;
 }
 
 /// What is wrong with the word; nothing: it is in `into` now.

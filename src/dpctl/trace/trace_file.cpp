@@ -77,13 +77,16 @@ void TraceFile::add(const trace::Entry& entry, const TraceWords& words, UnixOffs
 }
 
 /// Wireshark's dissector knows such an interface by its name.
-void TraceFile::add(const LineEntry& entry, UnixOffset offset)
+void TraceFile::add(const LineEntry& entry, UnixOffset offset, std::string_view note)
 {
     const bool is_modbus = entry.protocol == drive::LineProtocol::modbus_rtu;
     const std::uint32_t number =
         interface("drive " + entry.line, link_type_of(entry.protocol), is_modbus ? "Modbus RTU" : "EI-ASCII");
     if (entry.what == LineEntry::What::lost) lost(number, entry.count);
-    if (auto packet = packet_of(entry, offset)) add(number, std::move(*packet));
+    auto packet = packet_of(entry, offset);
+    if (!packet) return;
+    if (!note.empty()) packet->comments.emplace_back(note);
+    add(number, *std::move(packet));
 }
 
 std::uint64_t TraceFile::packets() const

@@ -29,7 +29,7 @@ public:
     /// One entry; `note` becomes a comment. What was lost is written with the packet behind it.
     void add(const trace::Entry& entry, const TraceWords& words, UnixOffset offset,
              std::string_view note = {});
-    void add(const LineEntry& entry, UnixOffset offset);
+    void add(const LineEntry& entry, UnixOffset offset, std::string_view note = {});
     /// What was written as it came is in the file: it ends with a whole packet.
     void flush() { file_.flush(); }
     /// The end: what was received and lost. The error is a sentence with the path.

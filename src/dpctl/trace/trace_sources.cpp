@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trace_sources.hpp"
 
-#include "dpctl/cli/ask.hpp"
+#include "dpctl/cli/station_keys.hpp"
 
 #include "dpslave/base/letters.hpp"
 #include "dpslave/base/printable.hpp"
@@ -78,6 +78,7 @@ void round_to_integers(profile::Profile& device)
         if (tag.is_real) {
             tag.decimals = 0;
             tag.follows_display = false;
+            tag.in_counts = false;
         }
     device.tags = drive::TagTable{std::move(tags)};
 }
@@ -90,9 +91,14 @@ Result<profile::Profile, std::string> device_of(const report::Info& info, const 
     if (info.tag_table != device->tag_file) {
         auto tags = profile::load_tags(io::read_regular_file, info.tag_table);
         if (!tags) return Failure{to_string(tags.error().front())};
-        device->tags = *std::move(tags);
+        std::vector<drive::Tag> rows = tags->all();
+        if (device->selectable_resolution) drive::mark_counts(rows);
+        device->tags = drive::TagTable{std::move(rows)};
     }
-    device->ident = device->personality.ident = static_cast<std::uint16_t>(info.ident);
+    const profile::StationKeys keys = keys_of(info);
+    if (profile::wrong_keys(*device, keys).empty())
+        device->personality = profile::personality_of(*device, keys);
+    device->ident = keys.ident;
     if (info.resolution == "integer") round_to_integers(*device);
     return *std::move(device);
 }
@@ -104,18 +110,18 @@ std::vector<std::uint8_t> octets_in(const std::string& text)
 }
 
 /// The stations that there are; none with a daemon that only listens.
-std::optional<int> ask_stations(const Options& options, Terminal& terminal, TraceSources& into)
+std::optional<int> ask_stations(const TraceOptions& options, Session& session, TraceSources& into)
 {
-    const auto infos = ask(options, terminal, "GetInfo", Json::object());
+    const auto infos = session.ask("GetInfo");
     if (!infos) return infos.error();
-    const auto diagnoses = ask(options, terminal, "GetDiagnosis", Json::object());
+    const auto diagnoses = session.ask("GetDiagnosis");
     if (!diagnoses) return diagnoses.error();
     const auto all = report::read<report::GetDiagnosisReply>(*diagnoses).stations;
     for (const report::Info& info : report::read<report::GetInfoReply>(*infos).stations) {
         auto device = device_of(info, options.profiles);
         if (!device) {
-            terminal.err << fmt::format("dpctl: {} is decoded without the names of its tags: {}\n",
-                                        printable(info.name), printable(device.error()));
+            session.terminal().err << fmt::format("dpctl: {} is decoded without the names of its tags: {}\n",
+                                                  printable(info.name), printable(device.error()));
             continue;
         }
         TraceStation station{
@@ -131,18 +137,42 @@ std::optional<int> ask_stations(const Options& options, Terminal& terminal, Trac
     return std::nullopt;
 }
 
-} // namespace
-
-Result<TraceSources, int> trace_sources(const Options& options, Terminal& terminal)
+Result<TraceSources, int> with_texts(TraceSources sources, const TraceOptions& options, Terminal& terminal)
 {
-    TraceSources sources;
-    if (const auto failed = ask_stations(options, terminal, sources)) return Failure{*failed};
     if (options.gsd_folder.empty()) return sources;
     if (const auto why = read_gsd_folder(options.gsd_folder, sources.decoder, terminal)) {
         terminal.err << "dpctl: " << printable(*why) << '\n';
         return Failure{int{kNo}};
     }
     return sources;
+}
+
+} // namespace
+
+Result<TraceSources, int> trace_sources(const TraceOptions& options, Session& session)
+{
+    TraceSources sources;
+    if (const auto failed = ask_stations(options, session, sources)) return Failure{*failed};
+    return with_texts(std::move(sources), options, session.terminal());
+}
+
+Result<TraceSources, int> sources_of_capture(const TraceOptions& options,
+                                             const std::map<std::uint8_t, std::uint16_t>& idents,
+                                             Terminal& terminal)
+{
+    TraceSources sources;
+    for (const auto& [address, ident] : idents) {
+        if (options.profile.empty()) break;
+        auto device = profile::load_profile(io::read_regular_file, options.profiles, options.profile);
+        if (!device) {
+            terminal.err << "dpctl: " << printable(to_string(device.error().front())) << '\n';
+            return Failure{int{kNo}};
+        }
+        if (device->ident && *device->ident != ident) continue;
+        device->ident = device->personality.ident = ident;
+        sources.decoder.set_device(address, *std::move(device));
+    }
+    return with_texts(std::move(sources), options, terminal);
 }
 
 void set_layouts(TraceSources& sources, const std::bitset<128>& changed)

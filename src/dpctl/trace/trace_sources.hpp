@@ -2,13 +2,15 @@
 /// What `dpctl trace --decode` knows before the first telegram: the stations of the daemon, and GSD files.
 #pragma once
 
-#include "dpctl/cli/subcommands.hpp"
+#include "dpctl/cli/session.hpp"
 #include "trace_decode.hpp"
+#include "trace_options.hpp"
 
 #include "dpslave/base/result.hpp"
 
 #include <bitset>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -28,7 +30,14 @@ struct TraceSources {
 
 /// Asks the daemon and reads the files of --gsd. A station whose files cannot be read is decoded without
 /// names, which is printed. The failure is an exit code; why is printed.
-Result<TraceSources, int> trace_sources(const Options& options, Terminal& terminal);
+Result<TraceSources, int> trace_sources(const TraceOptions& options, Session& session);
+
+/// Of a capture, without a daemon: the files of --gsd; and the device of --profile for the slaves with its
+/// ident
+/// (`idents`, by address), with those that are open for each.
+Result<TraceSources, int> sources_of_capture(const TraceOptions& options,
+                                             const std::map<std::uint8_t, std::uint16_t>& idents,
+                                             Terminal& terminal);
 
 /// Gives `sources.decoder` the layouts in force, but not those of the slaves in `changed`: an older telegram
 /// of them may have had another layout.

@@ -5,6 +5,7 @@
 #include "dpctl/decode/decode.hpp"
 
 #include "dpslave/base/letters.hpp"
+#include "dpslave/base/number.hpp"
 
 #include <fmt/format.h>
 
@@ -26,6 +27,7 @@ std::string_view name_of(What what)
     switch (what) {
         case What::telegram: return "telegram";
         case What::piece: return "piece";
+        case What::cut: return "cut";
         case What::reply: return "reply";
         case What::unanswered: return "unanswered";
         case What::rate: return "rate";
@@ -34,7 +36,7 @@ std::string_view name_of(What what)
     return "?";
 }
 
-std::string why_in_words(fdl::Unanswered::Why why)
+std::string_view why_in_words(fdl::Unanswered::Why why)
 {
     using Why = fdl::Unanswered::Why;
     switch (why) {
@@ -56,6 +58,37 @@ TraceWords words_of_telegram(const Entry& entry)
     if (telegram->delimiter == fdl::kSD4)
         return {.from = telegram->sa, .to = telegram->da, .service = "token"};
     return {.from = telegram->sa, .to = telegram->da, .service = service_name(*telegram)};
+}
+
+constexpr std::string_view kNoTelegram = "no telegram",
+                           kNoReply = "no reply: ", kCut = "cut: the rest of this telegram was not recorded";
+
+/// What a comment of packet_of() says of the entry; nothing: it is none of them.
+std::optional<Entry> entry_said_by(std::string_view comment, Entry entry)
+{
+    if (comment == kCut) {
+        entry.what = What::cut;
+        return entry;
+    }
+    if (comment.starts_with(kNoTelegram)) {
+        entry.what = What::piece;
+        for (std::size_t i = 0; i < fdl::kFlaws; ++i)
+            if (comment == fmt::format("{}: {}", kNoTelegram, fdl::text(static_cast<fdl::Flaw>(i))))
+                entry.flaw = static_cast<fdl::Flaw>(i);
+        return entry.flaw || comment == kNoTelegram ? std::optional{entry} : std::nullopt;
+    }
+    const std::size_t colon = comment.find(": ");
+    const auto address = read_number(comment.substr(0, colon), 0, 127);
+    if (colon == std::string_view::npos || !address) return std::nullopt;
+    for (std::size_t i = 0; i < fdl::kUnansweredReasons; ++i) {
+        const auto why = static_cast<fdl::Unanswered::Why>(i);
+        if (comment.substr(colon + 2) != fmt::format("{}{}", kNoReply, why_in_words(why))) continue;
+        entry.what = What::unanswered;
+        entry.why = why;
+        entry.address = static_cast<std::uint8_t>(*address);
+        return entry;
+    }
+    return std::nullopt;
 }
 
 } // namespace
@@ -90,10 +123,13 @@ TraceWords words_of(const Entry& entry)
         case What::piece:
             return {.from = {},
                     .to = {},
-                    .service = entry.flaw ? fmt::format("no telegram: {}", fdl::text(*entry.flaw))
-                                          : std::string{"no telegram"}};
+                    .service = entry.flaw ? fmt::format("{}: {}", kNoTelegram, fdl::text(*entry.flaw))
+                                          : std::string{kNoTelegram}};
+        case What::cut: return {.from = {}, .to = {}, .service = std::string{kCut}};
         case What::unanswered:
-            return {.from = entry.address, .to = {}, .service = "no reply: " + why_in_words(entry.why)};
+            return {.from = entry.address,
+                    .to = {},
+                    .service = fmt::format("{}{}", kNoReply, why_in_words(entry.why))};
         case What::rate:
             return {.from = {},
                     .to = {},
@@ -151,10 +187,29 @@ std::optional<pcapng::Packet> packet_of(const Entry& entry, const TraceWords& wo
     packet.checksum_error = entry.what == What::piece;
     packet.character_error = entry.bad_characters != 0;
     packet.octets = entry.octets;
-    if (entry.what == What::piece) packet.comments.push_back(words.service);
+    if (entry.what == What::piece || entry.what == What::cut) packet.comments.push_back(words.service);
     if (entry.what == What::unanswered)
         packet.comments.push_back(fmt::format("{}: {}", entry.address, words.service));
     return packet;
+}
+
+std::optional<trace::Entry> entry_of(const pcapng::Packet& packet)
+{
+    Entry entry;
+    entry.octets = packet.octets;
+    entry.bad_characters = packet.character_error ? 1 : 0;
+    for (const std::string& comment : packet.comments)
+        if (auto ours = entry_said_by(comment, entry)) return ours;
+    if (packet.octets.empty()) return std::nullopt;
+    entry.what = packet.direction == pcapng::Direction::outbound ? What::reply : What::telegram;
+    return entry.what == What::reply || telegram_of(entry) ? std::optional{entry} : std::nullopt;
+}
+
+std::string_view note_of(const pcapng::Packet& packet)
+{
+    for (const std::string& comment : packet.comments)
+        if (!entry_said_by(comment, {})) return comment;
+    return {};
 }
 
 } // namespace dpslave::dpctl

@@ -48,5 +48,10 @@ Json json_of(const trace::Entry& entry, const TraceWords& words, UnixOffset offs
 /// Nothing: it is no packet (a change of the rate, a gap in the records).
 std::optional<pcapng::Packet> packet_of(const trace::Entry& entry, const TraceWords& words,
                                         UnixOffset offset);
+/// The entry of a packet that packet_of() made, without its times and its rate; of a packet of another
+/// program, if it is a telegram or a reply. Nothing: it is none of them.
+std::optional<trace::Entry> entry_of(const pcapng::Packet& packet);
+/// The first comment that packet_of() did not make; empty: there is none.
+std::string_view note_of(const pcapng::Packet& packet);
 
 } // namespace dpslave::dpctl

@@ -61,7 +61,7 @@ struct SoftwarePart {
 };
 SoftwarePart software_part(const TuneFacts& facts);
 
-/// MaxTsdr that follows from an idle time-out and a software part: T_bit, rounded up, never below min T_SDR
+/// MaxTsdr that follows from an idle timeout and a software part: T_bit, rounded up, never below min T_SDR
 /// (wire reference 11.6, "Minimum MaxTsdr").
 std::uint32_t needed_tsdr(std::uint32_t idle_timeout_tbit, std::uint32_t software_us, Baud baud);
 
@@ -105,7 +105,6 @@ BusFacts bus_facts(const report::Bus& bus, const report::GetInfoReply& info,
 
 Json tune_json(const TuneFacts& facts, const std::vector<RateJudgment>& rates,
                const std::vector<TuneFinding>& findings);
-/// At most 80 columns.
 std::string render_tune(const TuneFacts& facts, const std::vector<RateJudgment>& rates,
                         const std::vector<TuneFinding>& findings, Look look);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands in the way of a quick reply, what it costs, and what to type. Source: wire reference 11.
+// What is in the way of a quick reply, what it costs, and what to type. Source: wire reference 11.
 #include "dpctl/cli/words.hpp"
 #include "tune.hpp"
 #include "tune_uart.hpp"
@@ -66,11 +66,10 @@ void configured_rate(const TuneFacts& facts, const std::vector<RateJudgment>& ra
                        {}});
         if (uart_of(facts.port) == UartKind::mini)
             out.back().steps = {
-                "Raspberry Pi: write dtoverlay=disable-bt (or miniuart-bt) into config.txt, restart, "
-                "and use /dev/ttyAMA0"};
+                "Raspberry Pi: write dtoverlay=disable-bt (or miniuart-bt) into config.txt, restart, and use /dev/ttyAMA0"};
         else
-            out.back().steps = {"Name another port: the serial ports of this machine are listed by ls -l "
-                                "/sys/class/tty/*/device"};
+            out.back().steps = {
+                "Name another port: the serial ports of this machine are listed by ls -l /sys/class/tty/*/device"};
         return;
     }
     const RateJudgment* now = facts.bus && facts.bus->baud ? judged(rates, *facts.bus->baud) : nullptr;
@@ -98,9 +97,9 @@ void configured_rate(const TuneFacts& facts, const std::vector<RateJudgment>& ra
                          now->needed, now->promised),
              "replies that are not sent, because the master does not wait for them",
              {fmt::format("Write max_tsdr = {} under [bus], and restart dpslaved", now->needed),
-              fmt::format("Give the master the GSD that dpctl gsd make --max-tsdr {} writes, so that it "
-                          "waits as long",
-                          now->needed)}});
+              fmt::format(
+                  "Give the master the GSD that dpctl gsd make --max-tsdr {} writes, so that it waits as long",
+                  now->needed)}});
     } else if (now->verdict == Verdict::doubtful) {
         out.push_back({Severity::better,
                        "rate.doubtful",
@@ -121,17 +120,15 @@ void uart(const TuneFacts& facts, Findings& out)
              fmt::format("The UART makes {} bit/s and whole fractions of it, nothing else (clock {} MHz)",
                          *port.uart_clock / 16, *port.uart_clock / 1e6),
              "the rates that are not such a fraction",
-             {"For other rates use a UART whose clock is a multiple of 24 MHz: its rates are exact from "
-              "93.75 "
-              "kbit/s up"}});
+             {"For other rates use a UART whose clock is a multiple of 24 MHz: its rates are exact from 93.75 kbit/s up"}});
     const std::string trigger = "/sys/class/tty/" + port.name + "/rx_trig_bytes";
     if (io::is_8250(kind) && port.trigger.value_or(1) > 1) {
         TuneFinding finding{
             Severity::better,
             "uart.trigger",
-            fmt::format("The UART hands on what it received {} characters at a time, fewer only after "
-                        "44 bit times of silence",
-                        *port.trigger),
+            fmt::format(
+                "The UART hands on what it received {} characters at a time, fewer only after 44 bit times of silence",
+                *port.trigger),
             "33 bit times at every rate",
             {}};
         if (port.trigger_settable)
@@ -148,8 +145,7 @@ void uart(const TuneFacts& facts, Findings& out)
             {Severity::know,
              "uart.idle_timeout",
              fmt::format(
-                 "The UART keeps fewer characters than its trigger until the line was idle for {} bit "
-                 "times{}",
+                 "The UART keeps fewer characters than its trigger until the line was idle for {} bit times{}",
                  timeout, kind == UartKind::unknown ? " at most, as far as is known" : ""),
              fmt::format("{} bit times at every rate", timeout - kCharacter.count),
              {"The driver has no setting for it: the figures above have room for it"}});
@@ -181,8 +177,7 @@ void usb(const TuneFacts& facts, Baud baud, Findings& out)
          fmt::format("A USB adapter (driver {}): USB moves characters once a frame of 1 ms, both ways",
                      port.driver.empty() ? "?" : port.driver),
          "about " + cost_of(4000, baud),
-         {"A UART on the board answers ten times sooner. For tests, and for 9.6 and 19.2 kbit/s, an FT232R "
-          "is the best of these"}});
+         {"A UART on the board answers ten times sooner. For tests, and for 9.6 and 19.2 kbit/s, an FT232R is the best of these"}});
 }
 
 std::string rt_package(const std::string& release)
@@ -191,8 +186,7 @@ std::string rt_package(const std::string& release)
         if (const std::string end = std::string{"-"} + flavour;
             release.size() > end.size() && release.compare(release.size() - end.size(), end.size(), end) == 0)
             return std::string{"apt install linux-image-rt-"} + flavour + ", then restart the machine";
-    return "Install the PREEMPT_RT kernel of this board or distribution (Debian: linux-image-rt-amd64, "
-           "-arm64, -armmp)";
+    return "Install the PREEMPT_RT kernel of this board or distribution (Debian: linux-image-rt-amd64, -arm64, -armmp)";
 }
 
 void kernel(const TuneFacts& facts, Baud baud, Findings& out)
@@ -243,8 +237,7 @@ void processors(const TuneFacts& facts, Baud baud, Findings& out)
              fmt::format("An idle processor may enter an idle state ({}) that takes {} us to leave",
                          machine.deepest_idle, *machine.idle_exit_us),
              cost_of(static_cast<std::uint64_t>(sleeps), baud),
-             {"cpupower idle-set -D 10   switches off the states that take more than 10 us to leave "
-              "(until the next start)"}});
+             {"cpupower idle-set -D 10   switches off the states that take more than 10 us to leave (until the next start)"}});
     if (machine.processors == 1)
         out.push_back({Severity::know,
                        "cpu.single",
@@ -295,12 +288,9 @@ void threads(const TuneFacts& facts, Findings& out)
             {Severity::know,
              "kworker.priority",
              "A kernel worker of ordinary priority (kworker/u...) carries characters from driver to reader",
-             "seen on PREEMPT_RT: 15 to 20 ms, two or three times in 1 to 2 hours. The master's retry covers "
-             "it",
+             "seen on PREEMPT_RT: 15 to 20 ms, two or three times in 1 to 2 hours. The master's retry covers it",
              {"Keep busy real-time programs off the processors where the workers run",
-              "for p in $(pgrep kworker/u); do chrt -f -p 60 $p; done   (workers end and new ones start: "
-              "again by a "
-              "timer)"}});
+              "for p in $(pgrep kworker/u); do chrt -f -p 60 $p; done   (workers end and new ones start: again by a timer)"}});
     for (const io::ThreadFacts& one : machine.realtime_threads)
         if (bus && one.id != bus->id && one.priority >= ours)
             out.push_back({Severity::better,
@@ -377,8 +367,7 @@ void daemon(const TuneFacts& facts, Findings& out)
              "daemon.not_locked",
              "The daemon's memory is not locked",
              "milliseconds when memory is short",
-             {"lock_memory = true under [realtime], and the permission for it: LimitMEMLOCK=infinity in "
-              "the unit"}});
+             {"lock_memory = true under [realtime], and the permission for it: LimitMEMLOCK=infinity in the unit"}});
     const std::uint64_t faults = std::max(bus.traffic.page_faults, bus.thread ? bus.thread->major_faults : 0);
     if (faults > 0)
         out.push_back({Severity::better,

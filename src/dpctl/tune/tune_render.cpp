@@ -6,37 +6,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace dpslave::dpctl {
 
 using io::UartKind;
 
 namespace {
-
-constexpr std::size_t kColumns = 80;
-
-/// `words` broken at blanks into lines of at most `width`; the further lines begin with `indent` blanks.
-std::string wrapped(std::string_view words, std::size_t width, std::size_t indent)
-{
-    std::string out;
-    std::size_t used = 0;
-    while (!words.empty()) {
-        const std::size_t end = std::min(words.find(' '), words.size());
-        const std::string_view word = words.substr(0, end);
-        words.remove_prefix(std::min(end + 1, words.size()));
-        if (used > 0 && used + 1 + word.size() > width) {
-            out += '\n' + std::string(indent, ' ');
-            used = 0;
-        } else if (used > 0 || (end == 0 && !out.empty())) {
-            out += ' ';
-            ++used;
-        }
-        out += word;
-        used += word.size();
-    }
-    return out;
-}
 
 std::string kernel_words(const io::MachineFacts& machine)
 {
@@ -119,18 +93,14 @@ std::string bus_words(const std::optional<BusFacts>& bus)
     return out;
 }
 
-std::string facts_block(const TuneFacts& facts)
+std::string facts_block(const TuneFacts& facts, Look look)
 {
-    constexpr std::size_t kIndent = 14; // "  processors  "
-    std::string out;
-    const auto line = [&out](std::string_view name, const std::string& value) {
-        out += fmt::format("  {:<10}  {}\n", name, wrapped(value, kColumns - kIndent, kIndent));
-    };
-    line("kernel", kernel_words(facts.machine));
-    line("processors", processor_words(facts.machine));
-    line("port", port_words(facts.port));
-    line("daemon", bus_words(facts.bus));
-    return out;
+    Block block;
+    block.add("kernel", kernel_words(facts.machine));
+    block.add("processors", processor_words(facts.machine));
+    block.add("port", port_words(facts.port));
+    block.add("daemon", bus_words(facts.bus));
+    return block.str(2, look);
 }
 
 Tone tone_of(Verdict verdict)
@@ -138,33 +108,29 @@ Tone tone_of(Verdict verdict)
     return verdict == Verdict::holds ? Tone::good : verdict == Verdict::cannot ? Tone::bad : Tone::strong;
 }
 
+/// The rate of the running daemon has a mark.
 std::string rate_lines(const TuneFacts& facts, const std::vector<RateJudgment>& rates, Look look)
 {
-    constexpr std::size_t kWhy = 43; // where the last column begins
     std::optional<Baud> now;
     if (facts.bus) now = facts.bus->baud;
-    std::string out = painted(fmt::format("  {:<12}  {:<8}  {:>5}  {:>8}  {}", "RATE", "VERDICT", "NEEDS",
-                                          "PROMISED", "WHY"),
-                              Tone::strong, look) +
-                      '\n';
-    for (const RateJudgment& one : rates) {
-        out += fmt::format("{} {:>12}  {}  {:>5}  {:>8}  {}\n", one.baud == now ? '>' : ' ',
-                           rate(static_cast<std::uint32_t>(one.baud)),
-                           painted(fmt::format("{:<8}", text(one.verdict)), tone_of(one.verdict), look),
-                           one.needed > 0 ? std::to_string(one.needed) : "-", one.promised,
-                           wrapped(one.reason, kColumns - kWhy, kWhy));
-    }
-    return out + "  NEEDS, PROMISED: MaxTsdr in bit times. More needed than promised: write\n"
-                 "  max_tsdr under [bus], and give the master the GSD of dpctl gsd make --max-tsdr\n";
+    Table table({">RATE", "VERDICT", ">NEEDS", ">PROMISED", "WHY"});
+    for (const RateJudgment& one : rates)
+        table.add({(one.baud == now ? "> " : "") + rate(static_cast<std::uint32_t>(one.baud)),
+                   Cell{std::string{text(one.verdict)}, tone_of(one.verdict)},
+                   one.needed > 0 ? std::to_string(one.needed) : "-", std::to_string(one.promised),
+                   one.reason});
+    return table.str(look) +
+           "  NEEDS, PROMISED: MaxTsdr in bit times. More needed than promised: write\n"
+           "  max_tsdr under [bus], and give the master the GSD of dpctl gsd make --max-tsdr\n";
 }
 
-std::string paragraph(const TuneFinding& finding, int number, Look look)
+std::string finding_text(const TuneFinding& finding, int number, Look look)
 {
     const std::string head = number > 0 ? fmt::format("{}. ", number) : std::string{"note: "};
     const Tone tone = finding.severity == Severity::mend ? Tone::bad : Tone::strong;
-    std::string out = '\n' + painted(wrapped(head + finding.what, kColumns, 3), tone, look) + '\n';
-    if (!finding.cost.empty()) out += "   costs " + wrapped(finding.cost, kColumns - 9, 9) + '\n';
-    for (const std::string& step : finding.steps) out += "   - " + wrapped(step, kColumns - 5, 5) + '\n';
+    std::string out = '\n' + title(head + finding.what, tone, look);
+    if (!finding.cost.empty()) out += paragraph("   costs ", finding.cost, look.width);
+    for (const std::string& step : finding.steps) out += paragraph("   - ", step, look.width);
     return out;
 }
 
@@ -260,13 +226,13 @@ Json tune_json(const TuneFacts& facts, const std::vector<RateJudgment>& rates,
 std::string render_tune(const TuneFacts& facts, const std::vector<RateJudgment>& rates,
                         const std::vector<TuneFinding>& findings, Look look)
 {
-    std::string out = facts_block(facts) + '\n' + rate_lines(facts, rates, look);
+    std::string out = facts_block(facts, look) + '\n' + rate_lines(facts, rates, look);
     int number = 0;
     for (const TuneFinding& one : findings)
-        if (one.severity != Severity::know) out += paragraph(one, ++number, look);
+        if (one.severity != Severity::know) out += finding_text(one, ++number, look);
     if (number == 0) out += '\n' + painted("nothing to correct", Tone::good, look) + '\n';
     for (const TuneFinding& one : findings)
-        if (one.severity == Severity::know) out += paragraph(one, 0, look);
+        if (one.severity == Severity::know) out += finding_text(one, 0, look);
     return out;
 }
 

@@ -8,33 +8,31 @@
 namespace dpslave::sim {
 namespace {
 
-constexpr std::int64_t kLongestDelayMs = 60'000;
-
-std::optional<std::chrono::nanoseconds> milliseconds_of(std::string_view text)
+std::optional<std::chrono::nanoseconds> delay_of(std::string_view text)
 {
-    const auto ms = number_of(text, 0, kLongestDelayMs);
-    return ms ? std::optional{std::chrono::milliseconds{*ms}} : std::nullopt;
+    return read_duration(text, std::chrono::nanoseconds{0}, kLongestDelay);
 }
 
 } // namespace
 
 bool AnswerFaults::knows(const std::string& name)
 {
-    return name == "late" || name == "lose" || name == "spoil" || name == "instead";
+    return name == "late" || name == "lose" || name == "spoil" || name == "instead" || name == "noise";
 }
 
 std::vector<std::string> AnswerFaults::help()
 {
     return {
-        "  late MS[-MS] [WHICH]       replies come this much later, even after the next request",
+        "  late TIME[-TIME] [WHICH]   replies come this much later, even after the next request",
         "  lose [WHICH]               replies are lost, but the request is carried out",
         "  spoil [WHICH]              a reply with a wrong checksum comes before the right one",
         "  instead OCTETS [WHICH]     these octets come in place of the reply, for example: instead 04 once",
+        "  noise OCTETS [WHICH]       these octets come right before the reply, for example: noise 00FF",
         "                             WHICH: 1/N (one in N), every TIME, tag TAG, once; can be joined",
     };
 }
 
-/// Which replies it meets. Empty = understood.
+/// Reads which replies it applies to; returns an empty text if it was understood.
 std::string AnswerFaults::choose(Fault& fault, const std::vector<std::string>& words, std::size_t at)
 {
     for (; at < words.size(); ++at) {
@@ -43,11 +41,11 @@ std::string AnswerFaults::choose(Fault& fault, const std::vector<std::string>& w
         if (word == "once") {
             fault.once = true;
         } else if (word.starts_with("1/")) {
-            const auto n = number_of(std::string_view{word}.substr(2), 1, INT64_MAX);
+            const auto n = read_number(std::string_view{word}.substr(2), 1, INT64_MAX);
             if (!n) return "one in N is written as: 1/20";
             fault.one_in = *n;
         } else if (word == "every" && has_more) {
-            fault.every = duration_of_text(words[++at]);
+            fault.every = read_duration(words[++at]);
             if (!fault.every) return "a time is written as: every 3s";
         } else if (word == "tag" && has_more) {
             const auto tag = number_at(words, ++at, 0, 0xFFFF);
@@ -67,11 +65,10 @@ std::string AnswerFaults::add(const std::vector<std::string>& words)
     if (words[0] == "late") {
         const std::string text = words.size() > 1 ? words[1] : "";
         const auto dash = text.find('-');
-        const auto least = milliseconds_of(std::string_view{text}.substr(0, dash));
+        const auto least = delay_of(std::string_view{text}.substr(0, dash));
         const auto most =
-            dash == std::string::npos ? least : milliseconds_of(std::string_view{text}.substr(dash + 1));
-        if (!least || !most || *most < *least)
-            return "write it as: late 900, or late 210-230 1/20 (milliseconds)";
+            dash == std::string::npos ? least : delay_of(std::string_view{text}.substr(dash + 1));
+        if (!least || !most || *most < *least) return "write it as: late 900ms, or late 210ms-230ms 1/20";
         fault.least = *least;
         fault.most = *most;
         rest = 2;
@@ -81,8 +78,11 @@ std::string AnswerFaults::add(const std::vector<std::string>& words)
         fault.kind = Kind::spoil;
     } else {
         const auto octets = words.size() > 1 ? octets_of(words[1]) : Result<Octets, std::string>{Octets{}};
-        if (!octets || octets->empty()) return "write it as: instead 04 once (octets without blanks)";
-        fault.kind = Kind::instead;
+        const bool is_noise = words[0] == "noise";
+        if (!octets || octets->empty())
+            return is_noise ? "write it as: noise 00FF (octets without blanks)"
+                            : "write it as: instead 04 once (octets without blanks)";
+        fault.kind = is_noise ? Kind::noise : Kind::instead;
         fault.octets = *octets;
         rest = 2;
     }
@@ -125,6 +125,9 @@ std::vector<Departure> AnswerFaults::apply(Octets reply, Concerned concerned, In
                     static_cast<std::uint8_t>(leaving.back().octets.back() ^ 0x01U);
                 break;
             case Kind::instead: answer.octets = fault.octets; break;
+            case Kind::noise:
+                answer.octets.insert(answer.octets.begin(), fault.octets.begin(), fault.octets.end());
+                break;
         }
     }
     if (!is_lost) leaving.push_back(std::move(answer));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What becomes of the replies of a device on their way: late, lost, behind a spoilt frame, replaced. The
-/// same for both protocols.
+/// Changes the replies of a device on their way: they are late, lost, preceded by a spoilt frame, or
+/// replaced. It is the same for both protocols.
 #pragma once
 
 #include "telegram.hpp"
@@ -22,7 +22,7 @@ struct Concerned {
     std::uint16_t count = 0;
 };
 
-/// A reply that leaves so much later than a prompt one.
+/// A reply that is sent this much later than a prompt one.
 struct Departure {
     Octets octets;
     std::chrono::nanoseconds later{0};
@@ -31,22 +31,24 @@ struct Departure {
 
 class AnswerFaults {
 public:
-    /// `words` as typed: late MS[-MS], lose, spoil, instead OCTETS; behind it which replies: 1/N (one in N),
-    /// every TIME, tag TAG, once. What was wrong with it; empty: it works from now on.
+    /// Adds a fault. `words` as typed: late MS[-MS], lose, spoil, instead OCTETS, noise OCTETS; then which
+    /// replies: 1/N (one in N), every TIME, tag TAG, once. It returns what was wrong with the words; empty:
+    /// it works from now on.
     std::string add(const std::vector<std::string>& words);
     static bool knows(const std::string& name);
     static std::vector<std::string> help();
     void clear() { faults_.clear(); }
 
-    /// What leaves in place of `reply`, in this order.
+    /// Returns what is sent in place of `reply`, in this order.
     std::vector<Departure> apply(Octets reply, Concerned concerned, Instant now);
 
 private:
     enum class Kind : std::uint8_t {
         late,
         lose,
-        spoil,  ///< a frame with a wrong checksum comes before the reply
-        instead ///< other octets in place of the reply
+        spoil,   ///< a frame with a wrong checksum comes before the reply
+        instead, ///< other octets in place of the reply
+        noise    ///< octets right before the reply
     };
     struct Fault {
         Kind kind = Kind::late;

@@ -25,7 +25,7 @@ constexpr Tbit pause_after_sdn(Baud baud)
     return baud == Baud::k500 ? Tbit{100} : Tbit{60};
 }
 
-/// How long so many characters are on the line.
+/// Returns how long `count` characters are on the line.
 constexpr Tbit characters(std::size_t count)
 {
     return Tbit{static_cast<std::uint32_t>(count) * kCharacter.count};

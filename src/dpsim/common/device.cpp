@@ -5,7 +5,7 @@
 
 namespace dpslave::sim {
 
-SimValue Parameter::at(Instant now) const
+SimValue SimParameter::at(Instant now) const
 {
     if (!motion) return value;
     const double ratio =
@@ -19,17 +19,17 @@ SimValue Parameter::at(Instant now) const
     return {static_cast<std::int32_t>(counts < 0 ? counts - 0.5 : counts + 0.5), {}};
 }
 
-void Parameter::put(SimValue to)
+void SimParameter::put(SimValue to)
 {
     value = std::move(to);
     motion.reset();
 }
 
-Parameter* Device::find(std::uint16_t tag)
+SimParameter* Device::find(std::uint16_t tag)
 {
     const auto found =
         std::lower_bound(parameters_.begin(), parameters_.end(), tag,
-                         [](const Parameter& p, std::uint16_t wanted) { return p.tag.number < wanted; });
+                         [](const SimParameter& p, std::uint16_t wanted) { return p.tag.number < wanted; });
     return found == parameters_.end() || found->tag.number != tag ? nullptr : &*found;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What all simulated devices behind the gateway have in common: parameters, and a serial line they are on.
+/// The common part of all simulated devices on the drive side of the gateway: parameters, and the serial line
+/// they are on.
 #pragma once
 
 #include "answer_faults.hpp"
@@ -22,17 +23,17 @@ struct Motion {
     bool back_and_forth = false; ///< false: stays at `to`
 };
 
-struct Parameter {
+struct SimParameter {
     SimTag tag;
     std::string mnemonic; ///< of an EI-ASCII drive; empty: cannot be reached over its line
     SimValue value;
     std::optional<Motion> motion;
 
     SimValue at(Instant now) const;
-    void put(SimValue to); ///< and stands still there
+    void put(SimValue to); ///< and stays there
 };
 
-/// What any device does wrong on request. All faults of a device are set together.
+/// The faults that any device makes on request. All faults of a device are set together.
 struct DeviceFaults {
     bool silence = false;             ///< no request is received, as without power
     bool bad_check = false;           ///< replies carry a wrong checksum
@@ -43,7 +44,7 @@ struct DeviceFaults {
 /// One device with its parameters.
 class Device {
 public:
-    Device(std::string address, std::vector<Parameter> parameters)
+    Device(std::string address, std::vector<SimParameter> parameters)
         : parameters_(std::move(parameters)), address_(std::move(address))
     {}
     Device(Device&&) = default;
@@ -51,8 +52,8 @@ public:
     virtual ~Device() = default;
 
     const std::string& address() const { return address_; }
-    const std::vector<Parameter>& parameters() const { return parameters_; } ///< ascending by tag
-    Parameter* find(std::uint16_t tag);                                      ///< null: it has no such tag
+    const std::vector<SimParameter>& parameters() const { return parameters_; } ///< ascending by tag
+    SimParameter* find(std::uint16_t tag);                                      ///< null: it has no such tag
 
     virtual void settle(Instant /*now*/) {} ///< what had to happen by itself until now
     /// On the way of its replies, beside what the device itself does wrong.
@@ -62,14 +63,14 @@ public:
     virtual void changed(std::uint16_t /*tag*/, Instant /*now*/) {}
 
 protected:
-    std::vector<Parameter> parameters_;
+    std::vector<SimParameter> parameters_;
 
 private:
     std::string address_;
 };
 
-/// One or more devices on one serial line. Pure: octets and times go in, replies with their due times and log
-/// lines come out.
+/// One or more devices on one serial line. It is pure: octets and times go in, replies with their due times
+/// and log lines come out.
 class DeviceLine {
 public:
     virtual ~DeviceLine() = default;
@@ -91,8 +92,8 @@ protected:
         : turnaround_(turnaround), most_octet_(most_octet)
     {}
 
-    /// A reply of this device to a request that was whole at `now`. `faults` and its answer faults say what
-    /// leaves in its place, and when: one reply after the other, in the order of the requests.
+    /// A reply of this device to a request that was complete at `now`. `faults` and its answer faults say
+    /// what leaves in its place, and when: one reply after the other, in the order of the requests.
     void reply(Device& device, const DeviceFaults& faults, Octets octets, Concerned concerned, Instant now);
     /// A new request: of the replies that wait only late ones still leave.
     void drop_reply();

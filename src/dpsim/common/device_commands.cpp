@@ -25,7 +25,7 @@ std::vector<std::string> DeviceCommands::common_help()
     return {
         "  set TAG VALUE              a value in displayed units, or a label",
         "  get TAG                    the present value",
-        "  ramp TAG FROM TO SECONDS   moves and stays at TO; wave: back and forth",
+        "  ramp TAG FROM TO TIME      moves and stays at TO; wave: back and forth",
         "  list                       all parameters",
         "  unit NN|all                the unit for the next commands",
         "  echo on|off                the transceiver of the master receives what it sends",
@@ -45,7 +45,7 @@ std::string DeviceCommands::no_tag(const Words& words)
     return fmt::format("no tag {} in the table; list shows them", words.size() > 1 ? words[1] : "");
 }
 
-std::string DeviceCommands::no_value(const Parameter& parameter, const std::string& text)
+std::string DeviceCommands::no_value(const SimParameter& parameter, const std::string& text)
 {
     return fmt::format("'{}' is no value of tag {} within its limits", text, parameter.tag.number);
 }
@@ -54,9 +54,11 @@ std::string DeviceCommands::read_fault(const Words& words, DeviceFaults& faults)
 {
     const std::string& name = words[0];
     if (name == "slow") {
-        const auto ms = words.size() == 2 ? number_at(words, 1, 0, 60'000) : std::nullopt;
-        if (!ms) return "write it as: slow 50 (milliseconds)";
-        faults.slow = std::chrono::milliseconds{*ms};
+        const auto time = words.size() == 2
+                              ? read_duration(words[1], std::chrono::nanoseconds{0}, kLongestDelay)
+                              : std::nullopt;
+        if (!time) return "write it as: slow 50ms";
+        faults.slow = *time;
         return {};
     }
     faults.silence = name == "silence";
@@ -110,7 +112,7 @@ std::string DeviceCommands::choose_unit(const Words& words)
 std::vector<std::string> DeviceCommands::get(const Words& words, Instant now)
 {
     std::vector<std::string> lines;
-    std::string wrong = change_tag(words, [&](const Device& device, const Parameter& p) {
+    std::string wrong = change_tag(words, [&](const Device& device, const SimParameter& p) {
         lines.push_back(fmt::format("{}tag {} = {}",
                                     line_.devices().size() > 1 ? "unit " + device.address() + ": " : "",
                                     p.tag.number, displayed(p.tag, p.at(now))));
@@ -122,7 +124,7 @@ std::vector<std::string> DeviceCommands::get(const Words& words, Instant now)
 std::string DeviceCommands::set(const Words& words, Instant now)
 {
     if (words.size() < 3) return fmt::format("write it as: {} 55 12.50", words[0]);
-    return change_tag(words, [&](Device& device, Parameter& p) {
+    return change_tag(words, [&](Device& device, SimParameter& p) {
         const std::string wanted = rest_of(words, 2);
         auto value = value_of_text(p.tag, wanted);
         if (!value) return no_value(p, wanted);
@@ -134,12 +136,9 @@ std::string DeviceCommands::set(const Words& words, Instant now)
 
 std::string DeviceCommands::move(const Words& words, Instant now)
 {
-    const auto takes = words.size() == 5
-                           ? duration_of_text(words[4].ends_with('s') ? words[4] : words[4] + "s")
-                           : std::nullopt;
-    if (!takes || takes->count() <= 0)
-        return fmt::format("write it as: {} 55 0.00 100.00 5 (seconds)", words[0]);
-    return change_tag(words, [&](const Device& /*device*/, Parameter& p) {
+    const auto takes = words.size() == 5 ? read_duration(words[4]) : std::nullopt;
+    if (!takes || takes->count() <= 0) return fmt::format("write it as: {} 55 0.00 100.00 5s", words[0]);
+    return change_tag(words, [&](const Device& /*device*/, SimParameter& p) {
         if (p.tag.type == TagKind::string) return fmt::format("tag {} is a text", p.tag.number);
         const auto from = value_of_text(p.tag, words[2]), to = value_of_text(p.tag, words[3]);
         if (!from || !to) return no_value(p, words[from ? 3 : 2]);
@@ -154,7 +153,7 @@ std::vector<std::string> DeviceCommands::list(Instant now)
     std::vector<std::string> lines;
     for (const Device* const device : chosen()) {
         lines.push_back("unit " + device->address());
-        for (const Parameter& p : device->parameters())
+        for (const SimParameter& p : device->parameters())
             lines.push_back(fmt::format("  {:>5}  {:2}  {:2}  {:<44} {}", p.tag.number,
                                         p.mnemonic.empty() ? "--" : p.mnemonic, text(p.tag.access),
                                         p.tag.name, displayed(p.tag, p.at(now))));

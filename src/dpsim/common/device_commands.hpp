@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What can be typed at any simulated device: values, a list, a log. Faults depend on how it speaks.
+/// The commands that can be typed at any simulated device: values, a list, a log. Faults depend on how it
+/// speaks.
 #pragma once
 
 #include "device.hpp"
@@ -15,7 +16,7 @@ public:
     /// Carries out one line and returns what is to be said about it.
     std::vector<std::string> command(std::string_view line, Instant now);
     bool quit() const { return quit_; }
-    /// Of the commands that every device has.
+    /// Returns the help of the commands that every device has.
     static std::vector<std::string> common_help();
 
 protected:
@@ -43,7 +44,8 @@ protected:
         const auto number = number_at(words, 1, 0, 0xFFFF);
         bool found = false;
         for (Unit* const unit : chosen<Unit>()) {
-            Parameter* const parameter = number ? unit->find(static_cast<std::uint16_t>(*number)) : nullptr;
+            SimParameter* const parameter =
+                number ? unit->find(static_cast<std::uint16_t>(*number)) : nullptr;
             if (parameter == nullptr) continue;
             found = true;
             if (std::string wrong = change(*unit, *parameter); !wrong.empty()) return wrong;
@@ -54,7 +56,7 @@ protected:
     static std::string read_fault(const Words& words, DeviceFaults& faults);
 
     static std::vector<std::string> one(std::string sentence); ///< no line if it is empty
-    static std::string no_value(const Parameter& parameter, const std::string& text);
+    static std::string no_value(const SimParameter& parameter, const std::string& text);
 
 private:
     static std::string no_tag(const Words& words);

@@ -28,8 +28,8 @@ private:
 Instant monotonic_now();
 /// Waits until `when` by the absolute clock; returns earlier if a signal comes.
 void sleep_until(Instant when);
-/// For the calling thread: sleeps end as exactly as the hardware can (the default slack is 50 us), and, where
-/// the user may, it goes before other programs: a line that a compiler slows down proves nothing.
+/// Makes the sleeps of the calling thread end as exactly as the hardware can (the default slack is 50 us),
+/// and, if the user may, lets it go before other programs: a line that a compiler slows down proves nothing.
 void be_prompt();
 
 /// Character format of a tty. A pty takes only the speed.
@@ -52,7 +52,7 @@ std::uint32_t rate_of(const Pty& pty);
 /// Drops what was not read at the slave's side.
 void discard_unread(const Pty& pty);
 
-/// Octets that are there now; empty = none. Nothing: the other side is closed.
+/// Returns the octets that are there now; empty if there are none, nullopt if the other side is closed.
 std::optional<Octets> read_some(int fd);
 /// Writes all, waiting at most `longest` for space; how many octets went out.
 std::size_t write_all(int fd, Bytes octets, std::chrono::milliseconds longest);

@@ -15,11 +15,11 @@ namespace {
 
 using Fields = std::vector<std::string>;
 
-/// As much as an instrument of the 2000 series can show, and more.
+/// The limit is what an instrument of the 2000 series can show, and more.
 constexpr std::int32_t kMostCounts = 9'999'999;
 
-/// Splits a line into its fields; quotes hide commas, a doubled quote is a quote. Nothing: a quote is not
-/// closed.
+/// Splits a line into its fields; quotes hide commas, a doubled quote is a quote. It returns nullopt if a
+/// quote is not closed.
 std::optional<Fields> fields_of(std::string_view line)
 {
     Fields fields(1);

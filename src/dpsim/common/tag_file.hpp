@@ -19,7 +19,7 @@ enum class TagAccess : std::uint8_t { read_write, read_only, write_only }; ///< 
 /// No instrument shows more (tag 525 of a 2400).
 inline constexpr unsigned kDisplayDecimals = 2;
 
-/// What a parameter holds: counts = displayed value x 10^decimals, or the text of a STRING.
+/// The value of a parameter: counts = displayed value x 10^decimals, or the text of a STRING.
 struct SimValue {
     std::int32_t counts = 0;
     std::string text{};
@@ -39,8 +39,8 @@ struct SimTag {
     /// Milliseconds that one count of a time is (the notes say "time type"); 0 = it is none.
     std::int32_t ms_per_count = 0;
     unsigned decimals = 0; ///< 0..4
-    /// The column says "display": as many as the instrument shows. Until it says how many, there are
-    /// kDisplayDecimals.
+    /// The column says "display": as many as the instrument shows. There are kDisplayDecimals until it says
+    /// how many.
     bool follows_display = false;
     std::int32_t min = 0; ///< counts; what the type allows where the table says nothing
     std::int32_t max = 0;
@@ -57,11 +57,11 @@ std::int32_t rescaled(std::int32_t counts, unsigned from, unsigned to);
 /// Displayed form: "12.50", "-0.05", ">1B0B", "2 (Jog)".
 std::string displayed(const SimTag& tag, const SimValue& value);
 
-/// A displayed form back into a value; a label, ">1B0B" and "0x1B0B" are taken too. Nothing if it is none of
-/// these or beyond the limits.
+/// Reads a displayed form back into a value; a label, ">1B0B" and "0x1B0B" are accepted too. It returns
+/// nullopt if the text is none of these or beyond the limits.
 std::optional<SimValue> value_of_text(const SimTag& tag, std::string_view text);
 
-/// The whole table, or "FILE:LINE: sentence". `file` only names it.
+/// The complete table, or "FILE:LINE: sentence". `file` only names it.
 Result<std::vector<SimTag>, std::string> parse_tags(std::string_view text, std::string_view file);
 
 /// Reads the file first; says so if that is not possible.

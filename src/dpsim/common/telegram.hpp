@@ -47,10 +47,11 @@ enum class Fixed : bool { never, when_eight }; ///< SD3 for a data unit of exact
 /// others SD2. Precondition: data unit with SAP octets at most 246 octets.
 Octets encode(const Frame& frame, Fixed fixed = Fixed::never);
 
-/// How long the telegram that begins with `head` is; 0 = too few octets to say; else why it cannot be one.
+/// Returns how long the telegram that begins with `head` is; 0 = too few octets to say; else why it cannot be
+/// one.
 Result<std::size_t, std::string> frame_length(Bytes head);
 
-/// Takes a whole telegram apart, or says in words what is wrong with it.
+/// Takes a complete telegram apart, or says in words what is wrong with it.
 /// Precondition: octets.size() == *frame_length(octets), not 0.
 Result<Frame, std::string> decode(Bytes octets);
 

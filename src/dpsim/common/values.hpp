@@ -4,7 +4,9 @@
 
 #include "telegram.hpp"
 
-#include <chrono>
+#include "dpslave/base/number.hpp"
+#include "dpslave/base/typed.hpp"
+
 #include <string_view>
 
 namespace dpslave::sim {
@@ -12,22 +14,18 @@ namespace dpslave::sim {
 /// Parts of a line between blanks; a `#` at the start of a word begins a comment.
 std::vector<std::string> words_of(std::string_view line);
 
-/// "1250", "-30000", "0x04E2"; nothing if it is no number.
-std::optional<std::int64_t> number_of(std::string_view text);
-
-/// The same within limits; nothing beyond them, or if there is no word of this place.
-std::optional<std::int64_t> number_of(std::string_view text, std::int64_t least, std::int64_t most);
+/// The word of this place as read_number() has it; nothing beyond the limits, or if there is no such word.
 std::optional<std::int64_t> number_at(const std::vector<std::string>& words, std::size_t at,
                                       std::int64_t least, std::int64_t most);
 
 /// The words from this place on, one blank between them.
 std::string rest_of(const std::vector<std::string>& words, std::size_t from);
 
+/// The longest delay of a reply that a command may ask for.
+inline constexpr std::chrono::minutes kLongestDelay{1};
+
 /// "on" or "off" as the word of this place and the last one.
 std::optional<bool> switch_at(const std::vector<std::string>& words, std::size_t at);
-
-/// "2s", "1.5s", "500ms"; nothing if it is no time.
-std::optional<std::chrono::nanoseconds> duration_of_text(std::string_view text);
 
 /// "68 05", "6805" or "68,05"; an odd number of digits or another character is an error in words.
 Result<Octets, std::string> octets_of(std::string_view text);

@@ -38,10 +38,10 @@ bool is_printable(std::uint8_t octet)
 
 } // namespace
 
-Parameter* DriveUnit::find_mnemonic(std::string_view mnemonic)
+SimParameter* DriveUnit::find_mnemonic(std::string_view mnemonic)
 {
     const auto found = std::find_if(parameters_.begin(), parameters_.end(),
-                                    [&](const Parameter& p) { return p.mnemonic == mnemonic; });
+                                    [&](const SimParameter& p) { return p.mnemonic == mnemonic; });
     return found == parameters_.end() || mnemonic.empty() ? nullptr : &*found;
 }
 
@@ -53,10 +53,8 @@ bool DriveLine::add_unit(std::string_view address, const std::vector<SimTag>& ta
         return false;
     if (std::any_of(units_.begin(), units_.end(), [&](const DriveUnit& u) { return u.address() == address; }))
         return false;
-    std::vector<Parameter> parameters;
-    for (const SimTag& tag : tags)
-        parameters.push_back({tag, tag.mnemonic.empty() ? mnemonic_of(model_, tag.number) : tag.mnemonic,
-                              tag.start, std::nullopt});
+    std::vector<SimParameter> parameters;
+    for (const SimTag& tag : tags) parameters.push_back({tag, naming_.name(tag), tag.start, std::nullopt});
     units_.emplace_back(std::string{address}, std::move(parameters));
     return true;
 }
@@ -159,7 +157,7 @@ void DriveLine::poll(std::string_view mnemonic, Instant now)
     DriveUnit& unit = units_[current_];
     if (unit.faults.silence) return;
     if (mnemonic.size() != 2) return malformed();
-    const Parameter* const parameter = unit.find_mnemonic(mnemonic);
+    const SimParameter* const parameter = unit.find_mnemonic(mnemonic);
     std::string data;
     if (mnemonic == "EE") {
         data = fmt::format(">{:04X}", static_cast<unsigned>(unit.error));
@@ -183,12 +181,13 @@ void DriveLine::poll(std::string_view mnemonic, Instant now)
     answer(reply_frame(polled_, data), parameter, now);
 }
 
-/// ACK after a reply: the next parameter that can be read, by tag number; EOT behind the last.
+/// After an ACK for a reply the drive sends the next parameter that can be read, by tag number; EOT after the
+/// last.
 void DriveLine::poll_next(Instant now)
 {
     DriveUnit& unit = units_[current_];
-    const Parameter* const last = unit.find_mnemonic(polled_);
-    for (const Parameter& next : unit.parameters()) {
+    const SimParameter* const last = unit.find_mnemonic(polled_);
+    for (const SimParameter& next : unit.parameters()) {
         const bool beyond = last == nullptr || next.tag.number > last->tag.number;
         if (beyond && next.tag.access != TagAccess::write_only && !next.mnemonic.empty())
             return poll(next.mnemonic, now);
@@ -231,7 +230,7 @@ Ee DriveLine::write(std::string_view mnemonic, std::string_view data)
         return Ee::none;
     }
     if (mnemonic == "II" || mnemonic == "V0") return Ee::read_only;
-    Parameter* const parameter = unit.find_mnemonic(mnemonic);
+    SimParameter* const parameter = unit.find_mnemonic(mnemonic);
     if (parameter == nullptr) return Ee::invalid_mnemonic;
     if (parameter->tag.access == TagAccess::read_only) return Ee::read_only;
     auto value = drive_value(model_, parameter->tag, data);
@@ -243,7 +242,7 @@ Ee DriveLine::write(std::string_view mnemonic, std::string_view data)
     return Ee::none;
 }
 
-void DriveLine::answer(Octets octets, const Parameter* parameter, Instant now)
+void DriveLine::answer(Octets octets, const SimParameter* parameter, Instant now)
 {
     const Concerned concerned = parameter != nullptr ? Concerned{parameter->tag.number, 1} : Concerned{};
     reply(units_[current_], units_[current_].faults, std::move(octets), concerned, now);

@@ -9,7 +9,7 @@
 
 namespace dpslave::sim {
 
-/// What a drive does wrong on request.
+/// The faults that a drive makes on request.
 struct DriveFaults : DeviceFaults {
     std::optional<Ee> nak; ///< refuses every write with this error
 };
@@ -18,7 +18,7 @@ struct DriveFaults : DeviceFaults {
 class DriveUnit : public Device {
 public:
     using Device::Device;
-    Parameter* find_mnemonic(std::string_view mnemonic);
+    SimParameter* find_mnemonic(std::string_view mnemonic);
 
     std::map<std::uint16_t, std::string> texts; ///< of tags that answer with this text, whatever they hold
 
@@ -29,7 +29,10 @@ public:
 
 class DriveLine : public DeviceLine {
 public:
-    DriveLine(Model model, std::chrono::nanoseconds turnaround) : DeviceLine(turnaround, 0x7F), model_(model)
+    DriveLine(Model model, std::chrono::nanoseconds turnaround) : DriveLine(model, turnaround, Naming{model})
+    {}
+    DriveLine(Model model, std::chrono::nanoseconds turnaround, Naming naming)
+        : DeviceLine(turnaround, 0x7F), model_(model), naming_(std::move(naming))
     {}
 
     /// A drive with this group (0-7) and unit id (0-9, A-F); false if the address is none or taken.
@@ -50,9 +53,10 @@ private:
     void poll_next(Instant now);
     void selected(std::uint8_t check, Instant now);
     Ee write(std::string_view mnemonic, std::string_view data);
-    void answer(Octets octets, const Parameter* parameter, Instant now);
+    void answer(Octets octets, const SimParameter* parameter, Instant now);
 
     Model model_;
+    Naming naming_;
     std::vector<DriveUnit> units_;
     std::size_t current_ = 0; ///< the unit that the connection is with
     Phase phase_ = Phase::idle;

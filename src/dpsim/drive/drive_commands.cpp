@@ -12,7 +12,7 @@ std::vector<std::string> DriveCommands::all_help()
         "  nak [EE]                   refuses every write but that of EE; EE is hexadecimal, else 02C2",
         "  bad-bcc                    replies carry a wrong block check",
         "  garbage                    replies are random octets",
-        "  slow MS                    replies come this much later",
+        "  slow TIME                  replies come this much later",
         "  text TAG [TEXT]            the tag answers with this text; without TEXT with its value again",
         "  ok                         ends all faults",
     };
@@ -49,7 +49,7 @@ std::vector<std::string> DriveCommands::special(const Words& words, Instant /*no
 std::string DriveCommands::text(const Words& words)
 {
     if (!number_at(words, 1, 0, 0xFFFF)) return "write it as: text 55 12.34";
-    return change_tag<DriveUnit>(words, [&](DriveUnit& unit, const Parameter& p) {
+    return change_tag<DriveUnit>(words, [&](DriveUnit& unit, const SimParameter& p) {
         unit.texts.erase(p.tag.number);
         if (words.size() > 2) unit.texts[p.tag.number] = rest_of(words, 2);
         return std::string{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What can be typed at a simulated EI-ASCII drive: its faults, beside what every device has.
+/// The commands that can be typed at a simulated EI-ASCII drive: its faults, beside what every device has.
 #pragma once
 
 #include "dpsim/common/device_commands.hpp"

@@ -41,7 +41,7 @@ int serve(DeviceLine& line, DeviceCommands& commands, int port, const Signals& s
         const auto octets = read_some(port);
         if (!octets) {
             print_error("the line is gone");
-            return kNoPort;
+            return kNo;
         }
         if (!octets->empty()) {
             if (line.echoes()) write_all(port, *octets, std::chrono::milliseconds{100});
@@ -72,16 +72,11 @@ int run(DeviceLine& line, DeviceCommands& commands, const DriveOptions& options,
     auto port = open_tty(options.port, options.baud, format);
     if (!port) {
         print_error(port.error());
-        return kNoPort;
+        return kNo;
     }
     be_prompt();
     print_line(fmt::format("ready {}, profile {}, {} parameters", options.port, options.profile, tags));
     return serve(line, commands, port->get(), signals);
-}
-
-std::chrono::nanoseconds turnaround_of(const DriveOptions& options)
-{
-    return std::chrono::nanoseconds{static_cast<std::int64_t>(options.turnaround_ms * 1e6)};
 }
 
 /// Modbus RTU begins a reply after 3.5 characters of silence, 1.75 ms at 19200 and above.
@@ -90,12 +85,32 @@ std::chrono::nanoseconds modbus_turnaround(const DriveOptions& options)
     const auto silence = options.baud > 19'200
                              ? std::chrono::nanoseconds{1'750'000}
                              : std::chrono::nanoseconds{std::int64_t{38'500'000'000} / options.baud};
-    return std::max(turnaround_of(options), silence);
+    return std::max(options.turnaround, silence);
+}
+
+/// Returns the naming chosen by --mnemonics; the error is a sentence.
+Result<Naming, std::string> naming_of(const DriveOptions& options, Model model)
+{
+    if (options.mnemonics.empty()) return Naming{model};
+    if (const auto rule = rule_of(options.mnemonics)) return Naming{*rule};
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(options.mnemonics, error))
+        return Failure{fmt::format(
+            "--mnemonics {}: neither a rule (590plus, ac, pno) nor a file with the columns tag and mnemonic",
+            options.mnemonics)};
+    auto rows = load_tags(options.mnemonics);
+    if (!rows) return Failure{rows.error()};
+    return Naming{*std::move(rows)};
 }
 
 int run_ei_ascii(const DriveOptions& options, Model model, const std::vector<SimTag>& tags)
 {
-    DriveLine line{model, turnaround_of(options)};
+    auto naming = naming_of(options, model);
+    if (!naming) {
+        print_error(naming.error());
+        return kUsage;
+    }
+    DriveLine line{model, options.turnaround, *std::move(naming)};
     for (const std::string& unit : options.units)
         if (!line.add_unit(unit, tags)) {
             print_error(fmt::format(
@@ -109,10 +124,11 @@ int run_ei_ascii(const DriveOptions& options, Model model, const std::vector<Sim
 int run_modbus(const DriveOptions& options, std::uint16_t ident, const std::vector<SimTag>& tags)
 {
     ModbusLine line{modbus_turnaround(options)};
+    const auto programs = static_cast<unsigned>(read_number(options.programs).value_or(1));
     std::size_t registers = 0;
     for (const std::string& text : options.units) {
-        const auto unit = number_of(text, 1, 254);
-        if (!unit || !line.add({static_cast<std::uint8_t>(*unit), ident, tags, options.programs})) {
+        const auto unit = read_number(text, 1, 254);
+        if (!unit || !line.add({static_cast<std::uint8_t>(*unit), ident, tags, programs})) {
             print_error(fmt::format("--unit {}: an address from 1 to 254, each once", text));
             return kUsage;
         }
@@ -137,10 +153,14 @@ int run_drive(const DriveOptions& chosen)
     }
     if (options.units.empty()) options.units = {model ? "00" : "1"};
     if (options.table.empty()) options.table = shipped_table(model ? "example.csv" : "2400.csv");
+    if (!model && !options.mnemonics.empty()) {
+        print_error("--mnemonics: an instrument with Modbus RTU has registers and no mnemonics");
+        return kUsage;
+    }
     const auto tags = load_tags(options.table);
     if (!tags) {
         print_error(tags.error());
-        return kUsage;
+        return kNo;
     }
     return model ? run_ei_ascii(options, *model, *tags) : run_modbus(options, *ident, *tags);
 }

@@ -26,8 +26,8 @@ std::optional<std::int32_t> hex_number(std::string_view data, std::size_t most)
     return value;
 }
 
-/// Counts of a decimal text; the point is mandatory, at most five digits stand before it, digits beyond
-/// `decimals` must be zeros.
+/// Returns the counts of a decimal text; the point is mandatory, at most five digits are before it, digits
+/// beyond `decimals` must be zeros.
 std::optional<std::int32_t> counts_of(std::string_view data, unsigned decimals)
 {
     const bool negative = data.starts_with('-');
@@ -99,17 +99,41 @@ Octets reply_frame(std::string_view mnemonic, std::string_view data)
     return frame;
 }
 
-std::string mnemonic_of(Model model, std::uint16_t tag)
+std::optional<Rule> rule_of(std::string_view name)
 {
-    constexpr unsigned kLetters = 26;
-    const bool is_ac = model == Model::ac;
-    if (!is_ac && tag >= 1000 && tag <= 1127) return fmt::format("{:02X}", tag - 1000);
+    if (name == "590plus") return Rule::dc_590plus;
+    if (name == "ac") return Rule::ac;
+    if (name == "pno") return Rule::pno;
+    return std::nullopt;
+}
+
+Rule rule_of(Model model)
+{
+    return model == Model::ac ? Rule::ac : Rule::dc_590plus;
+}
+
+std::string mnemonic_of(Rule rule, std::uint16_t tag)
+{
+    constexpr unsigned kLetters = 26, kNumbers = 128, kFirstNumber = 1000;
+    const bool is_number = tag >= kFirstNumber && tag < kFirstNumber + kNumbers;
+    if (rule != Rule::ac && is_number) return fmt::format("{:02X}", tag - kFirstNumber);
+    if (rule == Rule::pno) return tag < kNumbers ? fmt::format("{:02X}", tag) : std::string{};
+    const bool is_ac = rule == Rule::ac;
     const unsigned first = is_ac ? tag : tag + 360U;
     if (first < 36 * 36) return {digit(first / 36), digit(first % 36)};
     const unsigned beyond = first - 36 * 36;
     if (beyond >= kLetters * kLetters) return {};
     const unsigned slow = beyond / kLetters, fast = beyond % kLetters; // the AC drives put the fast one first
     return {static_cast<char>('a' + (is_ac ? fast : slow)), static_cast<char>('A' + (is_ac ? slow : fast))};
+}
+
+std::string Naming::name(const SimTag& tag) const
+{
+    if (table_first_ && !tag.mnemonic.empty()) return tag.mnemonic;
+    if (rule_) return mnemonic_of(*rule_, tag.number);
+    const auto row =
+        std::find_if(rows_.begin(), rows_.end(), [&](const SimTag& one) { return one.number == tag.number; });
+    return row == rows_.end() ? std::string{} : row->mnemonic;
 }
 
 std::string drive_text(Model model, const SimTag& tag, const SimValue& value)

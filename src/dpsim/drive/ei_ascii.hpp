@@ -24,7 +24,7 @@ enum class Ee : std::uint16_t {
     out_of_range = 0x08C8,
 };
 
-/// What stands behind the option board or the technology box.
+/// The drive that the option board or the technology box belongs to.
 enum class Model : std::uint8_t {
     dc590,  ///< "590", "590plus": ENUM in hexadecimal
     ac584s, ///< "584s": ENUM decimal with a point, both forms taken
@@ -40,9 +40,35 @@ std::uint8_t block_check(Bytes after_stx);
 /// STX, mnemonic, data, ETX, BCC.
 Octets reply_frame(std::string_view mnemonic, std::string_view data);
 
-/// The two characters of a tag; empty = none. AC drives have a rule of their own; the others follow the 590+,
-/// whose PNO 0..127 are tags 1000..1127 (EI-ASCII reference, section 3).
-std::string mnemonic_of(Model model, std::uint16_t tag);
+/// Rules by which a tag becomes two characters (EI-ASCII reference, section 3).
+enum class Rule : std::uint8_t {
+    dc_590plus, ///< "590plus"; its PNO 0..127 are tags 1000..1127
+    ac,         ///< "ac"
+    pno,        ///< "pno": the PNO in hexadecimal, as 590 and 590SP name parameters; tag 0..127 is its PNO
+};
+std::optional<Rule> rule_of(std::string_view name);
+Rule rule_of(Model model); ///< as the profiles have it
+
+/// The two characters of a tag; empty = none.
+std::string mnemonic_of(Rule rule, std::uint16_t tag);
+
+/// Knows how a drive names its tags.
+class Naming {
+public:
+    /// Names by the column `mnemonic` of its table, else by the rule of its model.
+    explicit Naming(Model model) : rule_(rule_of(model)), table_first_(true) {}
+    /// Names by this rule, whatever its table says.
+    explicit Naming(Rule rule) : rule_(rule) {}
+    /// Only as these rows say, whatever its table says: tag and mnemonic.
+    explicit Naming(std::vector<SimTag> rows) : rows_(std::move(rows)) {}
+
+    std::string name(const SimTag& tag) const; ///< empty: it has none
+
+private:
+    std::optional<Rule> rule_;
+    std::vector<SimTag> rows_;
+    bool table_first_ = false;
+};
 
 /// A value as the drive sends it: "30.", "-0.5", ">1B0B", ">01".
 std::string drive_text(Model model, const SimTag& tag, const SimValue& value);

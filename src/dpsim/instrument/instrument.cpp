@@ -32,7 +32,7 @@ bool is_unsigned(const SimTag& tag)
     return tag.type != TagKind::number || (!tag.follows_display && tag.max > 32767);
 }
 
-/// Of a segment in the normal area the duration is in seconds.
+/// The duration of a segment is in seconds in the normal area.
 std::uint32_t ms_per_count(const SimTag& tag)
 {
     return tag.ms_per_count > 0 ? static_cast<std::uint32_t>(tag.ms_per_count) : 1'000U;
@@ -43,14 +43,15 @@ bool is_in_store(std::uint16_t tag)
     return tag >= kStore && tag < kStore + (kPrograms + 1) * kProgramWords;
 }
 
-std::vector<Parameter> registers_of(const std::vector<SimTag>& tags, unsigned programs)
+std::vector<SimParameter> registers_of(const std::vector<SimTag>& tags, unsigned programs)
 {
     const unsigned store_ends = programs == 0 ? kStore : kStore + (programs + 1) * kProgramWords;
-    std::vector<Parameter> registers;
+    std::vector<SimParameter> registers;
     for (const SimTag& tag : tags)
         if (!is_in_store(tag.number) || tag.number < store_ends)
             registers.push_back({tag, {}, tag.start, std::nullopt});
-    for (Parameter& p : registers) // the table says ro, to protect a real instrument, which takes the write
+    for (SimParameter& p :
+         registers) // the table says ro, to protect a real instrument, which takes the write
         if (p.tag.number == kMode) p.tag.access = TagAccess::read_write;
     return registers;
 }
@@ -90,8 +91,8 @@ bool Instrument::integer_resolution()
     return counts_at(kResolution) == 1;
 }
 
-/// How the IEEE area has it (EI-ASCII and Modbus reference, section 5). Word 2 of a segment is a rate or a
-/// duration, as word 0 says.
+/// Returns the form of a tag in the IEEE area (EI-ASCII and Modbus reference, section 5). Word 2 of a segment
+/// is a rate or a duration, as word 0 says.
 Instrument::IeeeForm Instrument::ieee_form(const SimTag& tag)
 {
     const unsigned word = (unsigned{tag.number} - kStore) % kProgramWords;
@@ -109,7 +110,7 @@ Instrument::IeeeForm Instrument::ieee_form(const SimTag& tag)
 }
 
 /// The two registers of a parameter in the IEEE area.
-std::uint32_t Instrument::ieee_of(const Parameter& parameter, Instant now)
+std::uint32_t Instrument::ieee_of(const SimParameter& parameter, Instant now)
 {
     const std::int32_t counts = parameter.at(now).counts;
     double value = counts;
@@ -123,7 +124,7 @@ std::uint32_t Instrument::ieee_of(const Parameter& parameter, Instant now)
     return std::uint32_t{word_of(parameter, now)} << 16 | kNoSecondWord;
 }
 
-std::optional<std::int32_t> Instrument::counts_of_ieee(const Parameter& parameter, std::uint32_t bits)
+std::optional<std::int32_t> Instrument::counts_of_ieee(const SimParameter& parameter, std::uint32_t bits)
 {
     switch (ieee_form(parameter.tag)) {
         case IeeeForm::word: break;
@@ -134,7 +135,7 @@ std::optional<std::int32_t> Instrument::counts_of_ieee(const Parameter& paramete
 }
 
 /// The scaled integer of the register; beyond what a word can say it stays at the end of the range.
-std::uint16_t Instrument::word_of(const Parameter& parameter, Instant now)
+std::uint16_t Instrument::word_of(const SimParameter& parameter, Instant now)
 {
     const SimTag& tag = parameter.tag;
     std::int32_t counts = parameter.at(now).counts;
@@ -143,7 +144,7 @@ std::uint16_t Instrument::word_of(const Parameter& parameter, Instant now)
     return static_cast<std::uint16_t>(counts & 0xFFFF);
 }
 
-std::int32_t Instrument::counts_of(const Parameter& parameter, std::uint16_t word)
+std::int32_t Instrument::counts_of(const SimParameter& parameter, std::uint16_t word)
 {
     const SimTag& tag = parameter.tag;
     const std::int32_t counts = is_unsigned(tag) ? std::int32_t{word} : static_cast<std::int16_t>(word);
@@ -166,7 +167,7 @@ Exception Instrument::read(std::uint16_t address, std::uint16_t count, std::vect
     const unsigned end = unsigned{address} + count;
     if (end > (ieee ? 0x10000U : kIeeeArea)) return Exception::illegal_address;
     for (unsigned at = address; at < end; at += ieee ? 2 : 1) {
-        const Parameter* const p = find(tag_at(at));
+        const SimParameter* const p = find(tag_at(at));
         if (p == nullptr) return Exception::illegal_address;
         const std::uint32_t bits = ieee ? ieee_of(*p, now) : word_of(*p, now);
         if (ieee) words.push_back(static_cast<std::uint16_t>(bits >> 16));
@@ -175,7 +176,7 @@ Exception Instrument::read(std::uint16_t address, std::uint16_t count, std::vect
     return Exception::none;
 }
 
-bool Instrument::is_writable(const Parameter& parameter)
+bool Instrument::is_writable(const SimParameter& parameter)
 {
     const SimTag& tag = parameter.tag;
     if (tag.access == TagAccess::read_only || tag.type == TagKind::string) return false;
@@ -184,8 +185,8 @@ bool Instrument::is_writable(const Parameter& parameter)
     });
 }
 
-/// What may be written is; false: the value stays.
-bool Instrument::accept(Parameter& parameter, std::int32_t counts, Instant now)
+/// Writes the value if that is allowed; false: the value stays.
+bool Instrument::accept(SimParameter& parameter, std::int32_t counts, Instant now)
 {
     if (!is_writable(parameter) || counts < parameter.tag.min || counts > parameter.tag.max) return false;
     parameter.put({counts, {}});
@@ -193,7 +194,7 @@ bool Instrument::accept(Parameter& parameter, std::int32_t counts, Instant now)
     return true;
 }
 
-Exception Instrument::write(Parameter& parameter, std::int32_t counts, Instant now)
+Exception Instrument::write(SimParameter& parameter, std::int32_t counts, Instant now)
 {
     const std::uint16_t tag = parameter.tag.number;
     if (!accept(parameter, counts, now)) {
@@ -211,7 +212,7 @@ Exception Instrument::write(Parameter& parameter, std::int32_t counts, Instant n
 Exception Instrument::write_one(std::uint16_t address, std::uint16_t word, Instant now)
 {
     settle(now);
-    Parameter* const p = address < kIeeeArea ? find(address) : nullptr;
+    SimParameter* const p = address < kIeeeArea ? find(address) : nullptr;
     return p == nullptr ? Exception::illegal_address : write(*p, counts_of(*p, word), now);
 }
 
@@ -224,7 +225,7 @@ Exception Instrument::write_block(std::uint16_t address, std::span<const std::ui
     if (ieee && words.size() % 2 != 0) return Exception::illegal_value;
     for (std::size_t i = 0; i < words.size(); i += ieee ? 2 : 1) {
         const std::uint16_t tag = tag_at(address + static_cast<unsigned>(i));
-        Parameter* const p = find(tag);
+        SimParameter* const p = find(tag);
         if (p == nullptr) {
             log_.push_back(fmt::format("tag {} is not there, its value is dropped", tag));
             continue;
@@ -245,7 +246,7 @@ Exception Instrument::write_block(std::uint16_t address, std::span<const std::ui
 Exception Instrument::panel(std::uint16_t tag, std::int32_t counts, Instant now)
 {
     settle(now);
-    Parameter* const p = find(tag);
+    SimParameter* const p = find(tag);
     if (p == nullptr) return Exception::illegal_address;
     return accept(*p, counts, now) ? Exception::none : Exception::illegal_value;
 }

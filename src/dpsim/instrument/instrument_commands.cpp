@@ -14,7 +14,7 @@ std::vector<std::string> InstrumentCommands::all_help()
         "  bad-crc                    replies carry a wrong CRC",
         "  garbage                    replies are random octets",
         "  short                      replies end one octet early",
-        "  slow MS                    replies come this much later",
+        "  slow TIME                  replies come this much later",
         "  no-loopback                says nothing to function 8",
         "  ok                         ends all faults",
         "  panel TAG VALUE            as the operator does at the front panel: limits and access hold",
@@ -39,7 +39,7 @@ std::vector<std::string> InstrumentCommands::special(const Words& words, Instant
 std::string InstrumentCommands::panel(const Words& words, Instant now)
 {
     if (words.size() < 3) return "write it as: panel 2 50.0";
-    return change_tag<Instrument>(words, [&](Instrument& instrument, const Parameter& p) {
+    return change_tag<Instrument>(words, [&](Instrument& instrument, const SimParameter& p) {
         const std::string wanted = rest_of(words, 2);
         const auto value = value_of_text(p.tag, wanted);
         if (!value) return no_value(p, wanted);
@@ -54,7 +54,7 @@ std::string InstrumentCommands::bit(const Words& words, Instant now)
     const auto bit = number_at(words, 2, 0, 15);
     const auto on = switch_at(words, 3);
     if (!bit || !on) return "write it as: bit 75 5 on";
-    return change_tag(words, [&](Device& device, Parameter& p) {
+    return change_tag(words, [&](Device& device, SimParameter& p) {
         if (p.tag.type == TagKind::string) return fmt::format("tag {} is a text", p.tag.number);
         const std::int32_t mask = 1 << *bit, before = p.at(now).counts;
         p.put({*on ? before | mask : before & ~mask, {}});
@@ -65,7 +65,7 @@ std::string InstrumentCommands::bit(const Words& words, Instant now)
 
 std::string InstrumentCommands::tune(const Words& words)
 {
-    const auto time = words.size() > 1 ? duration_of_text(words[1]) : std::nullopt;
+    const auto time = words.size() > 1 ? read_duration(words[1]) : std::nullopt;
     const bool fails = words.size() == 3 && words[2] == "fails";
     if (!time || words.size() > 3 || (words.size() == 3 && !fails))
         return "write it as: tune 5s, or tune 5s fails";

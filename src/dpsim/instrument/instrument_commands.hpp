@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What can be typed at a simulated instrument: its faults, its front panel, its status bits.
+/// The commands that can be typed at a simulated instrument: its faults, its front panel, its status bits.
 #pragma once
 
 #include "dpsim/common/device_commands.hpp"

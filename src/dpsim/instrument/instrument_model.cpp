@@ -9,7 +9,7 @@
 namespace dpslave::sim {
 namespace {
 
-/// Where an instrument begins if its table does not say: tag, value, decimals of the value.
+/// The values that an instrument begins with if its table does not say: tag, value, decimals of the value.
 struct Start {
     std::uint16_t tag;
     std::int32_t value;
@@ -39,7 +39,7 @@ constexpr std::array kProgram{
 
 } // namespace
 
-InstrumentModel::InstrumentModel(std::uint8_t unit, std::uint16_t ident, std::vector<Parameter> registers,
+InstrumentModel::InstrumentModel(std::uint8_t unit, std::uint16_t ident, std::vector<SimParameter> registers,
                                  unsigned programs)
     : Device(std::to_string(unit), std::move(registers))
 {
@@ -48,14 +48,14 @@ InstrumentModel::InstrumentModel(std::uint8_t unit, std::uint16_t ident, std::ve
 
 std::int32_t InstrumentModel::counts_at(std::uint16_t tag)
 {
-    const Parameter* const p = find(tag);
+    const SimParameter* const p = find(tag);
     return p == nullptr ? 0 : p->value.counts;
 }
 
 void InstrumentModel::start_values(std::uint16_t ident, unsigned programs)
 {
     const auto start = [this](std::uint16_t tag, std::int32_t value, unsigned decimals) {
-        Parameter* const p = find(tag);
+        SimParameter* const p = find(tag);
         if (p == nullptr || p->tag.has_start || p->tag.type == TagKind::string) return;
         p->value.counts = std::clamp(rescaled(value, decimals, p->tag.decimals), p->tag.min, p->tag.max);
     };
@@ -71,7 +71,7 @@ void InstrumentModel::start_values(std::uint16_t ident, unsigned programs)
 
 void InstrumentModel::put(std::uint16_t tag, std::int32_t counts)
 {
-    if (Parameter* const p = find(tag)) p->put({counts, {}});
+    if (SimParameter* const p = find(tag)) p->put({counts, {}});
 }
 
 void InstrumentModel::put_bit(std::uint16_t tag, unsigned bit, bool on)
@@ -83,7 +83,7 @@ void InstrumentModel::put_bit(std::uint16_t tag, unsigned bit, bool on)
 
 void InstrumentModel::follow(std::uint16_t from, std::uint16_t to)
 {
-    const Parameter *const source = find(from), *const target = find(to);
+    const SimParameter *const source = find(from), *const target = find(to);
     if (source == nullptr || target == nullptr || source == target) return;
     put(to, std::clamp(rescaled(source->value.counts, source->tag.decimals, target->tag.decimals),
                        target->tag.min, target->tag.max));
@@ -155,7 +155,7 @@ void InstrumentModel::settle(Instant now)
     if (tune_ends_ && now >= *tune_ends_) end_tune(!tune_fails_, tune_fails_);
 }
 
-/// From reset or complete into run: program 0 becomes a copy of the program that is chosen.
+/// Changes from reset or complete to run: program 0 becomes a copy of the program that is chosen.
 void InstrumentModel::run_program()
 {
     const std::int32_t before = std::exchange(program_status_, counts_at(kProgramStatus));
@@ -171,7 +171,7 @@ void InstrumentModel::run_program()
 void InstrumentModel::set_decimals(unsigned decimals)
 {
     decimals = std::min(decimals, kDisplayDecimals);
-    for (Parameter& p : parameters_) {
+    for (SimParameter& p : parameters_) {
         if (!p.tag.follows_display || p.tag.decimals == decimals) continue;
         for (std::int32_t* const counts : {&p.value.counts, &p.tag.min, &p.tag.max})
             *counts = rescaled(*counts, p.tag.decimals, decimals);

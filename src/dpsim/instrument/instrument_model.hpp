@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What a 2408f or 2404f does by itself: where its values begin, and what follows from a value (handbook
-/// chapters 7 and 8). Pure; knows no request.
+/// Does what a 2408f or 2404f does by itself: where its values begin, and what follows from a value (handbook
+/// chapters 7 and 8). It is pure and knows no request.
 #pragma once
 
 #include "dpsim/common/device.hpp"
@@ -10,14 +10,14 @@ namespace dpslave::sim {
 class InstrumentModel : public Device {
 public:
     /// `unit`: 1 to 254. `ident`: of tag 122. `programs`: 0, 1 or 4 in the program store; program 0, the copy
-    /// of the running one, comes with them. Of the registers without a start value some get a sensible one.
-    InstrumentModel(std::uint8_t unit, std::uint16_t ident, std::vector<Parameter> registers,
+    /// of the running one, comes with them. Some of the registers without a start value get a sensible one.
+    InstrumentModel(std::uint8_t unit, std::uint16_t ident, std::vector<SimParameter> registers,
                     unsigned programs);
 
     void settle(Instant now) override;
     void changed(std::uint16_t tag, Instant now) override;
 
-    /// How long the next autotune takes, and whether it fails.
+    /// Sets how long the next autotune takes, and whether it fails.
     void prepare_tune(std::chrono::nanoseconds takes, bool fails);
 
 protected:

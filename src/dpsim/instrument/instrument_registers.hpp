@@ -14,7 +14,7 @@ inline constexpr std::uint16_t kProcessValue = 1, kTargetSetpoint = 2, kOutputPo
                                kSetpoint3 = 164, kMode = 199, kMostSegments = 211, kSkipReadOnly = 220,
                                kAutotune = 270, kManual = 273, kDecimals = 525, kResolution = 12550;
 
-/// From here on each tag has two registers: an IEEE single or 32 bits.
+/// Each tag has two registers from here on: an IEEE single or 32 bits.
 inline constexpr unsigned kIeeeArea = 0x8000;
 constexpr std::uint16_t tag_at(unsigned address)
 {
@@ -31,7 +31,7 @@ inline constexpr std::int32_t kReset = 1, kRun = 2, kHold = 4, kComplete = 16; /
 /// each of 16 segments.
 inline constexpr std::uint16_t kStore = 8192, kProgramWords = 136;
 inline constexpr unsigned kPrograms = 4;
-/// Of the eight words of a segment: its type, and what is a rate or a duration, as the type has it.
+/// The eight words of a segment have its type, and a rate or a duration, as the type says.
 inline constexpr unsigned kSegmentWords = 8, kSegmentType = 0, kDurationOrRate = 2;
 inline constexpr std::int32_t kRampRate = 1, kRampTime = 2, kDwell = 3;
 

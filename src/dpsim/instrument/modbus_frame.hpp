@@ -10,11 +10,12 @@ namespace dpslave::sim {
 /// CRC-16 of Modbus: polynomial A001h, begun with FFFFh; goes over the line low octet first.
 std::uint16_t crc16(Bytes octets);
 
-/// The octets with their CRC behind them.
+/// Returns the octets followed by their CRC.
 Octets with_crc(Octets octets);
 
-/// Octets of the request that begins with `head`, CRC included. 0: too few are known to say. Nothing: no
-/// function whose length is known, so that only silence can end it.
+/// Returns the number of octets of the request that begins with `head`, CRC included. The result 0 means that
+/// too few are known to say. It is nullopt if the length of the function is not known, so that only silence
+/// can end it.
 std::optional<std::size_t> request_length(Bytes head);
 
 /// The instruments of the 2000 series know these two and no others.

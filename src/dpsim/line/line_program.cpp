@@ -22,13 +22,13 @@ using namespace std::chrono_literals;
 /// The sleep ends so long before an octet is due; the rest is spun (measured: a sleep alone is 100 us late at
 /// p99).
 constexpr auto kSpin = 100us;
-/// How often a resting direction looks whether the program ends.
+/// The interval at which an idle direction looks whether the program ends.
 constexpr auto kRest = 100ms;
-/// As much as a pty holds; a sender that is faster has to wait, as on a real line.
+/// The limit is what a pty holds; a sender that is faster has to wait, as on a real line.
 constexpr std::size_t kMostInFlight = 20'000;
 
-/// Whether a UART at the rate `heard` understands what is sent at `sent`: beyond 2 % its last bits are
-/// others.
+/// Returns whether a UART at the rate `heard` understands what is sent at `sent`: beyond 2 % its last bits
+/// are others.
 bool is_understood(std::uint32_t sent, std::uint32_t heard)
 {
     const std::uint32_t off = sent > heard ? sent - heard : heard - sent;
@@ -59,9 +59,7 @@ public:
         const std::lock_guard lock(mutex_);
         const bool is_logged = !has_log_ || log_.flush();
         return fmt::format(
-            "{} octets passed, {} spoilt, {} lost while cut, {} lost because they were not read, {} "
-            "sent and {} read "
-            "at another rate{}",
+            "{} octets passed, {} spoilt, {} lost while cut, {} lost because they were not read, {} sent and {} read at another rate{}",
             pacer_.passed(), pacer_.spoilt(), pacer_.lost(), unread_, sent_wrong_, read_wrong_,
             is_logged ? "" : ", the log cannot be written");
     }
@@ -107,7 +105,7 @@ private:
         }
     }
 
-    /// What a UART at the rate of the line receives of the octets that are sent.
+    /// Returns what a UART at the rate of the line receives of the octets that are sent.
     Octets as_sent(Octets octets)
     {
         if (any_rate_ || octets.empty()) return octets;
@@ -122,7 +120,7 @@ private:
         return heard;
     }
 
-    /// What the end that reads receives of the octets on the line.
+    /// Returns what the end that reads receives of the octets on the line.
     Octets as_read(Octets octets)
     {
         if (any_rate_ || octets.empty()) return octets;
@@ -155,7 +153,7 @@ private:
     std::jthread thread_;
 };
 
-/// What is to be said; empty = done. Nothing: quit.
+/// Returns the answer to a command, empty if it is done; nullopt means quit.
 std::optional<std::string> command(const std::string& line, Direction& ab, Direction& ba)
 {
     const auto words = words_of(line);
@@ -176,14 +174,15 @@ std::optional<std::string> command(const std::string& line, Direction& ab, Direc
         return both([&](Pacer& pacer) { pacer.set_errors(p); });
     }
     if (words[0] == "baud" && words.size() == 2) {
-        const auto baud = number_of(words[1], 50, 12'000'000);
-        if (!baud) return "baud: bit/s, 50 to 12000000";
-        return both([&](Pacer& pacer) { pacer.set_baud(static_cast<std::uint32_t>(*baud)); });
+        const auto baud = read_rate(words[1]);
+        if (!baud || *baud < kRatesOfALine.least || *baud > kRatesOfALine.most)
+            return "write it as: baud 187.5k (50 bit/s to 12M)";
+        return both([&](Pacer& pacer) { pacer.set_baud(*baud); });
     }
     if (words[0] == "delay" && words.size() == 2) {
-        const auto us = number_of(words[1], 0, 10'000'000);
-        if (!us) return "delay: microseconds, 0 to 10000000";
-        return both([&](Pacer& pacer) { pacer.set_delay(std::chrono::microseconds{*us}); });
+        const auto time = read_duration(words[1], kDelaysOfALine.least, kDelaysOfALine.most);
+        if (!time) return "write it as: delay 100us (10s at most)";
+        return both([&](Pacer& pacer) { pacer.set_delay(*time); });
     }
     return "commands: " + std::string{kLineCommands};
 }
@@ -196,18 +195,18 @@ int run_line(const LineOptions& options)
     auto a = open_pty(options.baud), b = open_pty(options.baud);
     if (!a || !b) {
         print_error(a ? b.error() : a.error());
-        return kNoPort;
+        return kNo;
     }
     const auto link_a = Symlink::make(options.a, a->path);
     const auto link_b = link_a ? Symlink::make(options.b, b->path) : Failure{link_a.error()};
     if (!link_b) {
         print_error(link_b.error());
-        return kNoPort;
+        return kNo;
     }
     const auto pacer = [&](std::uint64_t seed) {
         Pacer made{options.baud, options.bits, seed};
         made.set_errors(options.errors);
-        made.set_delay(std::chrono::microseconds{options.delay_us});
+        made.set_delay(options.delay);
         return made;
     };
     std::optional<Direction> ab, ba;
@@ -216,7 +215,7 @@ int run_line(const LineOptions& options)
         ba.emplace(*b, *a, pacer(options.seed + 1), options.any_rate, options.log_a);
     } catch (const std::runtime_error& error) {
         print_error(error.what());
-        return kNoPort;
+        return kNo;
     }
     print_line(fmt::format("ready {} {}", options.a, options.b));
 

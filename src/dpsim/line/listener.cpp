@@ -38,8 +38,8 @@ bool Listener::level_at(double bit) const
     return index >= levels_.size() || levels_[index];
 }
 
-/// Each bit is looked at in its middle, as the listener counts from the edge of the start bit. What may go on
-/// in the next characters is kept, unless the line rests.
+/// Each bit is looked at in its middle, as the listener counts from the edge of the start bit. Bits that may
+/// go on in the next characters are kept, unless the line is idle.
 Octets Listener::sample(bool resting)
 {
     const double bit = static_cast<double>(sent_at_) / heard_at_;

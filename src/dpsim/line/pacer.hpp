@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// When each octet that was handed to a serial line arrives at its other end, and what becomes of it on the
-/// way. Pure.
+/// Decides when each octet that was handed to a serial line arrives at its other end, and how it is changed
+/// on the way. It is pure.
 #pragma once
 
 #include "dpsim/common/telegram.hpp"
@@ -33,11 +33,11 @@ public:
     /// unseen, as on a wire.
     void set_errors(double probability) { errors_ = probability; }
     void set_delay(std::chrono::nanoseconds delay) { delay_ = delay; }
-    /// Of what is taken from now on. `baud` > 0.
+    /// Sets the rate of the octets that are taken from now on. `baud` > 0.
     void set_baud(std::uint32_t baud);
     std::uint32_t baud() const { return baud_; }
     unsigned bits() const { return bits_; }
-    /// What is in flight is lost too.
+    /// Octets in flight are lost too.
     void set_cut(bool cut);
 
     std::uint64_t passed() const { return passed_; }

@@ -79,7 +79,7 @@ Result<Condition, std::string> word_condition(Words w)
     Condition c{.subject = w[0] == "in" ? Condition::Subject::input : Condition::Subject::output};
     const bool masked = take_mask(w, 2, c);
     const auto index = number_at(w, 1, 1, INT64_MAX);
-    const auto value = w.size() == 4 ? number_of(w[3]) : std::nullopt;
+    const auto value = w.size() == 4 ? read_number(w[3]) : std::nullopt;
     if (!masked || !index || !value || !is_relation(w[2]))
         return Failure{fmt::format("write it as: {0} 1 = 1250 (or != < > <= >=), {0} 1 & 0x1000 = 0", w[0])};
     c.index = static_cast<std::size_t>(*index);
@@ -110,7 +110,7 @@ Result<Condition, std::string> demand_condition(Words w)
         if (!take_mask(w, at, c) || w.size() <= at || !is_relation(w[at])) return help;
         c.relation = w[at];
     }
-    const auto value = w.size() == at + 2 ? number_of(w[at + 1]) : std::nullopt;
+    const auto value = w.size() == at + 2 ? read_number(w[at + 1]) : std::nullopt;
     if (!value) return help;
     c.value = *value;
     return c;

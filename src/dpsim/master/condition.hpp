@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What `wait ... for` and `expect` can ask of the master.
+/// Answers what `wait ... for` and `expect` can ask of the master.
 #pragma once
 
 #include "demand.hpp"

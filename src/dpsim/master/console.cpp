@@ -14,7 +14,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kStartTime = 10s; ///< for the whole start-up, at 9600 and with retries
+constexpr auto kStartTime = 10s; ///< for the complete start-up, at 9600 and with retries
 constexpr auto kAnswerTime = 5s;
 
 double seconds(std::chrono::nanoseconds t)
@@ -83,7 +83,8 @@ const std::vector<Console::Command>& Console::commands()
         {"operate", "", "", Command::set_mode},
         {"set-prm", "set-prm HEX", "Set_Prm with this whole data unit (7 octets and more)",
          Command::by<&Console::do_service>},
-        {"chk-cfg", "chk-cfg HEX", "Chk_Cfg with these identifier octets", Command::by<&Console::do_service>},
+        {"chk-cfg", "chk-cfg HEX | none", "Chk_Cfg with these identifier octets",
+         Command::by<&Console::do_service>},
         {"send", "send HEX", "sends these octets as they are and shows the answer",
          Command::by<&Console::do_service>},
         {"unlock", "unlock", "releases the slave (Set_Prm with Unlock_Req) and stops",
@@ -106,14 +107,14 @@ std::vector<std::string> Console::help()
     for (const Command& c : commands())
         if (!c.usage.empty()) lines.push_back(fmt::format("  {:<44} {}", c.usage, c.help));
     lines.push_back(fmt::format("  {:<44} {}", "try COMMAND", "goes on even if the command fails"));
-    lines.emplace_back("TIME: 2s, 500ms. VALUE: 1250, -300, 0x04E2. '#' begins a comment.");
-    lines.emplace_back("CONDITION: in N = V (also != < > <= >=), out N = V, in N & MASK = V, state [not] "
-                       "data-exchange,");
     lines.emplace_back(
-        "  demand = V, demand reject E, demand none, demand reg 1..4 [& MASK] = V, diag [not] NAME, "
-        "diag HEX, diag ext HEX,");
-    lines.emplace_back("  reply HEX, reply none. NAME: prm-fault cfg-fault not-ready prm-required stat-diag "
-                       "ext-diag not-supported");
+        "TIME: 2s, 500ms, 5m; a number alone is seconds. VALUE: 1250, -300, 0x04E2. '#' begins a comment.");
+    lines.emplace_back(
+        "CONDITION: in N = V (also != < > <= >=), out N = V, in N & MASK = V, state [not] data-exchange,");
+    lines.emplace_back(
+        "  demand = V, demand reject E, demand none, demand reg 1..4 [& MASK] = V, diag [not] NAME, diag HEX, diag ext HEX,");
+    lines.emplace_back(
+        "  reply HEX, reply none. NAME: prm-fault cfg-fault not-ready prm-required stat-diag ext-diag not-supported");
     lines.emplace_back("  watchdog sync freeze overflow. diag ext is all that follows octet 6.");
     return lines;
 }
@@ -126,7 +127,7 @@ void Console::command(const std::string& line, const std::string& place, Instant
     if (words.empty()) return;
     line_ = rest_of(words, 0);
     place_ = place;
-    const bool joined = words[0].size() > 2 && words[0].starts_with("in") && number_of(words[0].substr(2));
+    const bool joined = words[0].size() > 2 && words[0].starts_with("in") && read_number(words[0].substr(2));
     if (joined) words = {"in", words[0].substr(2)};
     const auto& table = commands();
     const auto found =
@@ -150,11 +151,11 @@ void Console::stamp(Instant now, std::string_view words)
     say(fmt::format("{:9.3f} s  {}", seconds(now - began_), words));
 }
 
-void Console::fail(std::string_view why)
+void Console::fail(std::string_view why, int exit)
 {
     wait_.reset();
     say(fmt::format("{}{}: {}", place_, line_, why));
-    if (!tries_) failed_ = true;
+    if (!tries_ && exit_ == arguments::kFine) exit_ = exit;
 }
 
 // ---- what the master reports ----
@@ -174,7 +175,7 @@ void Console::take(const MasterEvent& event, Instant now)
             return;
         case MasterEvent::Kind::refused:
             stamp(now, event.words);
-            if (wait_ && wait_->what == For::start) start_refused(event.words);
+            if (wait_ && wait_->what == For::start) start_refused(event.words, arguments::kRefused);
             return;
         case MasterEvent::Kind::lost: stamp(now, event.words); return;
         case MasterEvent::Kind::violation: stamp(now, "not as the standard has it: " + event.words); return;
@@ -196,7 +197,9 @@ void Console::take_answer(const Answer& answer)
     if (answer.service == Service::global_control) return;
     if (answer.service == Service::raw)
         return say(answer.words + (answer.octets.empty() ? "" : ": " + hex(answer.octets)));
-    if (!answer.frame) return fail(fmt::format("{} from station {}", answer.words, master_.settings().slave));
+    if (!answer.frame)
+        return fail(fmt::format("{} from station {}", answer.words, master_.settings().slave),
+                    arguments::kNoAnswer);
     if (answer.service != Service::slave_diag || answer.frame->kind != FrameKind::variable)
         return say(answer.words);
     const auto diagnosis = parse_diagnosis(answer.frame->data);
@@ -204,9 +207,9 @@ void Console::take_answer(const Answer& answer)
     say(explain(*diagnosis));
 }
 
-void Console::start_refused(const std::string& why)
+void Console::start_refused(const std::string& why, int exit)
 {
-    fail(why);
+    fail(why, exit);
     if (master_.diagnosis())
         for (const std::string& line : explain(*master_.diagnosis())) say("  " + line);
     master_.stop();
@@ -221,13 +224,16 @@ void Console::check_wait(Instant now)
                 return wait_.reset();
             if (!late) return;
             if (master_.state() == MasterState::searching)
-                return fail(fmt::format(
-                    "station {} does not answer: is it running, at this rate and address, on this line?",
-                    master_.settings().slave));
+                return fail(
+                    fmt::format(
+                        "station {} does not answer: is it running, at this rate and address, on this line?",
+                        master_.settings().slave),
+                    arguments::kNoAnswer);
             return start_refused(
-                fmt::format("not in data exchange yet, the state is {}", text(master_.state())));
+                fmt::format("not in data exchange yet, the state is {}", text(master_.state())),
+                arguments::kNoAnswer);
         case For::answer:
-            if (late) fail("no answer in time");
+            if (late) fail("no answer in time", arguments::kNoAnswer);
             return;
         case For::time:
             if (late) wait_.reset();
@@ -253,7 +259,7 @@ void Console::ask(Order order, Instant now)
 void Console::do_start(const Words& words, Instant now)
 {
     const auto time =
-        words.size() > 1 ? duration_of_text(words[1]) : std::optional<std::chrono::nanoseconds>{kStartTime};
+        words.size() > 1 ? read_duration(words[1]) : std::optional<std::chrono::nanoseconds>{kStartTime};
     if (!time || words.size() > 2) return fail("write it as: start, or start 5s");
     master_.start();
     wait_ = Wait{.what = For::start, .until = now + *time, .cycles = master_.counters().cycles};
@@ -261,7 +267,7 @@ void Console::do_start(const Words& words, Instant now)
 
 void Console::do_wait(const Words& words, Instant now)
 {
-    const auto time = words.size() > 1 ? duration_of_text(words[1]) : std::nullopt;
+    const auto time = words.size() > 1 ? read_duration(words[1]) : std::nullopt;
     if (!time || (words.size() > 2 && words[2] != "for")) return fail("write it as: wait 2s for in 1 = 1250");
     if (words.size() == 2) {
         wait_ = Wait{.what = For::time, .until = now + *time};
@@ -274,7 +280,7 @@ void Console::do_wait(const Words& words, Instant now)
 
 void Console::do_run(const Words& words, Instant now)
 {
-    const auto time = words.size() == 2 ? duration_of_text(words[1]) : std::nullopt;
+    const auto time = words.size() == 2 ? read_duration(words[1]) : std::nullopt;
     if (!time && words.size() > 1) return fail("write it as: run 2s");
     wait_ = Wait{.what = For::time, .until = time ? now + *time : kNever};
 }
@@ -291,7 +297,7 @@ void Console::do_expect(const Words& words, Instant /*now*/)
 void Console::do_in(const Words& words, Instant /*now*/)
 {
     const auto count = static_cast<std::int64_t>(input_words(master_));
-    const auto only = words.size() > 1 ? number_of(words[1], 0, count) : std::optional<std::int64_t>{0};
+    const auto only = words.size() > 1 ? read_number(words[1], 0, count) : std::optional<std::int64_t>{0};
     if (!only) return fail(fmt::format("there are {} input words, counted from 1", count));
     if (master_.inputs().empty()) return say("no inputs at present: " + std::string{text(master_.state())});
     for (std::size_t n = 1; n <= input_words(master_); ++n)
@@ -333,14 +339,14 @@ void Console::do_demand(const Words& words, Instant now)
 void Console::take(DemandRun::Step step)
 {
     say(std::move(step.lines));
-    if (!step.failure.empty()) return fail(step.failure);
+    if (!step.failure.empty()) return fail(step.failure, step.exit);
     if (step.done) return wait_.reset();
     wait_->until = demand_.deadline();
 }
 
 void Console::do_global(const Words& words, Instant now)
 {
-    const auto groups = words.size() > 1 ? number_of(words[1], 0, 255) : std::optional<std::int64_t>{0};
+    const auto groups = words.size() > 1 ? read_number(words[1], 0, 255) : std::optional<std::int64_t>{0};
     if (!groups) return fail("groups are a mask 0x00 to 0xFF, 0 = all");
     const std::uint8_t control = words[0] == "sync"     ? 0x20
                                  : words[0] == "unsync" ? 0x10
@@ -360,9 +366,11 @@ void Console::do_unlock(const Words& /*words*/, Instant now)
 
 void Console::do_service(const Words& words, Instant now)
 {
-    auto octets = octets_of(rest_of(words, 1));
+    const bool is_none = words[0] == "chk-cfg" && words.size() == 2 && words[1] == "none";
+    auto octets = is_none ? Octets{} : octets_of(rest_of(words, 1));
     if (!octets) return fail(octets.error());
-    if (octets->empty() || octets->size() > 244) return fail("1 to 244 octets in hexadecimal are needed");
+    if ((octets->empty() && !is_none) || octets->size() > 244)
+        return fail("1 to 244 octets in hexadecimal are needed");
     const Service service = words[0] == "send"      ? Service::raw
                             : words[0] == "set-prm" ? Service::set_prm
                                                     : Service::chk_cfg;

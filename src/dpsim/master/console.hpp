@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The commands of `dpsim master`: one a line, the answer in plain words. Pure: commands and times go in,
-/// orders to a Master and lines come out. The cyclic exchange goes on while a command waits.
+/// The commands of `dpsim master`: one a line, the answer in plain words. It is pure: commands and times go
+/// in, orders to a Master and lines come out. The cyclic exchange goes on while a command waits.
 #pragma once
 
 #include "demand_run.hpp"
+
+#include "dpslave/arguments/exit_status.hpp"
 
 namespace dpslave::sim {
 
@@ -14,13 +16,14 @@ public:
 
     /// Carries out one line. Precondition: !busy(). `place` begins the sentence of a failure ("line 4: ").
     void command(const std::string& line, const std::string& place, Instant now);
-    /// After every turn of the master: takes its events, and ends what the running command waits for.
+    /// Takes the events of the master after each of its turns, and ends what the running command waits for.
     void on_time(Instant now);
 
     bool busy() const { return wait_.has_value(); }
     Instant next_deadline() const { return wait_ ? wait_->until : kNever; }
     bool quit() const { return quit_; }
-    bool failed() const { return failed_; }
+    /// The exit status that the first failure demands.
+    int exit() const { return exit_; }
     std::vector<std::string> take_lines();
     static std::vector<std::string> help();
 
@@ -53,12 +56,12 @@ private:
     void take_answer(const Answer& answer);
     void check_wait(Instant now);
     void take(DemandRun::Step step);
-    void start_refused(const std::string& why);
+    void start_refused(const std::string& why, int exit);
     void ask(Order order, Instant now);
     void say(std::string line) { lines_.push_back(std::move(line)); }
     void say(std::vector<std::string> lines);
     void stamp(Instant now, std::string_view words);
-    void fail(std::string_view why);
+    void fail(std::string_view why, int exit = arguments::kNo);
 
     Master& master_;
     DemandRun demand_;
@@ -66,7 +69,8 @@ private:
     std::optional<Wait> wait_;
     std::string line_, place_;
     bool tries_ = false; ///< "try": a failure is printed, but does not count
-    bool quit_ = false, failed_ = false;
+    bool quit_ = false;
+    int exit_ = arguments::kFine;
     bool follows_ = false;
     std::vector<std::optional<std::uint16_t>> followed_; ///< the input words as printed last
     Octets last_reply_;

@@ -28,16 +28,16 @@ struct DemandWords {
     std::uint16_t value = 0; ///< value, or error code with a reject
 };
 
-/// Of the process image, before the process words: 8, or 0 without Demand Data.
+/// Returns the octets of the process image before the process words: 8, or 0 without Demand Data.
 std::size_t demand_octets(const MasterSettings& settings);
 bool has_demand(const MasterSettings& settings);
 
 DemandRegisters registers_of(const DemandWords& order);
-/// What `answer` says to `request`. An extended command is answered with an empty tag field and the tag in
-/// register 2, or as worked example 2 prints it: 3000h, and 7000h + tag.
+/// Returns what `answer` says to `request`. An extended command is answered with an empty tag field and the
+/// tag in register 2, or as worked example 2 prints it: 3000h, and 7000h + tag.
 DemandWords read_demand(const DemandRegisters& request, const DemandRegisters& answer);
 
-/// As they came; nothing before the first answer, or without Demand Data.
+/// Returns the registers as they came; nullopt before the first answer, or without Demand Data.
 std::optional<DemandRegisters> demand_inputs(const Master& master);
 std::optional<DemandWords> demand_answer(Master& master);
 /// Precondition of both: has_demand().

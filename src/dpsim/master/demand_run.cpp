@@ -18,9 +18,7 @@ constexpr std::size_t kMostValues = 16'384;
 constexpr std::size_t kValuesPerLine = 8;
 
 constexpr std::string_view kDemandUsage =
-    "write it as: demand read 55, demand write 56 1000, demand none (tags 0 to 2047), demand read-ext 8328, "
-    "demand "
-    "write-ext 8328 3, demand raw 8462 0 0 1, demand upload 8328 136 or demand download 8328";
+    "write it as: demand read 55, demand write 56 1000, demand none (tags 0 to 2047), demand read-ext 8328, demand write-ext 8328 3, demand raw 8462 0 0 1, demand upload 8328 136 or demand download 8328";
 
 std::optional<std::uint16_t> word_in(const std::vector<std::string>& words, std::size_t at,
                                      std::int64_t least, std::int64_t most)
@@ -39,9 +37,9 @@ DemandRun::Step done(std::vector<std::string> lines = {})
     return {.lines = std::move(lines), .done = true};
 }
 
-DemandRun::Step failed(std::string_view why)
+DemandRun::Step failed(std::string_view why, int exit = arguments::kNo)
 {
-    return {.failure = std::string{why}};
+    return {.failure = std::string{why}, .exit = exit};
 }
 
 } // namespace
@@ -146,7 +144,7 @@ DemandRun::Step DemandRun::on_time(Instant now)
     const bool ours = answer &&
                       (answer->command == DemandCommand::read || answer->command == DemandCommand::reject) &&
                       answer->tag == order_.tag;
-    if (!ours) return late ? failed("no answer from the drive in time") : Step{};
+    if (!ours) return late ? failed("no answer from the drive in time", arguments::kNoAnswer) : Step{};
     return phase_ == Phase::block ? after_value(*answer, now) : done({show_demand(*answer)});
 }
 
@@ -158,7 +156,7 @@ DemandRun::Step DemandRun::after_none(bool late)
         set_demand_outputs(master_, registers_of(order_));
         phase_ = is_block_ ? Phase::block : Phase::order;
     } else if (late) {
-        return failed("the slave does not answer 'no command'");
+        return failed("the slave does not answer 'no command'", arguments::kNoAnswer);
     }
     return {};
 }
@@ -166,7 +164,8 @@ DemandRun::Step DemandRun::after_none(bool late)
 DemandRun::Step DemandRun::after_value(const DemandWords& answer, Instant now)
 {
     if (answer.command == DemandCommand::reject)
-        return failed(fmt::format("{} after {} values", show_demand(answer), transfer_.done));
+        return failed(fmt::format("{} after {} values", show_demand(answer), transfer_.done),
+                      arguments::kRefused);
     if (!transfer_.down) block_.push_back(answer.value);
     ++transfer_.done;
     Step step;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What `demand ...` does: one order or one block of values through Demand Data, from the command to the
-/// answer of the drive. Pure: words and times in, lines and an end out.
+/// Does what `demand ...` asks: one order or one block of values through Demand Data, from the command to the
+/// answer of the drive. It is pure: words and times go in, lines and an end come out.
 #pragma once
 
 #include "condition.hpp"
+
+#include "dpslave/arguments/exit_status.hpp"
 
 namespace dpslave::sim {
 
@@ -11,14 +13,15 @@ class DemandRun {
 public:
     explicit DemandRun(Master& master) : master_(master) {}
 
-    /// What a command or a moment came to. Neither done nor failed: call on_time() after the next turn of the
-    /// master.
+    /// The result of a command or of a moment. If it is neither done nor failed, call on_time() after the
+    /// next turn of the master.
     struct Step {
         std::vector<std::string> lines{};
         bool done = false;
-        std::string failure{}; ///< empty = none
+        std::string failure{};     ///< empty = none
+        int exit = arguments::kNo; ///< with a failure: the exit status
     };
-    /// `words`: the whole command, "demand" first.
+    /// `words`: the complete command, "demand" first.
     Step begin(const std::vector<std::string>& words, Instant now);
     Step on_time(Instant now);
     Instant deadline() const { return until_; }

@@ -29,7 +29,7 @@ constexpr std::array kFindings{
     Finding{"overflow", {3, 0x80}, "Ext_Diag_Overflow: there is more diagnosis than fits"},
 };
 
-/// Trip codes of the drives behind a technology box (HA463561U002); 31 = a 590+ has tripped.
+/// Trip codes of the drives with a technology box (HA463561U002); 31 = a 590+ has tripped.
 constexpr std::array kTrips =
     std::to_array<std::pair<unsigned, std::string_view>>({{0, "no trip"},
                                                           {1, "link overvolts"},

@@ -24,15 +24,15 @@ struct Diagnosis {
     bool has(DiagnosisBit bit) const { return (octets[bit.octet - 1] & bit.mask) != 0; }
 };
 
-/// From the data unit of a Slave_Diag reply; says what is implausible about it.
+/// Reads the data unit of a Slave_Diag reply; says what is implausible about it.
 Result<Diagnosis, std::string> parse_diagnosis(Bytes data);
 
 /// One line a finding, the standard octets first, then each block of the extended part.
 std::vector<std::string> explain(const Diagnosis& diagnosis);
 
-/// Is the finding of this name ("prm-fault", "cfg-fault", "not-ready", "prm-required", "ext-diag",
-/// "stat-diag", "not-supported", "watchdog", "freeze", "sync", "overflow") set? Nothing if there is no such
-/// name.
+/// Returns whether the finding of this name ("prm-fault", "cfg-fault", "not-ready", "prm-required",
+/// "ext-diag", "stat-diag", "not-supported", "watchdog", "freeze", "sync", "overflow") is set; nullopt if
+/// there is no such name.
 std::optional<bool> finding(const Diagnosis& diagnosis, std::string_view name);
 
 } // namespace dpslave::sim

@@ -169,7 +169,7 @@ void Master::on_negative(const Requester::Outcome& outcome, Instant now)
     if (state_ == MasterState::data_exchange)
         return leave_exchange(words + ": the slave is not in data exchange any more", MasterState::asking);
     if (state_ != MasterState::configuring) return refuse(std::move(words), now);
-    cfg_refusal_ = std::move(words); // the reason stands in the diagnosis
+    cfg_refusal_ = std::move(words); // the reason is in the diagnosis
     enter(MasterState::awaiting_ready);
 }
 
@@ -202,7 +202,7 @@ void Master::judge_start_up(const Diagnosis& d, Instant now)
             if (d.has(kPrmFault) && d.ident != settings_.ident)
                 return refuse(
                     fmt::format(
-                        "Set_Prm was refused: its ident is 0x{:04X}, the slave's is 0x{:04X} (--ident)",
+                        "Set_Prm was refused: its ident is 0x{:04X}, the slave's is 0x{:04X} (--ident, or another file for --gsd)",
                         settings_.ident, d.ident),
                     now);
             if (d.has(kPrmFault))

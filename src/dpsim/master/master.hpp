@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A DP master (class 1) for one slave, and a check of what the slave answers. Pure: octets and times go in,
-/// telegrams, deadlines and events come out (wire reference, sections 2.6, 4 and 5).
+/// A DP master (class 1) for one slave, and a check of what the slave answers. It is pure: octets and times
+/// go in, telegrams, deadlines and events come out (wire reference, sections 2.6, 4 and 5).
 #pragma once
 
 #include "diagnosis.hpp"
@@ -24,7 +24,7 @@ struct MasterEvent {
     std::optional<Answer> answer{};
 };
 
-/// After every on_* call: take_transmit(), then take_event() until empty, then next_deadline().
+/// Call after every on_*: take_transmit(), then take_event() until empty, then next_deadline().
 class Master {
 public:
     explicit Master(MasterSettings settings);

@@ -29,23 +29,23 @@ public:
             const int typing = console_.busy() ? -1 : input_.fd();
             wait_readable({signals.fd(), port_, typing},
                           std::min(master_.next_deadline(), console_.next_deadline()));
-            if (!turn_port()) return kNoPort;
+            if (!turn_port()) return kNo;
             if (typing >= 0 && readable(typing)) input_.read();
             while (!console_.busy() && !ended())
                 if (!next_command()) break;
         }
         for (const std::string& line : in_words(master_.counters())) print_line(line);
-        return console_.failed() ? kFailed : kFine;
+        return console_.exit();
     }
 
 private:
     bool ended() const
     {
-        if (console_.quit() || (console_.failed() && !prompt_)) return true;
+        if (console_.quit() || (console_.exit() != kFine && !prompt_)) return true;
         return input_.ended() && !console_.busy() && !more_;
     }
 
-    /// False: the port is closed.
+    /// Returns false if the port is closed.
     bool turn_port()
     {
         const auto octets = read_some(port_);
@@ -112,7 +112,7 @@ int run_master(const MasterOptions& options)
         file = Fd{::open(options.script.c_str(), O_RDONLY | O_CLOEXEC)};
         if (file.get() < 0) {
             print_error(fmt::format("--script {}: cannot be read", options.script));
-            return kUsage;
+            return kNo;
         }
     }
     const Signals signals;
@@ -120,7 +120,7 @@ int run_master(const MasterOptions& options)
     auto port = open_tty(options.port, static_cast<std::uint32_t>(s.baud), Format::bits8_even);
     if (!port) {
         print_error(port.error());
-        return kNoPort;
+        return kNo;
     }
     be_prompt();
     const bool prompt = options.script.empty() && ::isatty(STDIN_FILENO) == 1;

@@ -37,17 +37,17 @@ double microseconds(std::chrono::nanoseconds t)
 
 std::vector<std::string> in_words(const MasterCounters& c)
 {
-    std::vector<std::string> lines{fmt::format("{} cycles, {} retries, {} requests without answer, {} "
-                                               "invalid answers, {} octets that were not asked for",
-                                               c.cycles, c.retries, c.missing, c.invalid, c.unasked_octets),
-                                   fmt::format("{} diagnosis reads, {} answers with diagnosis pending, {} "
-                                               "refusals, {} times out of data exchange",
-                                               c.diagnosis_reads, c.diagnosis_pending, c.refused,
-                                               c.exchanges_lost)};
+    std::vector<std::string> lines{
+        fmt::format(
+            "{} cycles, {} retries, {} requests without answer, {} invalid answers, {} octets that were not asked for",
+            c.cycles, c.retries, c.missing, c.invalid, c.unasked_octets),
+        fmt::format(
+            "{} diagnosis reads, {} answers with diagnosis pending, {} refusals, {} times out of data exchange",
+            c.diagnosis_reads, c.diagnosis_pending, c.refused, c.exchanges_lost)};
     if (c.others > 0) lines.push_back(fmt::format("{} exchanges of other stations", c.others));
     if (c.cycles > 0)
         lines.push_back(fmt::format(
-            "Data_Exchange, request handed over until answer whole: min {:.0f}, mean {:.0f}, max {:.0f} us",
+            "Data_Exchange, request handed over until answer complete: min {:.0f}, mean {:.0f}, max {:.0f} us",
             microseconds(c.answer_min), microseconds(c.answer_sum) / static_cast<double>(c.cycles),
             microseconds(c.answer_max)));
     return lines;
@@ -121,13 +121,14 @@ Octets set_prm_unit(const MasterSettings& s)
 {
     const bool wd = s.watchdog.count() > 0;
     const auto [f1, f2] = watchdog_factors(s.watchdog);
-    Octets unit{static_cast<std::uint8_t>(0x80 | (s.sync_freeze ? 0x30 : 0) | (wd ? 0x08 : 0)),
-                wd ? f1 : std::uint8_t{1},
-                wd ? f2 : std::uint8_t{1},
-                s.min_tsdr,
-                high(s.ident),
-                low(s.ident),
-                s.group};
+    Octets unit{
+        static_cast<std::uint8_t>(0x80 | (s.sync ? 0x20 : 0) | (s.freeze ? 0x10 : 0) | (wd ? 0x08 : 0)),
+        wd ? f1 : std::uint8_t{1},
+        wd ? f2 : std::uint8_t{1},
+        s.min_tsdr,
+        high(s.ident),
+        low(s.ident),
+        s.group};
     const std::size_t fixed = unit.size();
     unit.resize(fixed + s.user_prm.size());
     std::copy(s.user_prm.begin(), s.user_prm.end(), unit.begin() + static_cast<std::ptrdiff_t>(fixed));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What a master is set to, what it can ask, and what it counts.
+/// The settings of a master, what it can ask, and what it counts.
 #pragma once
 
 #include "dpsim/common/telegram.hpp"
@@ -22,7 +22,8 @@ struct MasterSettings {
     std::chrono::milliseconds watchdog{1000};
     std::uint8_t min_tsdr = 11; ///< bit times
     std::uint8_t group = 0x01;  ///< Group_Ident, a bit per group
-    bool sync_freeze = true;    ///< ask for Sync and Freeze in Set_Prm
+    bool sync = true;           ///< ask for Sync in Set_Prm
+    bool freeze = true;         ///< ask for Freeze
     Fixed fixed = Fixed::never; ///< SD3 for data units of eight octets
     unsigned others = 0;        ///< exchanges of other stations before each request
     unsigned retries = 1;       ///< repetitions of a request that got no valid answer
@@ -31,7 +32,7 @@ struct MasterSettings {
     std::chrono::nanoseconds allowance = std::chrono::milliseconds{20};
 };
 
-/// How many octets a configuration carries in each direction; why it cannot be one.
+/// The number of octets that a configuration carries in each direction; or why it cannot be one.
 struct CfgLengths {
     std::size_t inputs = 0;
     std::size_t outputs = 0;
@@ -73,10 +74,10 @@ struct Order {
     Octets data; ///< data unit without SAPs; of raw: the octets as they are
 };
 
-/// What came of one order.
+/// The result of one order.
 struct Answer {
     Service service = Service::slave_diag;
-    std::optional<Frame> frame; ///< nothing: no answer, or an invalid one
+    std::optional<Frame> frame; ///< nullopt: no answer, or an invalid one
     Octets octets;              ///< as heard
     std::string words;          ///< a sentence
 };
@@ -92,7 +93,7 @@ struct MasterCounters {
     std::uint64_t diagnosis_reads = 0;
     std::uint64_t diagnosis_pending = 0; ///< Data_Exchange answers with DH
     std::uint64_t exchanges_lost = 0;    ///< times that Data_Exch was left that were not ordered here
-    /// Data_Exchange: handed over until answer whole.
+    /// Data_Exchange: handed over until answer complete.
     std::chrono::nanoseconds answer_min{0}, answer_max{0}, answer_sum{0};
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the other stations of a busy bus say: exchanges of the same master with slaves from address
-/// kFirstOther on. Each telegram has a running number, so that none is like one before. Pure.
+/// Makes the telegrams of the other stations of a busy bus: exchanges of the same master with slaves from
+/// address kFirstOther on. Each telegram has a running number, so that no two are equal. It is pure.
 #pragma once
 
 #include "dpsim/common/telegram.hpp"

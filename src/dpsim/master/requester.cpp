@@ -8,7 +8,7 @@
 namespace dpslave::sim {
 namespace {
 
-/// Of a station that never stops sending no more octets are kept.
+/// No more octets are kept of a station that never stops sending.
 constexpr std::size_t kMostOctets = 1024;
 
 constexpr std::uint8_t kFcFdlStatus = 0x49, kFcSdnHigh = 0x46, kFcSrdHigh = 0x4D, kFcb = 0x20, kFcv = 0x10;
@@ -184,7 +184,7 @@ Requester::Outcome Requester::finished(Instant now)
     return outcome;
 }
 
-/// What a slave must not do, whatever it says (wire reference 2.2, 2.4, 2.5).
+/// Returns what a slave must not do in an answer (wire reference 2.2, 2.4, 2.5).
 std::string Requester::flaw_of(const Frame& frame) const
 {
     if (frame.kind == FrameKind::short_ack) return {};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Layer 2 of the master: one request at a time with its repetitions, frame count bit and pauses, and what of
-/// an answer no slave may say (wire reference 1.3, 2.2 to 2.6). Pure.
+/// an answer no slave may say (wire reference 1.3, 2.2 to 2.6). It is pure.
 #pragma once
 
 #include "master_settings.hpp"
@@ -10,7 +10,7 @@ namespace dpslave::sim {
 
 class Requester {
 public:
-    /// What came of one request. No answer: nothing, or nothing valid after all repetitions.
+    /// The result of one request. There is no answer if nothing came, or nothing valid after all repetitions.
     struct Outcome {
         Order order{};
         bool one_shot = false;
@@ -20,7 +20,7 @@ public:
         Octets heard{};
         std::string flaw{}; ///< of what was heard last; empty = silence, or a good answer
         unsigned tries = 0;
-        std::chrono::nanoseconds took{0}; ///< handed over until answer whole
+        std::chrono::nanoseconds took{0}; ///< handed over until answer complete
     };
 
     /// Both outlive it.
@@ -37,7 +37,7 @@ public:
     bool busy() const { return pending_.has_value(); }
     bool ready(Instant now) const { return !pending_ && now >= idle_until_; }
     Instant idle_until() const { return idle_until_; }
-    /// Of a request that is under way.
+    /// Returns the deadline of a request that is under way.
     Instant next_deadline() const { return to_send_ ? Instant::min() : pending_->give_up; }
 
     /// A cyclic request is not sent again, and not at all if it was not sent yet.
@@ -45,7 +45,7 @@ public:
     /// The next counted request begins a sequence (FCB 1, FCV 0).
     void begin_sequence() { first_ = true; }
 
-    /// What the slave did that a slave must not do, in words.
+    /// Returns what the slave did that a slave must not do, in words.
     std::vector<std::string> take_violations() { return std::exchange(violations_, {}); }
 
 private:

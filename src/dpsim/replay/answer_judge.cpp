@@ -9,7 +9,7 @@ namespace dpslave::sim {
 namespace {
 
 constexpr std::uint8_t kDl = 0x08, kDh = 0x0A, kSapRdInp = 56;
-/// Of Slave_Diag (wire reference 5.1): bits that follow from the drive.
+/// These bits of Slave_Diag (wire reference 5.1) follow from the drive.
 constexpr std::uint8_t kExtDiag = 0x08, kStatDiag = 0x02, kOverflow = 0x80;
 constexpr std::size_t kStandardDiagnosis = 6;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Whether an answer is the one of the capture. What depends on the drive side is compared as far as the
-/// drive side is the same: it never answers at the very moment at which it did. Pure.
+/// Judges whether an answer is the one of the capture. Values that depend on the drive side are compared as
+/// far as the drive side is the same: it never answers at exactly the same moment again. It is pure.
 #pragma once
 
 #include "replay_script.hpp"
@@ -11,7 +11,7 @@
 
 namespace dpslave::sim {
 
-/// Who answers the gateway's requests to its drives.
+/// Says who answers the gateway's requests to its drives.
 enum class DriveSide : std::uint8_t {
     unknown, ///< anybody, or nobody: what comes from a drive is not compared
     capture, ///< the frames of the capture: an input word must be one that the capture has

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kMostOfARequest = 512;
 constexpr std::size_t kEiAddress = 5, kEiMnemonic = 2; ///< EOT, group twice, unit twice
 
-/// Octets of the request of EI-ASCII that begins with `head` (an EOT). 0: it is not whole.
+/// Octets of the request of EI-ASCII that begins with `head` (an EOT). 0: it is not complete.
 std::size_t ei_length(const Octets& head)
 {
     if (head.size() <= kEiAddress) return 0;
@@ -20,11 +20,11 @@ std::size_t ei_length(const Octets& head)
     const auto last = std::find(head.begin() + kEiAddress, head.end(), is_write ? kEtx : kEnq);
     if (last == head.end()) return 0;
     const auto length =
-        static_cast<std::size_t>(last - head.begin()) + (is_write ? 2 : 1); // ETX has a BCC behind it
+        static_cast<std::size_t>(last - head.begin()) + (is_write ? 2 : 1); // a BCC follows ETX
     return length <= head.size() ? length : 0;
 }
 
-/// What a request asks for: a read as it is, a write without its value.
+/// Returns what a request asks for: a read as it is, a write without its value.
 Octets asked_for(const Octets& request, bool is_modbus)
 {
     std::size_t length = request.size();
@@ -82,7 +82,7 @@ std::optional<Octets> DriveAnswers::answer_to(const Octets& request, std::chrono
     const std::vector<Answer>& all = found->second;
     auto newest = std::find_if(all.rbegin(), all.rend(), [at](const Answer& one) { return one.at <= at; });
     const Answer& answer = newest == all.rend() ? all.front() : *newest;
-    // Function 6 is taken by an echo of the request.
+    // A request with function 6 is accepted by its echo.
     return answer.octets == answer.request ? request : answer.octets;
 }
 

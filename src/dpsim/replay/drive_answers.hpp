@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The drive side of a capture: answers the gateway's requests with what the drives answered. Pure.
+/// The drive side of a capture: answers the gateway's requests with what the drives answered. It is pure.
 #pragma once
 
 #include "replay_script.hpp"
@@ -12,13 +12,13 @@ class DriveAnswers {
 public:
     explicit DriveAnswers(const ReplayScript& script);
 
-    /// Octets of the gateway. `at` is the place in the capture: the answer is the newest until then, before
-    /// the first one that one. A write is answered as one of this parameter was, whatever its value. Nothing:
-    /// the request is not whole yet, or the capture has none like it.
+    /// Takes octets of the gateway. `at` is the place in the capture: the answer is the newest until then,
+    /// before the first one that one. A write is answered as one of this parameter was, whatever its value.
+    /// It returns nullopt if the request is not complete yet, or the capture has none like it.
     std::optional<Octets> on_bytes(Bytes octets, std::chrono::nanoseconds at);
     /// Requests that the capture has no answer to, each once.
     std::vector<Octets> take_unknown() { return std::exchange(unknown_, {}); }
-    /// The line was silent: what is not whole is given up.
+    /// The line was silent: what is not complete is given up.
     void forget() { rx_.clear(); }
 
 private:

@@ -10,7 +10,7 @@
 namespace dpslave::sim {
 namespace {
 
-/// Of a station that never stops sending no more octets are kept.
+/// No more octets are kept of a station that never stops sending.
 constexpr std::size_t kMostOfAnAnswer = 1024;
 
 /// "Slave_Diag request 2 to 8", or the octets of what is no telegram.
@@ -149,7 +149,7 @@ void Replay::unasked(Bytes octets)
     if (std::exchange(is_reported_, true)) return;
     ++counters_.differences;
     const ReplayStep& last = script_.steps[next_ == 0 ? 0 : next_ - 1];
-    lines_.push_back(fmt::format("packet {}: octets that were not asked for, behind {}", last.packet,
+    lines_.push_back(fmt::format("packet {}: octets that were not asked for, after {}", last.packet,
                                  name_of(last.octets)));
     lines_.push_back("  now             " + hex(octets));
 }
@@ -158,8 +158,7 @@ std::string in_words(const ReplayCounters& counters)
 {
     const auto [sent, compared, masked, retries, differences] = counters;
     return fmt::format(
-        "{} telegrams sent, {} answers compared, {} of them without what depends on the drive, "
-        "{} {}: {}",
+        "{} telegrams sent, {} answers compared, {} of them without what depends on the drive, {} {}: {}",
         sent, compared, masked, retries, retries == 1 ? "retry" : "retries",
         differences == 0   ? std::string{"no difference"}
         : differences == 1 ? std::string{"1 difference"}

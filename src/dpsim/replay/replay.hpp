@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The master's side of a capture, sent again, and the answers compared with those of the capture. Pure:
-/// octets and times go in, telegrams, deadlines and lines come out.
+/// The master's side of a capture, sent again, and the answers compared with those of the capture. It is
+/// pure: octets and times go in, telegrams, deadlines and lines come out.
 #pragma once
 
 #include "answer_judge.hpp"
@@ -24,7 +24,7 @@ struct ReplayCounters {
     std::uint64_t differences = 0; ///< answers that are others, missing, or were not asked for
 };
 
-/// After every on_* call: take_transmit(), then take_lines(), then next_deadline(), until done().
+/// Call after every on_*: take_transmit(), then take_lines(), then next_deadline(), until done().
 class Replay {
 public:
     /// The script outlives this object. It begins at `now`.
@@ -70,7 +70,7 @@ private:
     std::vector<std::string> lines_;
 };
 
-/// What was sent, compared and found, for the end.
+/// Returns for the end what was sent, compared and found.
 std::string in_words(const ReplayCounters& counters);
 
 } // namespace dpslave::sim

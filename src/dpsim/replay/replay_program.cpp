@@ -12,7 +12,7 @@
 namespace dpslave::sim {
 namespace {
 
-/// Of a capture: it is read as a whole. A busy bus at 187.5 kbit/s fills this in an hour.
+/// The limit of a capture, which is read as a whole. A busy bus at 187.5 kbit/s fills this in an hour.
 constexpr std::size_t kMostOfACapture = 256U << 20;
 
 Result<ReplayScript, std::string> read_script(const std::string& path, const std::string& line)
@@ -29,19 +29,24 @@ Result<ReplayScript, std::string> read_script(const std::string& path, const std
     if (size > 0 &&
         !file.read(reinterpret_cast<char*>(octets.data()), size)) // NOLINT: the octets of a stream are char
         return Failure{path + ": cannot be read"};
-    const auto capture = pcapng::read(octets);
+    bool is_cut = false;
+    auto capture = pcapng::read(octets, &is_cut);
     if (!capture) return Failure{path + ": " + capture.error()};
+    const pcapng::Assumed assumed = pcapng::assume_directions(*capture);
     auto script = script_of(*capture, line);
     if (!script) return Failure{path + ": " + script.error()};
+    if (is_cut) print_error(path + ": it is cut off: the complete packets before that are sent");
+    if (assumed.packets != 0) print_error(path + ": " + pcapng::in_words(assumed));
     return script;
 }
 
-/// What is wrong with --drive and --line for this capture, a clause; nothing: all is well.
+/// Returns a clause about what is wrong with --drive-port and --line for this capture; nullopt if all is
+/// well.
 std::optional<std::string> fault_of_drive(const ReplayScript& script, const ReplayOptions& options)
 {
     const std::string lines = fmt::format("{}", fmt::join(script.drive_lines, ", "));
-    if (options.drive.empty()) return std::nullopt;
-    if (script.drive_lines.empty()) return "it has no frames of a drive line: leave out --drive";
+    if (options.drive_port.empty()) return std::nullopt;
+    if (script.drive_lines.empty()) return "it has no frames of a drive line: leave out --drive-port";
     if (script.drive.empty()) return "it has no drive line " + options.line + "; it has: " + lines;
     if (script.drive_lines.size() > 1 && options.line.empty())
         return "it has several drive lines, name one with --line: " + lines;
@@ -54,12 +59,10 @@ public:
         : bus_(bus),
           drive_(drive),
           answers_(script),
-          replay_(script, drive >= 0 ? DriveSide::capture : DriveSide::unknown,
-                  {.baud = baud,
-                   .in_time = !options.fast,
-                   .retries = options.retries,
-                   .allowance = std::chrono::milliseconds{options.slot_ms}},
-                  monotonic_now())
+          replay_(
+              script, drive >= 0 ? DriveSide::capture : DriveSide::unknown,
+              {.baud = baud, .in_time = !options.fast, .retries = options.retries, .allowance = options.slot},
+              monotonic_now())
     {}
 
     int run(const Signals& signals)
@@ -68,13 +71,13 @@ public:
             wait_readable({signals.fd(), bus_, drive_}, replay_.next_deadline());
             if (!turn_bus() || (drive_ >= 0 && !turn_drive())) {
                 print_error("the line is gone");
-                return kNoPort;
+                return kNo;
             }
             for (const std::string& line : replay_.take_lines()) print_line(line);
         }
         print_line(in_words(replay_.counters()));
         if (!replay_.done()) print_error("ended before the end of the capture");
-        return replay_.done() && replay_.counters().differences == 0 ? kFine : kFailed;
+        return replay_.done() && replay_.counters().differences == 0 ? kFine : kNo;
     }
 
 private:
@@ -94,7 +97,7 @@ private:
         const auto octets = read_some(drive_);
         if (!octets) return false;
         if (octets->empty()) return true;
-        // A request that did not become whole within a moment never does.
+        // A request that did not become complete within a moment never does.
         if (monotonic_now() - drive_heard_ > std::chrono::milliseconds{50}) answers_.forget();
         drive_heard_ = monotonic_now();
         if (const auto answer = answers_.on_bytes(*octets, replay_.capture_time()))
@@ -123,7 +126,7 @@ int run_replay(const ReplayOptions& options)
     const auto script = read_script(options.file, options.line);
     if (!script) {
         print_error(script.error());
-        return kUsage;
+        return kNo;
     }
     if (const auto fault = fault_of_drive(*script, options)) {
         print_error(options.file + ": " + *fault);
@@ -133,15 +136,15 @@ int run_replay(const ReplayOptions& options)
     auto bus = open_tty(options.port, options.baud, Format::bits8_even);
     if (!bus) {
         print_error(bus.error());
-        return kNoPort;
+        return kNo;
     }
     Fd drive;
-    if (!options.drive.empty()) {
-        auto opened = open_tty(options.drive, options.drive_baud,
+    if (!options.drive_port.empty()) {
+        auto opened = open_tty(options.drive_port, options.drive_baud,
                                script->is_modbus ? Format::bits8 : Format::bits7_even);
         if (!opened) {
             print_error(opened.error());
-            return kNoPort;
+            return kNo;
         }
         drive = *std::move(opened);
     }

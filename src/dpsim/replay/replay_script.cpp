@@ -10,15 +10,28 @@ using std::chrono::nanoseconds;
 
 constexpr nanoseconds kLongestPause = std::chrono::hours{1}, kLongestCapture = std::chrono::hours{24 * 365};
 
-bool is_bus(std::uint16_t link_type)
-{
-    return link_type == static_cast<std::uint16_t>(pcapng::LinkType::profibus_dl) ||
-           link_type == static_cast<std::uint16_t>(pcapng::LinkType::user0);
-}
-
 bool is_drive(std::uint16_t link_type)
 {
     return link_type == kEiAsciiLink || link_type == kModbusLink;
+}
+
+/// Returns whether the octets are complete telegrams back to back.
+bool are_telegrams(Bytes octets)
+{
+    while (!octets.empty()) {
+        const auto length = frame_length(octets);
+        if (!length || *length == 0 || *length > octets.size() || !decode(octets.first(*length)))
+            return false;
+        octets = octets.subspan(*length);
+    }
+    return true;
+}
+
+/// `dpctl trace` marks a telegram of which it has only a part.
+bool is_cut(const pcapng::Packet& packet)
+{
+    return std::any_of(packet.comments.begin(), packet.comments.end(),
+                       [](const std::string& comment) { return comment.starts_with("cut: "); });
 }
 
 /// `dpctl trace` calls the interface of the line p3 "drive p3".
@@ -55,9 +68,10 @@ public:
     {
         const nanoseconds pause = bus_at_ ? at - *bus_at_ : nanoseconds{0};
         bus_at_ = at;
-        if (packet.direction == pcapng::Direction::outbound)
-            answer(packet, number);
-        else
+        if (packet.direction == pcapng::Direction::outbound) return answer(packet, number);
+        // A capture may begin in the middle of a telegram: nobody answers the rest of it.
+        is_telegram_ = are_telegrams(packet.octets);
+        if (is_telegram_ || (!script.steps.empty() && !is_cut(packet)))
             script.steps.push_back({.octets = packet.octets, .packet = number, .at = at, .pause = pause});
     }
 
@@ -78,17 +92,29 @@ public:
     bool has_direction = false;
 
 private:
-    /// A capture may begin behind a request: then there is none that this answers.
+    /// A capture may begin after a request or in it, or lack a part of it: then there is none that this
+    /// answers.
     void answer(const pcapng::Packet& packet, std::size_t number)
     {
         has_direction = true;
-        if (script.steps.empty() || script.steps.back().answer) return;
+        if (!is_telegram_ || script.steps.empty() || script.steps.back().answer) return;
         script.steps.back().answer = packet.octets;
         script.steps.back().answer_packet = number;
     }
 
     std::optional<nanoseconds> bus_at_;
+    bool is_telegram_ = false; ///< what was heard last
 };
+
+std::string no_bus(const pcapng::Capture& capture)
+{
+    std::string text = "it has no packets of PROFIBUS (link type 257 or 147)";
+    const auto other = [](const pcapng::Interface& one) { return !pcapng::is_profibus(one.link_type); };
+    const auto found = std::find_if(capture.interfaces.begin(), capture.interfaces.end(), other);
+    return found == capture.interfaces.end()
+               ? text
+               : text + ", but of link type " + std::to_string(found->link_type);
+}
 
 } // namespace
 
@@ -99,20 +125,23 @@ Result<ReplayScript, std::string> script_of(const pcapng::Capture& capture, cons
     std::optional<std::uint32_t> bus;
     for (std::size_t i = 0; i < capture.packets.size(); ++i) {
         const pcapng::Packet& packet = capture.packets[i];
+        if (packet.is_part)
+            return Failure{"packet " + std::to_string(i + 1) +
+                           " was recorded only in part: record whole packets, without a snap length"};
         const pcapng::Interface& interface = capture.interfaces.at(packet.interface);
         const nanoseconds at = clock.at(packet.unix_ns);
         if (packet.octets.empty()) continue; // only a comment
         if (is_drive(interface.link_type)) builder.drive(packet, interface, at, line);
-        if (!is_bus(interface.link_type)) continue;
+        if (!pcapng::is_profibus(interface.link_type)) continue;
         if (bus && *bus != packet.interface)
             return Failure{std::string{"it has two buses: keep the packets of one of them"}};
         bus = packet.interface;
         builder.bus(packet, i + 1, at);
     }
-    if (!bus) return Failure{std::string{"it has no packets of PROFIBUS (link type 257 or 147)"}};
+    if (!bus) return Failure{no_bus(capture)};
     if (!builder.has_direction)
-        return Failure{std::string{"no packet of the bus is marked as sent: nothing says which telegrams are "
-                                   "answers of the gateway"}};
+        return Failure{std::string{
+            "no packet of the bus is marked as sent: nothing says which telegrams are answers of the gateway"}};
     if (builder.script.steps.empty())
         return Failure{std::string{"it has no telegram that the gateway heard"}};
     return std::move(builder.script);

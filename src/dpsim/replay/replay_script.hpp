@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// A capture as what is to be done again: the telegrams that the gateway heard, what it answered, and the
-/// frames of its drive line. Pure.
+/// frames of its drive line. It is pure.
 #pragma once
 
 #include "dpsim/common/telegram.hpp"
@@ -33,8 +33,8 @@ struct ReplayScript {
     std::vector<ReplayStep> steps{};
     std::vector<DriveFrame> drive{};
     bool is_modbus = false; ///< the drive frames are Modbus RTU, else EI-ASCII
-    /// Names of the interfaces that have such frames, in the order of their first one. With two of them
-    /// `drive` has the frames of the first.
+    /// Names of the interfaces that have such frames, in the order of their first one. If there are two of
+    /// them `drive` has the frames of the first.
     std::vector<std::string> drive_lines{};
 };
 
@@ -42,9 +42,10 @@ struct ReplayScript {
 inline constexpr auto kEiAsciiLink = static_cast<std::uint16_t>(pcapng::LinkType::user1);
 inline constexpr auto kModbusLink = static_cast<std::uint16_t>(pcapng::LinkType::user2);
 
-/// The directions of the packets say which of them the gateway sent. `line`: whose drive frames, by the name
-/// of the interface, also without "drive " before it; empty: the first. The failure is a sentence: what the
-/// capture lacks. A pause is an hour at most, the whole a year, and a time that goes back is no pause.
+/// The directions of the packets say which of them the gateway sent. Octets before the first telegram may be
+/// the end of one, and are left out, as is one that `dpctl trace` calls cut. `line`: whose drive frames, by
+/// the name of the interface, also without "drive " before it; empty: the first. The failure is a sentence:
+/// what the capture lacks. A pause is an hour at most, the sum a year, and a time that goes back is no pause.
 Result<ReplayScript, std::string> script_of(const pcapng::Capture& capture, const std::string& line = {});
 
 } // namespace dpslave::sim

@@ -64,7 +64,7 @@ std::string_view text(Flaw flaw) noexcept
         case Flaw::bad_text: return "a character inside the answer that is not allowed there";
         case Flaw::too_long: return "an answer that does not end";
         case Flaw::bad_bcc: return "a wrong BCC";
-        case Flaw::octets_after: return "characters right behind an EOT, ACK or NAK";
+        case Flaw::octets_after: return "characters directly after an EOT, ACK or NAK";
     }
     return "?";
 }
@@ -101,8 +101,8 @@ AnswerParser::Status AnswerParser::on_start(std::uint8_t octet)
     }
 }
 
-/// What follows a finished answer. A frame with its BCC stands for itself; one lone octet could be a part of
-/// something else.
+/// Judges the octets after a finished answer. A frame with its BCC is complete; one lone octet could be a
+/// part of something else.
 AnswerParser::Status AnswerParser::on_end(std::uint8_t octet)
 {
     if (flaw_ != Flaw::none) return Status::broken;

@@ -19,7 +19,7 @@ bool holds(EiForms& forms, UnitAddress unit, const Tag& tag, std::string_view te
 
 } // namespace
 
-EiAsciiClient::EiAsciiClient(SerialLine& line, EiTiming timing, std::vector<EiUnit> units)
+EiAsciiClient::EiAsciiClient(SerialLine& line, EiTiming timing, std::vector<EiDrive> units)
     : access_(std::make_unique<ei::Access>(line, timing)),
       units_(std::move(units)),
       forms_(std::make_unique<EiForms>())
@@ -27,7 +27,7 @@ EiAsciiClient::EiAsciiClient(SerialLine& line, EiTiming timing, std::vector<EiUn
 
 EiAsciiClient::~EiAsciiClient() = default;
 
-void EiAsciiClient::set_units(std::vector<EiUnit> units)
+void EiAsciiClient::set_units(std::vector<EiDrive> units)
 {
     units_ = std::move(units);
     forms_->forget_all();
@@ -46,7 +46,7 @@ void EiAsciiClient::listen()
 MnemonicRule EiAsciiClient::rule_of(UnitAddress unit) const
 {
     const auto at =
-        std::find_if(units_.begin(), units_.end(), [unit](const EiUnit& u) { return u.address == unit; });
+        std::find_if(units_.begin(), units_.end(), [unit](const EiDrive& u) { return u.address == unit; });
     return at == units_.end() ? MnemonicRule::none : at->mnemonics;
 }
 
@@ -64,17 +64,23 @@ AccessError EiAsciiClient::read(UnitAddress unit, const Tag& tag, std::span<std:
 {
     trouble_.clear();
     answer_.clear();
+    asked_before_ = access_->asked();
     if (words.size() != 1 || tag.type == TagType::string) {
         trouble_ = words.size() != 1 ? "EI-ASCII reads one tag at a time" : "a STRING is not transported";
         return AccessError::unsupported_type;
     }
     const auto mnemonic = mnemonic_for(unit, tag);
-    if (!mnemonic) return AccessError::invalid_tag;
+    if (!mnemonic) {
+        answer_ = "no mnemonic";
+        return AccessError::invalid_tag;
+    }
     const AccessError error = access_->read(unit, *mnemonic);
     if (error == AccessError::none) return take_value(unit, tag, access_->text(), words[0]);
     trouble_ = access_->trouble();
-    if (error == AccessError::invalid_tag)
+    if (error == AccessError::invalid_tag) {
+        answer_ = "EE " + hex_text(access_->ee(), 4);
         trouble_ = "the drive knows no tag " + std::to_string(tag.number) + ": " + trouble_;
+    }
     return error;
 }
 
@@ -98,7 +104,20 @@ AccessError EiAsciiClient::write(UnitAddress unit, const Tag& tag, std::span<con
         trouble_ = "EI-ASCII writes one tag at a time";
         return AccessError::unsupported_type;
     }
-    const std::uint16_t word = words[0];
+    return write_word(unit, tag, words[0], false);
+}
+
+AccessError EiAsciiClient::write_once(UnitAddress unit, const Tag& tag,
+                                      std::span<const std::uint16_t, 1> word)
+{
+    trouble_.clear();
+    return write_word(unit, tag, word[0], true);
+}
+
+AccessError EiAsciiClient::write_word(UnitAddress unit, const Tag& tag, std::uint16_t word, bool once)
+{
+    has_sent_ = false;
+    asked_before_ = access_->asked();
     if (forms_->must_be_read(unit, tag)) {
         std::uint16_t present = 0;
         const AccessError error = read(unit, tag, {&present, 1});
@@ -115,7 +134,8 @@ AccessError EiAsciiClient::write(UnitAddress unit, const Tag& tag, std::span<con
         return text.error() == ei::ValueFlaw::out_of_span ? AccessError::out_of_range
                                                           : AccessError::unsupported_type;
     }
-    const AccessError error = access_->write(unit, *mnemonic, *text);
+    const AccessError error = access_->write(unit, *mnemonic, *text, once);
+    has_sent_ = access_->has_written();
     if (error == AccessError::deferred && access_->read_back() &&
         holds(*forms_, unit, tag, *access_->read_back(), word))
         return AccessError::none;
@@ -123,12 +143,25 @@ AccessError EiAsciiClient::write(UnitAddress unit, const Tag& tag, std::span<con
     return error;
 }
 
-bool EiAsciiClient::probe(UnitAddress unit)
+unsigned EiAsciiClient::questions() const
 {
+    return access_->asked() - asked_before_;
+}
+
+AccessError EiAsciiClient::probe(UnitAddress unit)
+{
+    asked_before_ = access_->asked();
     forms_->forget(unit); // a lost drive is probed before anything else: it may be another one
-    const bool answers = access_->probe(unit);
-    trouble_ = answers ? std::string{} : access_->trouble();
-    return answers;
+    const AccessError error = access_->probe(unit);
+    trouble_ = error == AccessError::none ? std::string{} : access_->trouble();
+    return error;
+}
+
+Sight EiAsciiClient::look(UnitAddress unit, const Look& what)
+{
+    Sight sight = access_->look(unit, what.mnemonic);
+    trouble_ = access_->trouble();
+    return sight;
 }
 
 } // namespace dpslave::drive

@@ -19,8 +19,8 @@ std::string number_text(std::int32_t counts, unsigned decimals)
     return digits;
 }
 
-/// Counts of a decimal number. A digit behind the table's decimals, even a 0, shows that the table is wrong:
-/// drives do not send zeros that say nothing.
+/// Returns the counts of a decimal number. A digit beyond the table's decimals, even a 0, shows that the
+/// table is wrong: drives send no zeros without a meaning.
 Result<std::int64_t, ValueFlaw> decode_counts(std::string_view text, unsigned decimals)
 {
     const bool negative = text.starts_with('-');

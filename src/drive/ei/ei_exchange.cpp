@@ -14,7 +14,7 @@ constexpr std::chrono::milliseconds kMinGap{
     20};                                   ///< between characters at 9600 (EI-ASCII reference, section 1)
 constexpr std::size_t kGapCharacters = 20; ///< the same at lower rates
 constexpr std::size_t kLongestAnswer = kMaxAnswerText + 5; ///< STX C1 C2 text ETX BCC
-constexpr std::size_t kUsualAnswer = 13; ///< fixed width: what an owed answer may still take
+constexpr std::size_t kUsualAnswer = 13; ///< fixed width: the length that an owed answer may have
 
 std::string quoted(Mnemonic mnemonic)
 {
@@ -130,7 +130,8 @@ Exchange::Exchange(SerialLine& line, EiTiming timing)
       timing_(timing),
       owed_(OwedAnswers::Names::tag, settle_of(timing)),
       echo_(timing.rules.echo),
-      notes_(timing.rules.frames, LineProtocol::ei_ascii, characters(1, timing.baud))
+      notes_(timing.rules.frames, LineProtocol::ei_ascii, characters(1, timing.baud)),
+      begin_(characters(1, timing.baud))
 {}
 
 std::chrono::nanoseconds Exchange::duration_of(std::size_t count) const
@@ -138,7 +139,7 @@ std::chrono::nanoseconds Exchange::duration_of(std::size_t count) const
     return ei::characters(count, timing_.baud);
 }
 
-/// After this silence a drive has no more to say.
+/// Returns the silence after which a drive does not continue its answer.
 std::chrono::nanoseconds Exchange::gap() const
 {
     return std::max<std::chrono::nanoseconds>(kMinGap, duration_of(kGapCharacters)) + timing_.rules.hold_back;
@@ -171,7 +172,7 @@ Exchange::End Exchange::poll(UnitAddress unit, Mnemonic mnemonic)
     question.answer = form_of(mnemonic);
     question.wire_time = duration_of(kUsualAnswer);
     asked_for_ = mnemonic;
-    if (!owed_.may_ask(question, line_.now())) fall_silent(); // what is owed may have come
+    if (!owed_.may_ask(question, line_.now())) fall_silent(); // the owed answer may have come
     if (owed_.may_ask(question, line_.now())) return ask(question, ei::poll(unit, mnemonic), WaitsFor::value);
     trouble_ = "another drive of the line still owes an answer with " + quoted(mnemonic);
     return End::not_asked;
@@ -190,6 +191,7 @@ Exchange::End Exchange::select(UnitAddress unit, Mnemonic mnemonic, std::string_
 Exchange::End Exchange::ask(const Question& question, Bytes request, WaitsFor what)
 {
     trouble_.clear();
+    has_sent_ = false;
     if (!fall_silent()) {
         trouble_ = "noise and no answer: the line is never silent";
         return End::damaged;
@@ -200,9 +202,13 @@ Exchange::End Exchange::ask(const Question& question, Bytes request, WaitsFor wh
         trouble_ = "the line does not accept the request";
         return End::silence;
     }
+    has_sent_ = true;
     notes_.sent(static_cast<std::uint8_t>(question.drive >> 4 | (question.drive & 0xF)), request, begun);
-    const Instant sent_at = line_.now() + duration_of(request.size()); // write() need not wait for the wire
-    owed_.asked(question, sent_at);
+    const Instant sent_at = end_of_question(begun, line_.now(), duration_of(request.size()));
+    if (line_.takes_wire_time())
+        owed_.asked(question, sent_at, answers_from(begun, request.size(), duration_of(1)));
+    else
+        owed_.asked(question, sent_at);
     echo_.sent(request);
     echo_watch_.sent(request);
     const End end = wait(sent_at + timing_.timeout, what);
@@ -210,7 +216,7 @@ Exchange::End Exchange::ask(const Question& question, Bytes request, WaitsFor wh
     return end;
 }
 
-/// The answer has to begin within the time-out and to end within the time of the longest one, whatever comes
+/// The answer has to begin within the timeout and to end within the time of the longest one, whatever comes
 /// on the line.
 Exchange::End Exchange::wait(Instant begins_by, WaitsFor what)
 {
@@ -236,7 +242,7 @@ Exchange::End Exchange::wait(Instant begins_by, WaitsFor what)
 }
 
 /// Lets pass what still comes, for the time of two answers at most, and until the port cannot hold back
-/// anything. False: the line babbles on.
+/// anything. Returns false if octets keep coming.
 bool Exchange::fall_silent()
 {
     const Instant end = line_.now() + duration_of(2 * kLongestAnswer) + gap();
@@ -255,8 +261,9 @@ bool Exchange::fall_silent()
         if (got != 0) continue;
         parser_.reset();
         skips_ = false;
+        heard_noise_ = false;
         notes_.silence();
-        owed_.settle(line_.now()); // all that has come is judged
+        owed_.settle(line_.now()); // everything that has come is judged
         return true;
     }
     return false;
@@ -268,10 +275,10 @@ void Exchange::hear(Bytes octets, std::string& out)
     heard_at_ = line_.now();
     for (const std::uint8_t octet : octets) {
         if (echo_.feed(octet, out)) {
-            notes_.came(echo_.echo(), heard_at_);
+            notes_.received(echo_.echo(), heard_at_);
             notes_.judge(Judgement::echo);
         }
-        if (timing_.rules.echo == EchoMode::off && echo_watch_.feed(octet)) owed_.came_back(asked_);
+        if (timing_.rules.echo == EchoMode::off && echo_watch_.feed(octet)) owed_.count_return(asked_);
     }
 }
 
@@ -281,11 +288,17 @@ std::optional<Exchange::End> Exchange::take(std::string_view octets, WaitsFor wh
     std::size_t i = 0;
     for (; i < octets.size() && !skips_; ++i) {
         if (!parser_ && !is_noise(octets[i])) {
-            notes_.silence(); // the noise before it is no part of it
+            if (heard_noise_)
+                notes_.judge(Judgement::noise_before);
+            else
+                notes_.silence();
             parser_.emplace(octets[i] == kAck ? AnswerParser::To::select : AnswerParser::To::poll);
+            begin_ = FrameBegin{duration_of(1)};
         }
-        notes_.came(bytes_of(octets.substr(i, 1)), heard_at_);
+        notes_.received(bytes_of(octets.substr(i, 1)), heard_at_);
+        heard_noise_ = heard_noise_ || !parser_;
         if (!parser_) continue;
+        begin_.octet(heard_at_, octets.size() - i - 1);
         const auto status = parser_->feed(static_cast<std::uint8_t>(octets[i]));
         if (status == AnswerParser::Status::more) continue;
         const std::string_view rest = octets.substr(i + 1);
@@ -296,14 +309,25 @@ std::optional<Exchange::End> Exchange::take(std::string_view octets, WaitsFor wh
                                                                   : take_frame(done.answer(), is_alone, what);
         if (!ended) continue;
         end = ended;
-        what = WaitsFor::nothing; // what comes behind it is judged as if it came later
+        what = WaitsFor::nothing; // octets after it are judged as if they came later
     }
-    notes_.came(bytes_of(octets.substr(i)), heard_at_);
+    notes_.received(bytes_of(octets.substr(i)), heard_at_);
     return end;
+}
+
+/// Rule of time. The wait goes on.
+bool Exchange::refuse_early()
+{
+    if (!owed_.is_too_early(begin_.latest())) return false;
+    notes_.judge(Judgement::early);
+    owed_.early(asked_);
+    return true;
 }
 
 std::optional<Exchange::End> Exchange::take_frame(const Answer& frame, bool is_alone, WaitsFor what)
 {
+    if (std::exchange(heard_noise_, false)) owed_.noise(asked_);
+    if (refuse_early()) return std::nullopt;
     if (frame.kind == Answer::Kind::value) return take_value(frame, what);
     if (what == WaitsFor::nothing) {
         notes_.judge(Judgement::unclear);

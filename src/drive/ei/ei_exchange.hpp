@@ -5,6 +5,7 @@
 
 #include "dpslave/drive/ei_ascii_client.hpp"
 #include "dpslave/drive/owed_answers.hpp"
+#include "dpslave/drive/wire_time.hpp"
 
 #include <optional>
 #include <string>
@@ -12,18 +13,18 @@
 
 namespace dpslave::drive::ei {
 
-/// Takes the echo of a request out of what is heard. No answer looks like a request: EOT and more behind it
-/// is none.
+/// Removes the echo of a request from the octets that are heard. No answer looks like a request, because EOT
+/// with more octets after it is no answer.
 class EchoFilter {
 public:
     explicit EchoFilter(EchoMode mode) : mode_(mode) {}
 
     void sent(Bytes request);
-    /// Appends what is no echo. True: this was the last octet of the echo.
+    /// Appends what is no echo. Returns true if this was the last octet of the echo.
     bool feed(std::uint8_t octet, std::string& out);
     void silence(std::string& out); ///< what looked like an echo until now was none
     bool withholds() const { return matched_ > 0; }
-    Bytes echo() const { return bytes_of(echo_); } ///< the last one that was heard whole
+    Bytes echo() const { return bytes_of(echo_); } ///< the last one that was heard completely
 
 private:
     EchoMode mode_;
@@ -39,7 +40,7 @@ DriveNumber number_of(UnitAddress unit);
 class EchoWatch {
 public:
     void sent(Bytes request);
-    bool feed(std::uint8_t octet); ///< true: a request has come back whole
+    bool feed(std::uint8_t octet); ///< true: the complete request has come back
 
 private:
     std::string last_, before_; ///< requests
@@ -50,7 +51,7 @@ class Exchange {
 public:
     Exchange(SerialLine& line, EiTiming timing);
 
-    /// How the wait for an answer ended.
+    /// The way in which the wait for an answer ended.
     enum class End : std::uint8_t {
         value,    ///< answer(): to this question and no other
         older,    ///< answer(): right, but no proof of a write
@@ -68,13 +69,15 @@ public:
     const std::string& answer() const { return answer_; }   ///< the text of a value
     const std::string& trouble() const { return trouble_; } ///< why there is no answer; empty = there is
 
-    /// Judges what has come since the last question, and forgets what has settled.
+    /// Judges what has come since the last question, and forgets owed answers that have expired.
     void listen() { fall_silent(); }
     bool may_poll(UnitAddress unit, Mnemonic mnemonic); ///< no other drive owes it
     bool owes(UnitAddress unit, Mnemonic mnemonic) const;
     bool is_owed(Mnemonic mnemonic) const; ///< by any drive
+    /// The last question got on the line.
+    bool has_sent() const { return has_sent_; }
     AnswerCounts counts(UnitAddress unit) const;
-    /// The drive says that the check sum of a request was wrong.
+    /// The drive says that the checksum of a request was wrong.
     void note_not_accepted(UnitAddress unit) { owed_.not_accepted(number_of(unit)); }
 
 private:
@@ -86,6 +89,7 @@ private:
     void hear(Bytes octets, std::string& out);
     std::optional<End> take(std::string_view octets, WaitsFor what);
     std::optional<End> take_frame(const Answer& frame, bool is_alone, WaitsFor what);
+    bool refuse_early();
     std::optional<End> take_value(const Answer& frame, WaitsFor what);
     std::optional<End> broken(Flaw flaw, WaitsFor what);
     bool in_frame() const { return parser_.has_value() || skips_ || echo_.withholds(); }
@@ -99,11 +103,14 @@ private:
     EchoWatch echo_watch_;
     FrameNotes notes_;
     std::optional<AnswerParser> parser_; ///< of a frame that has begun
+    FrameBegin begin_;                   ///< of the same frame
+    bool heard_noise_ = false;           ///< since the line was silent, or before that frame
     bool skips_ = false;                 ///< what comes until the next gap is the rest of something broken
     DriveNumber asked_ = 0;
     Mnemonic asked_for_{};
     Instant heard_at_{};
     std::string answer_;
+    bool has_sent_ = false;
     std::string trouble_;
 };
 

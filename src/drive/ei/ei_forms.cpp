@@ -11,7 +11,7 @@
 namespace dpslave::drive {
 namespace {
 
-/// Whatever the row says of the type, the answer decides.
+/// True if the answer decides the type, whatever the row says.
 bool is_open(const Tag& tag)
 {
     return !tag.listed || !has_scale(tag);
@@ -20,7 +20,7 @@ bool is_open(const Tag& tag)
 AccessError error_of(ei::ValueFlaw flaw)
 {
     if (flaw == ei::ValueFlaw::too_many_decimals) return AccessError::contradicted;
-    return flaw == ei::ValueFlaw::out_of_span ? AccessError::out_of_range : AccessError::unsupported_type;
+    return flaw == ei::ValueFlaw::out_of_span ? AccessError::does_not_fit : AccessError::unsupported_type;
 }
 
 /// Digits, a point at most, a sign at most.
@@ -44,7 +44,7 @@ std::string decimals_of(const Tag& tag)
     return std::to_string(tag.decimals) + (tag.decimals == 1 ? " decimal" : " decimals");
 }
 
-/// What the row gives does not go with the answer.
+/// Returns why the row and the answer do not fit together.
 std::string misfit(const Tag& tag, std::string_view text, ei::ValueFlaw flaw)
 {
     const std::string row =
@@ -60,13 +60,11 @@ std::string misfit(const Tag& tag, std::string_view text, ei::ValueFlaw flaw)
 std::string no_scale(const Tag& tag, std::string_view text)
 {
     if (!tag.listed)
-        return answers(text) + " and is in no tag table: its decimals are not known; add a row with type and "
-                               "decimals, or set "
-                               "unlisted_decimals of the station";
+        return answers(text) +
+               " and is in no tag table: its decimals are not known; add a row with type and decimals, or set unlisted_decimals of the station";
     if (!tag.confirmed)
         return answers(text) +
-               ", and its row is not confirmed: compare the row with the drive's manual, then set "
-               "confirmed to yes";
+               ", and its row is not confirmed: compare the row with the drive's manual, then set confirmed to yes";
     return answers(text) + ", and its row has no decimals: fill in column decimals";
 }
 

@@ -15,7 +15,7 @@ namespace dpslave::drive {
 
 class EiForms {
 public:
-    /// What a value of a drive means.
+    /// The meaning of a value of a drive.
     struct Taken {
         AccessError error = AccessError::none;
         std::uint16_t word = 0; ///< 0 unless none

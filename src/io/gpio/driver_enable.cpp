@@ -25,7 +25,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr int kNoPort = -1;
-
 /// `since` is one of these, or the moment at which the line was made active.
 constexpr std::int64_t kInactive = std::numeric_limits<std::int64_t>::min();
 constexpr std::int64_t kGuardAtWork = kInactive + 1;
@@ -57,7 +56,7 @@ std::string cannot_switch(const DriverEnableSettings& settings, const std::error
 {
     const std::string how = error.message();
     if (settings.direction != Direction::gpio)
-        return "driver enable: RTS cannot be switched (" + how + "): choose another way, [bus] direction";
+        return "driver enable: RTS cannot be switched (" + how + "): choose another way, `direction`";
     return "driver enable: line " + std::to_string(settings.gpio_line) + " of GPIO chip " +
            settings.gpio_chip + " cannot be switched (" + how +
            "): look at the chip and its bus, or choose another line";
@@ -94,7 +93,7 @@ struct DriverEnable::Held {
     /// Held while line or port are exchanged, and by the guard while it uses them. set() does not need it: it
     /// runs in the thread that exchanges them.
     std::mutex exchange_mutex;
-    std::optional<GpioLine> line; ///< nothing: the chip has gone
+    std::optional<GpioLine> line; ///< nullopt: the chip has gone
     int port = kNoPort;
     serial_rs485 took{}; ///< what the UART's driver made of Direction::kernel
 
@@ -144,7 +143,7 @@ std::error_code DriverEnable::Held::rise(Instant now) noexcept
         return error;
     }
     if (since.load(std::memory_order_acquire) == mine) return {};
-    // This thread stood still between the two for so long that the guard took the line for stuck.
+    // This thread was delayed between the two for so long that the guard judged the line to be stuck.
     if (edge(false)) {
         since.store(mine, std::memory_order_release);
         fail(now);
@@ -185,8 +184,8 @@ bool DriverEnable::Held::get_back()
 std::optional<std::string> DriverEnable::Held::attach_rts(int fd)
 {
     if (!rts(fd)) return cannot(fd, Direction::rts, "it has no RTS: " + code(errno).message());
-    // The kernel drops RTS as the last user closes the port, however that process ended. That is inactive,
-    // but not with active_low.
+    // The kernel drops RTS as the last user closes the port, however that process ended. RTS is then
+    // inactive, but not with active_low.
     if (const int error = drop_rts_on_close(fd, !settings.active_low); error != 0)
         return cannot(fd, Direction::rts, "its settings are refused: " + code(error).message());
     if (const int error = set_rts(fd, settings.active_low); error != 0)
@@ -230,8 +229,7 @@ std::optional<std::string> DriverEnable::release(const DriverEnableSettings& set
         const auto taken = open(settings); // inactive by that, and given back at the end of this
         return taken ? std::nullopt : std::optional{taken.error()};
     }
-    // Where RTS is asserted while sending the kernel has dropped it, and to open the port would assert it
-    // anew.
+    // If RTS is asserted while sending the kernel has dropped it, and to open the port would assert it anew.
     if (settings.direction != Direction::rts || !settings.active_low) return std::nullopt;
     const Fd fd{::open(port.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)};
     // A program that has the port has a lock on it (Tty::open), and switches RTS.
@@ -247,7 +245,8 @@ std::optional<std::string> DriverEnable::attach(const Tty& port)
 {
     Held& h = *held_;
     std::optional<std::string> trouble;
-    if (h.settings.direction == Direction::rts) trouble = h.attach_rts(port.fd());
+    if (h.settings.direction != Direction::kernel) trouble = end_rs485(port.fd());
+    if (!trouble && h.settings.direction == Direction::rts) trouble = h.attach_rts(port.fd());
     if (h.settings.direction == Direction::kernel) trouble = h.attach_kernel(port.fd());
     if (trouble) return "driver enable: " + *trouble;
 
@@ -270,10 +269,14 @@ void DriverEnable::detach() noexcept
     if (h.settings.direction == Direction::rts) h.forget(); // the line goes with its port
 }
 
+Direction DriverEnable::direction() const noexcept
+{
+    return held_->settings.direction;
+}
+
 bool DriverEnable::by_hand() const noexcept
 {
-    const Direction direction = held_->settings.direction;
-    return direction == Direction::gpio || direction == Direction::rts;
+    return direction() == Direction::gpio || direction() == Direction::rts;
 }
 
 std::error_code DriverEnable::set(bool sending, Instant now) noexcept
@@ -366,8 +369,7 @@ std::string DriverEnable::in_words() const
                      " while sending; an edge takes at least " + microseconds(h.edge_time);
             if (!s.active_low)
                 found +=
-                    "; the kernel asserts RTS for a moment whenever the port is opened, which disturbs a "
-                    "living bus";
+                    "; the kernel asserts RTS for a moment whenever the port is opened, which disturbs a living bus";
             break;
     }
     if (h.port != kNoPort && s.direction != Direction::gpio)
@@ -388,9 +390,7 @@ std::optional<std::string> DriverEnable::doubt(Baud baud) const
     const auto bits = edge.count() * static_cast<std::int64_t>(baud) / std::int64_t{1'000'000'000};
     return "driver enable: an edge takes " + microseconds(edge) + ", " + std::to_string(bits) +
            " bit times at " + std::to_string(static_cast<std::uint32_t>(baud)) +
-           " bit/s, and the line is to be released within 11: use a line of the processor itself instead of "
-           "an "
-           "I2C or USB expander, direction = \"kernel\", or a lower rate";
+           " bit/s, and the line is to be released within 11: use a line of the processor itself instead of an I2C or USB expander, direction = \"kernel\", or a lower rate";
 }
 
 } // namespace dpslave::io

@@ -30,8 +30,7 @@ std::string judge_rs485(const serial_rs485& wanted, const serial_rs485& took)
     if ((took.flags & kLevels) != (wanted.flags & kLevels))
         return (wanted.flags & SER_RS485_RTS_ON_SEND) != 0
                    ? "it cannot assert RTS while sending, only the other way round (gpio_active_low = true)"
-                   : "it cannot release RTS while sending, only the other way round (gpio_active_low = "
-                     "false)";
+                   : "it cannot release RTS while sending, only the other way round (gpio_active_low = false)";
     return {};
 }
 
@@ -40,10 +39,10 @@ std::string remarks_on_rs485(const serial_rs485& wanted, const serial_rs485& too
     std::string remarks;
     const __u32 before = took.delay_rts_before_send, after = took.delay_rts_after_send;
     if (before != 0 || after != 0)
-        remarks += "; the driver insists on delays of " + std::to_string(before) + " ms before and " +
-                   std::to_string(after) +
-                   " ms after sending, during which no other station is heard: look for a "
-                   "setting in the device tree (rs485-rts-delay)";
+        remarks +=
+            "; the driver insists on delays of " + std::to_string(before) + " ms before and " +
+            std::to_string(after) +
+            " ms after sending, during which no other station is heard: look for a setting in the device tree (rs485-rts-delay)";
     const bool asked = (wanted.flags & SER_RS485_RX_DURING_TX) != 0;
     const bool hears = (took.flags & SER_RS485_RX_DURING_TX) != 0;
     if (hears && !asked)
@@ -64,6 +63,18 @@ bool can_rs485(int fd)
 {
     serial_rs485 present{};
     return ::ioctl(fd, TIOCGRS485, &present) == 0 && ::ioctl(fd, TIOCSRS485, &present) == 0;
+}
+
+std::optional<std::string> end_rs485(int fd)
+{
+    serial_rs485 present{};
+    if (::ioctl(fd, TIOCGRS485, &present) < 0 || (present.flags & SER_RS485_ENABLED) == 0)
+        return std::nullopt;
+    const int error = set_rs485(fd, serial_rs485{}, present);
+    if (error == 0 && (present.flags & SER_RS485_ENABLED) == 0) return std::nullopt;
+    return name_of_port(fd) + " stays in the RS-485 mode that another program or the device tree has set (" +
+           std::system_category().message(error == 0 ? EBUSY : error) +
+           "): switch that mode off there, or use direction = \"kernel\"";
 }
 
 int set_rts(int fd, bool asserted) noexcept

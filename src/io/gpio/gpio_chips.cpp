@@ -47,9 +47,7 @@ std::string why_no_chip(const GpioRequest& request, int error)
         case EACCES:
         case EPERM:
             return chip +
-                   ": this user may not open it: the udev rule of the package gives GPIO chips to the group "
-                   "dpslaved, add the user to it; in a service also allow it with DeviceAllow=char-gpiochip "
-                   "rw";
+                   ": this user may not open it: the udev rule 60-dpslaved.rules gives GPIO chips to the group dpslaved-devices, and another rule may give them to a group gpio: see ls -l /dev/gpiochip*. Of a service, name that group with SupplementaryGroups= in the unit, as dpslaved.service does, and allow DeviceAllow=char-gpiochip rw; by hand, add the user to the group";
         case ENOTTY:
         case ENODEV:
         case EINVAL: return chip + " is no GPIO chip; `gpiodetect` lists the chips of this machine";

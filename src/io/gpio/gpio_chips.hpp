@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What both versions of libgpiod have in common: which chip is meant, and the sentences when it cannot be
-/// had.
+/// The common part of both versions of libgpiod: it finds the chip that is meant, and has the sentences for
+/// one that cannot be opened.
 #pragma once
 
 #include "dpslave/io/gpio.hpp"

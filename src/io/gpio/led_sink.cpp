@@ -93,7 +93,7 @@ private:
     }
 
     GpioRequest request_;
-    std::optional<GpioLine> line_; // inactive when it is taken, and when it goes
+    std::optional<GpioLine> line_; // inactive when it is requested, and when it is released
 };
 
 using Opened = Result<std::unique_ptr<LedSink>, std::string>;
@@ -112,7 +112,8 @@ int wait_until_writable(const fs::path& file, std::chrono::milliseconds longest)
     }
 }
 
-/// "LABEL:OFFSET" as the number that this pin has in sysfs since the last boot; nothing: no such chip or pin.
+/// Returns for "LABEL:OFFSET" the number that this pin has in sysfs since the last boot; nullopt if there is
+/// no such chip or pin.
 std::optional<unsigned> numbered(const std::string& label_and_offset, const fs::path& gpio)
 {
     const std::size_t colon = label_and_offset.rfind(':');
@@ -199,7 +200,7 @@ struct SysfsChip {
     std::string device; ///< "gpiochip0", as /dev has it; empty = not known
 };
 
-/// The character device of a chip stands in the folder of the device that it belongs to.
+/// The character device of a chip is in the folder of the device that it belongs to.
 std::string device_of(const fs::path& chip)
 {
     std::error_code error;
@@ -271,7 +272,7 @@ std::string led_sink_target(const std::string& sink, const fs::path& sysfs)
 
 void LedSink::set(bool lit, Instant now)
 {
-    // After a failure the state of the lamp is not known: what is wanted counts, not what it showed last.
+    // After a failure the state of the lamp is not known: the wanted state counts, not the one shown last.
     if (lit == wanted_ && !(failed_ && now - tried_ >= kPause)) return;
     wanted_ = lit;
     tried_ = now;
@@ -292,26 +293,21 @@ std::optional<std::string> judge_led_sink(const std::string& sink)
     const auto [kind, rest] = cut(sink, sink.find(':'));
     if (kind == "line") {
         if (line_of_led_sink(sink)) return std::nullopt;
-        return "write \"line:CHIP:LINE\", for example \"line:/dev/gpiochip0:24\"; instead of its path also "
-               "the label "
-               "of the chip, as `gpiodetect` shows it";
+        return "write \"line:CHIP:LINE\", for example \"line:/dev/gpiochip0:24\"; instead of its path also the label of the chip, as `gpiodetect` shows it";
     }
     if (kind == "gpio") {
         const auto [label, offset] = cut(rest, rest.rfind(':'));
         const bool has_label = rest.find(':') != std::string::npos;
         if (has_label ? !label.empty() && number_of(offset) : number_of(rest).has_value())
             return std::nullopt;
-        return "write \"gpio:23\", or \"gpio:LABEL:OFFSET\" with the label of the chip and the offset on it, "
-               "as "
-               "`gpioinfo` shows them: the numbers change from boot to boot";
+        return "write \"gpio:23\", or \"gpio:LABEL:OFFSET\" with the label of the chip and the offset on it, as `gpioinfo` shows them: the numbers change from boot to boot";
     }
     if (kind == "led") {
         if (!rest.empty() && rest != "." && rest != ".." && rest.find('/') == std::string::npos)
             return std::nullopt;
         return "write \"led:NAME\" with the name of a folder in <sysfs>/class/leds";
     }
-    return "write \"line:CHIP:LINE\" for a line of a GPIO chip, \"led:NAME\" for an LED of the LED class, or "
-           "\"gpio:N\" for a GPIO of sysfs";
+    return "write \"line:CHIP:LINE\" for a line of a GPIO chip, \"led:NAME\" for an LED of the LED class, or \"gpio:N\" for a GPIO of sysfs";
 }
 
 Result<std::unique_ptr<LedSink>, std::string> open_led_sink(const std::string& sink, const fs::path& sysfs)

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpslave/io/clock.hpp"
 
+#include "timespec.hpp"
+
+#include <cerrno>
 #include <ctime>
 
 namespace dpslave::io {
@@ -18,6 +21,13 @@ std::chrono::nanoseconds read(clockid_t clock) noexcept
 Instant monotonic_now() noexcept
 {
     return Instant{read(CLOCK_MONOTONIC)};
+}
+
+void sleep_until(Instant when) noexcept
+{
+    const timespec end = to_timespec(when.time_since_epoch());
+    while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &end, nullptr) == EINTR) {
+    }
 }
 
 std::chrono::nanoseconds unix_now() noexcept

@@ -23,8 +23,8 @@ std::string text(int error)
     return std::system_category().message(error);
 }
 
-/// With everything locked a new thread's stack counts against the limit as a whole: is there enough for some,
-/// and for what they allocate?
+/// Returns whether there is enough memory for some threads and for what they allocate: with everything locked
+/// the complete stack of a new thread counts against the limit.
 bool has_memory_for_threads()
 {
     constexpr std::size_t kStacks = 32 * kThreadStack;
@@ -42,9 +42,7 @@ std::string not_locked(const std::string& why)
     if (::getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
         now = ", the limit is " + std::to_string(limit.rlim_cur / 1024) + " KiB";
     return "memory is not locked (" + why + now +
-           "): replies may be late under memory pressure. Allow it with LimitMEMLOCK=infinity in the unit or "
-           "the "
-           "capability CAP_IPC_LOCK, or set lock_memory = false in [realtime]";
+           "): replies may be late under memory pressure. Allow it with LimitMEMLOCK=infinity in the unit or the capability CAP_IPC_LOCK, or set lock_memory = false in [realtime]";
 }
 
 } // namespace
@@ -60,11 +58,12 @@ void make_stacks_small()
 
 void keep_memory()
 {
-    // What was locked once stays: nothing goes back to the system at free() to be faulted in again by the
-    // next malloc(), and no block gets a mapping of its own that goes with it.
+    // Locked memory stays: nothing goes back to the system at free() to be faulted in again by the next
+    // malloc(), and no block gets a mapping of its own that goes with it.
     ::mallopt(M_TRIM_THRESHOLD, -1);
     ::mallopt(M_MMAP_MAX, 0);
-    // By 128 KiB at a time, what is asked for once more would count as locked although it is empty.
+    // The heap grows by 128 KiB at a time: what is asked for beyond the need would count as locked although
+    // it is empty.
     ::mallopt(M_TOP_PAD, kHeapStep);
     // An arena of its own for each thread would reserve 64 MiB, which counts as locked although it is empty.
     ::mallopt(M_ARENA_MAX, 1);
@@ -123,6 +122,20 @@ std::vector<std::string> enter_realtime(int priority, int cpu)
                 " in the unit or the capability CAP_SYS_NICE, or set priority = 0 in [realtime]");
     }
     return warnings;
+}
+
+RaisedPriority::RaisedPriority(int priority) noexcept
+{
+    if (priority <= 0) return;
+    sched_param param{};
+    param.sched_priority = priority;
+    raised_ = ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &param) == 0;
+}
+
+RaisedPriority::~RaisedPriority()
+{
+    const sched_param ordinary{};
+    if (raised_) ::pthread_setschedparam(::pthread_self(), SCHED_OTHER, &ordinary);
 }
 
 ShallowIdle::ShallowIdle() : held_(::open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Undoes the marks of PARMRK (termios(3)): the line discipline delivers a character with a parity or framing
-/// error as FF 00 x, a break as FF 00 00, and a true FF as FF FF. Pure. Source: wire reference 11.4.
+/// error as FF 00 x, a break as FF 00 00, and a true FF as FF FF. It is pure. Source: wire reference 11.4.
 #pragma once
 
 #include "dpslave/base/bytes.hpp"

@@ -44,8 +44,8 @@ std::string why_not_opened(const std::string& path, int error)
             return path + " is not there: check `port` in the configuration, and the cable of a USB adapter";
         case EACCES:
         case EPERM:
-            return path + ": this user may not open it: add the user to the group that owns the device "
-                          "(dialout on Debian)";
+            return path +
+                   ": this user may not open it: add the user to the group that owns the device (dialout on Debian)";
         case EBUSY:
         case EWOULDBLOCK:
             return path + " is used by another program: stop that one first (`fuser " + path +
@@ -53,8 +53,8 @@ std::string why_not_opened(const std::string& path, int error)
         case ENXIO:
         case ENODEV:
         case EIO:
-            return path + ": there is no device behind it: check `port` in the configuration, and that the "
-                          "UART is there";
+            return path +
+                   ": there is no device behind it: check `port` in the configuration, and that the UART is there";
         default:
             return path + " cannot be opened (" + std::system_category().message(error) +
                    "): check `port` in the configuration";
@@ -129,6 +129,11 @@ Result<Tty, std::string> Tty::open(const std::string& path, const TtySettings& s
     return tty;
 }
 
+bool Tty::is_pty() const
+{
+    return uart_->pty;
+}
+
 std::chrono::nanoseconds Tty::hold_back() const
 {
     return io::hold_back(*uart_, std::chrono::nanoseconds{std::nano::den / std::max(settings_.baud, 1U)});
@@ -163,8 +168,8 @@ TtyBauds Tty::bauds()
     return found;
 }
 
-/// How many octets came. Reading with VMIN 0 gives 0 when nothing is there, and of a line that was hung up as
-/// well.
+/// Returns the number of octets that came. Reading with VMIN 0 gives 0 if nothing is there, and also if the
+/// line was hung up.
 Result<std::size_t, std::error_code> Tty::fetch(std::span<std::uint8_t> out)
 {
     const ssize_t got = ::read(fd(), out.data(), out.size());

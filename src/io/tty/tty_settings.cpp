@@ -58,7 +58,7 @@ std::string not_readable()
            "): check that there is a UART behind it";
 }
 
-/// What the driver made of a rate. c_ospeed counts: the CBAUD bits read back differ by driver.
+/// Reads back the rate that the driver has set. c_ospeed counts: the CBAUD bits read back differ by driver.
 std::string read_back(int fd, std::uint32_t asked, Uart& uart, termios2& got)
 {
     if (::ioctl(fd, TCGETS2, &got) < 0) return not_readable();

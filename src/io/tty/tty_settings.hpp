@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What tty.cpp asks of termios2, kept apart: its header (asm/termbits.h) clashes with <termios.h>, which
-/// other system headers may bring along.
+/// Does for tty.cpp what needs termios2. It is separate because its header (asm/termbits.h) clashes with
+/// <termios.h>, which other system headers may include.
 #pragma once
 
 #include "uart.hpp"
@@ -9,7 +9,7 @@
 
 namespace dpslave::io {
 
-/// From start bit to stop bit, at the rate asked for.
+/// Returns the time from start bit to stop bit, at the rate asked for.
 std::chrono::nanoseconds character_time(const TtySettings& settings);
 
 /// Raw, at the rate and format asked for, everything old discarded; then reads back what the driver made of
@@ -20,7 +20,7 @@ std::string apply(int fd, const TtySettings& settings, Uart& uart);
 /// clock again. Empty = done, and nothing was allocated; else a sentence without the path.
 std::string change_rate(int fd, std::uint32_t baud, Uart& uart);
 
-/// Whether the last stop bit has gone. Nothing: the driver does not know, and errno says why.
+/// Returns whether the last stop bit has gone; nullopt if the driver does not know, and errno says why.
 std::optional<bool> transmitter_empty(int fd);
 
 bool flush_input(int fd); ///< false: errno says why

@@ -47,7 +47,7 @@ std::string driver_of(const fs::path& tty)
     return {};
 }
 
-/// The number that a file of sysfs holds. Nothing: there is no such file, or no number in it.
+/// Returns the number that a file of sysfs holds; nullopt if there is no such file, or no number in it.
 std::optional<long> number_in(const fs::path& file)
 {
     std::ifstream in{file};
@@ -74,8 +74,7 @@ std::string as_root(const Uart& uart, const std::string& attribute)
 std::string costs(const std::string& what)
 {
     return ": this costs " + what +
-           " of the time that an answer may take; a longer max_tsdr, here and in the master's GSD, makes "
-           "room for it";
+           " of the time that an answer may take; a longer max_tsdr, here and in the master's GSD, makes room for it";
 }
 
 /// Bit times are the same at every rate; a time is not.
@@ -90,8 +89,8 @@ bool is_plain_8250(const Uart& uart)
     return uart_kind(uart.driver) == UartKind::i8250;
 }
 
-/// How long the receiver waits on an idle line before it hands on fewer octets than its trigger, in bit
-/// times; 0 = it has no such wait, or nothing is known about it.
+/// Returns how long the receiver waits on an idle line before it hands on fewer octets than its trigger, in
+/// bit times; 0 if it has no such wait, or nothing is known about it.
 std::uint32_t idle_wait(const Uart& uart)
 {
     constexpr std::array kWithoutFifo{PORT_8250, PORT_16450};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the kernel knows of the UART behind a tty, and what follows from it: the rate that is really on
-/// the wire, and how soon a received octet can be read. Source: wire reference 11.2 and 11.5.
+/// Finds out what the kernel knows of the UART behind a tty: the rate that is really on the wire, and how
+/// soon a received octet can be read. Source: wire reference 11.2 and 11.5.
 #pragma once
 
 #include <chrono>
@@ -21,19 +21,19 @@ struct Uart {
     std::filesystem::path folder; ///< of the tty in sysfs
 };
 
-/// `sysfs`: where it lies. What cannot be found out stays empty.
+/// `sysfs`: where it lies. Fields that cannot be found out stay empty.
 Uart look_at(int fd, const std::filesystem::path& sysfs);
 /// Type and clock once more: some drivers set the clock by the rate.
 void refresh(Uart& uart, int fd);
 
-/// What an integer divisor makes of `asked` bit/s. The 8250 driver divides by the nearest one and reports the
-/// rate that was asked for (93750 from a base of 115200 is 115200 on the wire). Nothing: this UART does not
-/// divide like that, or its clock is not known.
+/// Returns the rate that an integer divisor makes of `asked` bit/s. The 8250 driver divides by the nearest
+/// one and reports the rate that was asked for (93750 from a base of 115200 is 115200 on the wire). It is
+/// nullopt if this UART does not divide like that, or its clock is not known.
 std::optional<std::uint32_t> rate_on_the_wire(const Uart& uart, std::uint32_t asked);
 
 /// Drivers round or fall back without an error. The standard wants 0.3 %; that much and the rounding of the
-/// number itself are allowed for, beyond 1 % no telegram comes through. `took`: as the driver reads back.
-/// Empty = good enough, else a sentence without the path.
+/// number itself are allowed, beyond 1 % no telegram comes through. `took`: the rate that the driver reads
+/// back. The result is empty if the rate is good enough, else a sentence without the path.
 std::string judge_rate(const Uart& uart, std::uint32_t asked, std::uint32_t took);
 
 /// A clause that says what to do about a rate that the UART cannot make.
@@ -44,8 +44,8 @@ std::string rate_remedy(const Uart& uart);
 /// bit times.
 std::vector<std::string> set_prompt(const Uart& uart);
 
-/// How long an octet may lie in the port before a read gives it, after set_prompt(); 0 = not at all, or
-/// nothing is known about it. `bit_time` at the present rate.
+/// Returns how long an octet may stay in the port before a read gives it, after set_prompt(); 0 if not at
+/// all, or if nothing is known about it. `bit_time` at the present rate.
 std::chrono::nanoseconds hold_back(const Uart& uart, std::chrono::nanoseconds bit_time);
 
 } // namespace dpslave::io

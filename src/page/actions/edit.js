@@ -4,15 +4,21 @@ import {
     addEntry, clearDirection, documentOf, kListNames, moveEntry, placesOf, removeEntry, setField, stepEntry,
     stepInTelegram,
 } from '../mapping/model.js';
+import { isError } from '../questions.js';
 import { push, redo, seal, undo } from '../mapping/history.js';
 
-/** The findings that stop an action which adds. */
-const kLimits = ['too_many_parameters', 'too_many_words', 'too_many_octets'];
+/** The findings that stop an action which adds: limits of the list, and what the parameter itself cannot be. */
+const kLimits = ['prm_length', 'cfg_too_long', 'too_many_octets', 'tags_and_list'];
+const kNoOutput = ['read_only', 'never_written'];
 
 const kTyped = ['name', 'description', 'ident', 'model', 'max_tsdr']; // the letters of one of these are one step
 
+/** How much the device takes, in the terms of the page. */
+const mostOf = ({ max_parameters: parameters, max_words: words }) =>
+    `The device takes ${parameters} parameters at most${words === null ? '' : `, ${words} words in and out together`}.`;
+
 /** What all actions on the mapping need: how a step is done, what a limit forbids, how it is said. */
-function stepping({ store, ask, say }) {
+function stepping({ store, ask, say, explain }) {
     const present = () => store.state().history.present;
     const placeOf = (document, at) => placesOf(document, document.list[at].direction).indexOf(at) + 1;
     const nameOf = (document, at) => ask.preview(document).parameters[at]?.name || `tag ${document.list[at].tag}`;
@@ -20,15 +26,20 @@ function stepping({ store, ask, say }) {
         present,
         nameOf,
         step(document, parts = {}, key = '') {
-            store.change({ history: push(store.state().history, document, key), notice: null, ...parts });
+            store.change({ history: push(store.state().history, document, key), notice: null, reason: null, ...parts });
         },
-        /** Does not let an action through that a limit forbids, and says the limit in the words of the core. */
-        within(next) {
+        /**
+         * Does not let an action through that a limit forbids, or what the new entry at `at` is, and says why in the words of the
+         * core, at the places of the page where it was asked for.
+         */
+        within(next, places, { at = null, limits = kLimits } = {}) {
             const { findings, used } = ask.preview(next);
+            const stops = (one) => limits.includes(one.code) || (at !== null && one.at === at && kNoOutput.includes(one.code));
             // A mapping that is refused has no count: nothing shows then that it still fits.
-            const over = used ? findings.filter((one) => kLimits.includes(one.code)) : findings;
+            const over = used ? findings.filter(stops) : findings.filter(isError);
             if (over.length === 0) return true;
-            say(`Not added. ${over.map((one) => one.text).join(' ')}`, 'error');
+            const isLimit = used && over.some((one) => limits.includes(one.code));
+            explain(places, ['Not added.', isLimit ? mostOf(used) : '', ...over.map((one) => one.text)].filter(Boolean).join(' '));
             return false;
         },
         /** Says where an entry is now, and what is wrong with it there. */
@@ -40,14 +51,20 @@ function stepping({ store, ask, say }) {
     };
 }
 
+/** Says why a step is not done, in the foot and at the places where it was asked for. */
+export function explaining({ store }) {
+    return (places, text) => store.change({ reason: { places: [places].flat(), text }, said: { text, severity: 'error' } });
+}
+
 const select = (direction, at) => ({ selectedList: direction, selectedAt: at });
 
 /** The actions on the entries of one direction's list. */
 function editingLists({ store, say }, { present, nameOf, step, within, told }) {
     return {
-        add(tag, direction = store.state().selectedList, before = null) {
+        /** `from`: the place of the page where it was asked for, if it is another one than the list. */
+        add(tag, direction = store.state().selectedList, before = null, from = direction) {
             const { document, at } = addEntry(present(), direction, tag, before);
-            if (!within(document)) return;
+            if (!within(document, [direction, from], { at })) return;
             step(document, select(direction, at));
             told(document, at, 'was added to');
         },
@@ -56,7 +73,9 @@ function editingLists({ store, say }, { present, nameOf, step, within, told }) {
             const same = document.list.every((one, place) => one.tag === present().list[place].tag &&
                 one.direction === present().list[place].direction);
             if (same) return;
-            if (direction === 'in-out' && present().list[from].direction !== 'in-out' && !within(document)) return;
+            const was = present().list[from].direction;
+            const grows = direction === 'in-out' && was !== 'in-out';
+            if (was !== direction && !within(document, [was, direction], { at, limits: grows ? kLimits : [] })) return;
             step(document, select(direction, at));
             told(document, at, 'was moved to');
         },
@@ -117,7 +136,7 @@ function editingDocument({ store, ask, say }, { present, step, within }) {
     return {
         /** Drops what was of the other device: its table, and the numbers and name that stood instead of the profile's. */
         setDevice(profile) {
-            const own = { table: 'the table of your own', ident: 'Ident_Number', model: 'Model_Name', max_tsdr: 'MaxTsdr' };
+            const own = { plant: 'what the plant\'s file has otherwise', table: 'the table of your own', ident: 'Ident_Number', model: 'Model_Name', max_tsdr: 'MaxTsdr' };
             const dropped = Object.keys(own).filter((key) => present()[key] !== null);
             const none = Object.fromEntries(Object.keys(own).map((key) => [key, null]));
             step({ ...present(), ...none, profile }, { selectedList: 'in', selectedAt: -1, tab: null, treeTag: null });
@@ -127,7 +146,7 @@ function editingDocument({ store, ask, say }, { present, step, within }) {
         },
         set(key, value) {
             const next = setField(present(), key, value);
-            if (key === 'demand' && value && !within(next)) return store.change({});
+            if (key === 'demand' && value && !within(next, 'demand')) return store.change({});
             step(next, {}, kTyped.includes(key) ? key : '');
             if (key === 'demand') say(value ? 'Demand Data is used.' : 'Demand Data is not used.');
         },

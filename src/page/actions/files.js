@@ -25,9 +25,11 @@ function openingMappings({ store, ask, say, notify, edit, chooseProfile }) {
         if (!profile) return notify('error', `${name} was not opened.`, [`There is no profile "${reply.mapping.profile}" in this page.`]);
         const table = reply.table ? { name: reply.table_name, text: reply.table } : null;
         edit.open(documentOf(stem(name), reply.mapping, profile.default_list, table), `${name} was opened.`);
-        if (lost.length === 0) return store.change({ saved: contentOf(store.state().history.present) });
+        const notes = reply.messages.filter((one) => one.startsWith('note: '));
+        if (lost.length === 0 && notes.length === 0) return store.change({ saved: contentOf(store.state().history.present) });
+        if (lost.length === 0) return notify('warning', `${name} was opened.`, notes);
         return notify('warning', `${name} was opened. The file that is made of it differs from it:`,
-            lost.map((one) => one.text));
+            [...notes, ...reply.refusals, ...lost.map((one) => one.text)]);
     }
 
     async function openGsd(file, profile) {

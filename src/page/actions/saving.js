@@ -2,7 +2,7 @@
 // Saving the mapping: as a GSD file, as a mapping file, as the station's block of dpslaved.toml.
 import { contentOf } from '../mapping/keeping.js';
 import { stationBlock } from '../mapping/station.js';
-import { sentencesOf } from '../questions.js';
+import { isError, sentencesOf } from '../questions.js';
 import { octetsOf } from '../files/octets.js';
 import { download, hasPicker, pickFile, writePicked } from '../files/disk.js';
 
@@ -13,37 +13,48 @@ export const kKinds = {
     station: { ending: '.toml', endings: /\.toml$/i, what: 'Block for dpslaved.toml' },
 };
 
-/** The octets of a kind of file, or null and a notice why there are none. */
+/** The name that a document has after its file. That of a GSD file keeps another ending than .GSD. */
+const stemOf = (kind, name) => name.replace(kind === 'gsd' ? /\.GSD$/ : kKinds[kind].endings, '');
+
+/** The octets of a kind of file, or null and a notice why there are none. A GSD file is made under its own name, as it is checked. */
 function octetsFor({ ask, notify }, document, kind, { name, place = null }) {
     if (kind === 'station') return new TextEncoder().encode(stationBlock(document, ask.profile(document.profile), place));
     const reply = kind === 'gsd' ? ask.make(document, name) : ask.mappingFile(document);
+    const { findings } = kind === 'gsd' ? ask.preview(document) : { findings: [] };
     if (!reply.octets) {
-        notify('error', `${name} was not saved.`, sentencesOf(reply));
+        notify('error', `${name} was not saved.`, findings.length > 0 ? [] : sentencesOf(reply), findings.filter(isError));
         return null;
     }
-    if (reply.messages.length > 0) notify('warning', `${name} has warnings:`, reply.messages);
     return octetsOf(reply.octets);
 }
 
 /** The actions that save. */
 export function saving(app) {
-    const { store, say, notify, edit } = app;
+    const { store, ask, say, notify, edit } = app;
     const targets = new Map(); // by document: where it was saved last
     const present = () => store.state().history.present;
 
-    /** `document` is what the octets are of: what is typed while the browser writes is not saved. */
+    /** What has happened, and the verdict of a GSD file that was saved. `document` is what its octets are of. */
+    function tell(document, { kind, handle }, name) {
+        const { findings } = kind === 'gsd' ? ask.preview({ ...document, name: stemOf(kind, name) }) : { findings: [] };
+        if (findings.length > 0) notify('warning', `${name} has warnings:`, [], findings);
+        say(handle ? `${name} was saved.` : `${name} was given to the downloads of the browser.`);
+    }
+
+    /** False, and a notice why: it could not be written. What is typed while the browser writes is not saved. */
     async function write(document, target, name, octets) {
         try {
             if (target.handle) await writePicked(target.handle, octets);
             else download(name, octets);
         } catch (error) {
-            return notify('error', `${name} was not saved.`, [error.message]);
+            notify('error', `${name} was not saved.`, [error.message]);
+            return false;
         }
         if (target.kind !== 'station') {
             targets.set(document.id, { ...target, name });
             store.change({ saved: contentOf(document) });
         }
-        return say(target.handle ? `${name} was saved.` : `${name} was given to the downloads of the browser.`);
+        return true;
     }
 
     return {
@@ -63,17 +74,19 @@ export function saving(app) {
                 if (!handle) return say('Nothing was saved.');
             }
             const final = handle?.name ?? full;
-            await write(document, { kind, handle }, final, octets);
-            if (kind !== 'station') edit.set('name', final.replace(endings, ''));
+            if (!await write(document, { kind, handle }, final, octets)) return;
+            if (kind !== 'station') edit.set('name', stemOf(kind, final));
+            tell(document, { kind, handle }, final);
         },
-        /** Saves to where it was saved before. False: it was not saved yet, or it has got another name. */
+        /** Saves to where it was saved before. False: it was not saved yet, it has got another name, or it has errors. */
         async save() {
             const document = present();
             const target = targets.get(document.id);
-            if (!target || target.name.replace(kKinds[target.kind].endings, '') !== document.name) return false;
+            if (!target || stemOf(target.kind, target.name) !== document.name) return false;
+            if (target.kind === 'gsd' && ask.preview(document).findings.some(isError)) return false;
             store.change({ notice: null });
             const octets = octetsFor(app, document, target.kind, target);
-            if (octets) await write(document, target, target.name, octets);
+            if (octets && await write(document, target, target.name, octets)) tell(document, target, target.name);
             return true;
         },
         downloadText: (name, text) => download(name, new TextEncoder().encode(text)),

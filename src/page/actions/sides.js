@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The two sides of check and compare. They take any GSD file, and change nothing of the mapping.
-import { sentencesOf } from '../questions.js';
+import { fileNameOf } from '../mapping/model.js';
+import { isError, sentencesOf } from '../questions.js';
 import { readOrSay } from './files.js';
 
 /** The actions of check and compare. A side is 0 or 1. */
@@ -19,14 +20,15 @@ export function checking({ store, ask, say, notify }) {
         /** Reads a file into one side. */
         async check(file, side) {
             const read = await readOrSay(file, notify);
-            if (read) setSide(side, read);
+            if (read) setSide(side, { ...read, device: ask.deviceOf(read, store.state().history.present) });
         },
         /** The mapping that is edited, as the file it would be. */
         checkPresent(side) {
             const document = store.state().history.present;
-            const reply = ask.make(document, `${document.name}.GSD`);
-            if (!reply.octets) return notify('error', 'The mapping gives no file yet.', sentencesOf(reply));
-            return setSide(side, { name: `${document.name}.GSD`, octets: reply.octets });
+            const name = fileNameOf(document);
+            const reply = ask.make(document, name);
+            if (!reply.octets) return notify('error', 'The mapping gives no file yet.', [], ask.preview(document).findings.filter(isError));
+            return setSide(side, { name, octets: reply.octets, device: ask.deviceOfDraft(document) });
         },
         forget: (side) => setSide(side, null),
     };

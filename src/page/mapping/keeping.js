@@ -14,10 +14,12 @@ const isText = (value) => typeof value === 'string';
 const isNumber = (value) => Number.isSafeInteger(value) && value >= 0;
 const isEntry = (value) => isText(value) && new RegExp(`^(${kDirections.join('|')}):[0-9]{1,9}$`).test(value);
 
+const isList = (list) => Array.isArray(list) && list.length <= kMostEntries && list.every(isEntry);
+
 function isMapping(mapping) {
     const optional = (key, test) => mapping[key] === undefined || test(mapping[key]);
     return mapping !== null && typeof mapping === 'object' && isText(mapping.profile) &&
-        Array.isArray(mapping.list) && mapping.list.length <= kMostEntries && mapping.list.every(isEntry) &&
+        (mapping.list === undefined ? Array.isArray(mapping.tags) : isList(mapping.list)) &&
         optional('ident', isNumber) && optional('max_tsdr', isNumber) &&
         optional('description', isText) && optional('model', isText);
 }

@@ -8,6 +8,19 @@ export const kDirections = ['in', 'out', 'in-out'];
 /** What the page calls the list of a direction. */
 export const kListNames = { in: 'inputs', out: 'outputs', 'in-out': 'read and write' };
 
+/** The name of the GSD file of a document: a name may have another ending of such files, as .GSE. */
+export function fileNameOf({ name }) {
+    return /\.gs[a-z]$/i.test(name) ? name : `${name}.GSD`;
+}
+
+/** The keys of a mapping that say what the plant's own GSD file has otherwise than the profile. The page keeps them as they are. */
+const kPlantKeys = ['tags', 'tags_at', 'identifiers', 'modules', 'user_prm_data_len', 'max_module', 'max_input_len', 'max_output_len', 'max_data_len'];
+
+function plantOf(mapping) {
+    const keys = kPlantKeys.filter((key) => mapping[key] !== undefined && mapping[key] !== null);
+    return keys.length === 0 ? null : Object.fromEntries(keys.map((key) => [key, mapping[key]]));
+}
+
 let documents = 0;
 
 /** A document from a mapping as the core gives it. `fallback` is the list where the mapping has none. */
@@ -17,7 +30,8 @@ export function documentOf(name, mapping, fallback = [], table = null) {
         name,
         table,
         profile: mapping.profile,
-        list: (mapping.list ?? fallback).map(entryOf),
+        list: (mapping.list ?? (mapping.tags ? [] : fallback)).map(entryOf),
+        plant: plantOf(mapping),
         demand: mapping.demand === true,
         ident: mapping.ident ?? null,
         max_tsdr: mapping.max_tsdr ?? null,
@@ -37,7 +51,9 @@ export function mappingOf(document) {
         profile: document.profile,
         list: document.list.map(({ direction, tag }) => `${direction}:${tag}`),
         demand: document.demand,
+        ...document.plant,
     };
+    if (document.plant?.tags && document.list.length === 0) delete mapping.list; // the modules of the master's project say the directions
     for (const key of ['ident', 'max_tsdr', 'description', 'model'])
         if (document[key] !== null) mapping[key] = document[key];
     return mapping;
@@ -98,7 +114,7 @@ export function clearDirection(document, direction) {
     return withList(document, document.list.filter((one) => one.direction !== direction));
 }
 
-/** Sets one of: name, demand, ident, max_tsdr, description, model, table. */
+/** Sets one of: name, demand, plant, ident, max_tsdr, description, model, table. */
 export function setField(document, key, value) {
     return document[key] === value ? document : { ...document, [key]: value };
 }

@@ -33,11 +33,19 @@ function whyNoUnit(unit, { protocols }) {
         : 'The unit has to be the Modbus address of the instrument, 1 to 247.';
 }
 
-/** Why dpslaved would refuse the block, as a sentence; empty: it takes it. `place`: {name, address, line, unit}, texts. */
-export function whyNoStation(document, profile, place) {
-    if (document.ident === null && profile.ident === null) return 'Fill in the Ident_Number of the mapping first: the gateway needs it.';
-    const line = place.line === '' || /[\u0000-\u001f\u007f]/.test(place.line) ? 'Name the drive line.' : '';
-    return whyNoName(place.name) || whyNoAddress(place.address, profile) || line || whyNoUnit(place.unit, profile);
+const whyNoLine = (line) => (line === '' || /[\u0000-\u001f\u007f]/.test(line) ? 'Name the drive line.' : '');
+
+/**
+ * Why dpslaved would refuse the block: {field, text}, a key of `place` and a sentence; null: it takes it. `place`: {name,
+ * address, line, unit}, texts. The Ident_Number is asked for before.
+ */
+export function whyNoStation(profile, place) {
+    const all = {
+        name: whyNoName(place.name), address: whyNoAddress(place.address, profile), line: whyNoLine(place.line),
+        unit: whyNoUnit(place.unit, profile),
+    };
+    const field = Object.keys(all).find((one) => all[one] !== '');
+    return field ? { field, text: all[field] } : null;
 }
 
 /** The block. `place` as whyNoStation() takes it. */
@@ -51,6 +59,9 @@ export function stationBlock(document, profile, place) {
         `unit = ${quoted(place.unit)}`,
     ];
     if (document.ident !== null) lines.push(`ident = 0x${document.ident.toString(16).toUpperCase().padStart(4, '0')}`);
+    const { tags_at: tagsAt, identifiers } = document.plant ?? {};
+    if (tagsAt !== undefined) lines.push(`tags_at = ${tagsAt}`);
+    if (identifiers !== undefined) lines.push(`identifiers = [${identifiers.map(quoted).join(', ')}]`);
     if (document.table) lines.push(`tags = ${quoted(document.table.name)}`);
     if (document.max_tsdr !== null) lines.push(`# The GSD file has a MaxTsdr of its own: write max_tsdr = ${document.max_tsdr} into [bus].`);
     return lines.join('\n') + '\n';

@@ -21,6 +21,16 @@ function rangeText({ min, max }) {
     return `${min ?? '…'} to ${max ?? '…'}`;
 }
 
+const labelsText = (tag) => tag.labels.map((one) => `${one.bit ? 'bit ' : ''}${one.number}: ${one.text}`).join('; ');
+const kNoRange = 'not in the table';
+
+/** Type, range and values of a parameter in one line. `tag` is null where it is in no table. */
+export function shortText(tag) {
+    if (!tag) return 'In no table: type, range and values are not known.';
+    const labels = labelsText(tag);
+    return [`Type ${tag.type || 'not in the table'}`, `range ${rangeText(tag) ?? kNoRange}`, labels && `values ${labels}`].filter(Boolean).join(' · ');
+}
+
 function decimalsText(tag) {
     if (tag.follows_display) return 'those of the display';
     return tag.decimals === null ? null : String(tag.decimals);
@@ -29,10 +39,9 @@ function decimalsText(tag) {
 /** The facts of a parameter as a list. */
 export function aboutPart(tag) {
     if (!tag) return h('p', { class: 'note' }, 'Choose a parameter: what the table says of it stands here.');
-    const labels = tag.labels.map((one) => `${one.bit ? 'bit ' : ''}${one.number}: ${one.text}`).join('; ');
     const facts = [
-        ['Demand Data tag', tag.demand === null ? 'none' : String(tag.demand)], ['Type', tag.type], ['Decimals', decimalsText(tag)],
-        ['Range', rangeText(tag)], ['Access', accessText(tag) || kAccess[tag.access]], ['List', tag.section], ['Values', labels], ['Notes', tag.notes],
+        ['Type', tag.type], ['Range', rangeText(tag) ?? kNoRange], ['Values', labelsText(tag)], ['Access', accessText(tag) || kAccess[tag.access]],
+        ['Decimals', decimalsText(tag)], ['Demand Data tag', tag.demand === null ? 'none' : String(tag.demand)], ['List', tag.section], ['Notes', tag.notes],
     ].filter(([, text]) => text);
     return h('div', {}, h('h3', {}, `${tag.number} ${tag.name}`),
         h('dl', {}, facts.map(([name, text]) => h('div', {}, h('dt', {}, name), h('dd', {}, text)))));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Head and foot of the page: screens, tool bar, notices, what happened last, the hint of the area under the pointer.
 import { button, h, setText } from './dom.js';
+import { findingsList } from './findings.js';
 
 const kScreens = { start: 'Start', mapping: 'Mapping', check: 'Check and compare' };
 
@@ -66,7 +67,7 @@ export function noticeView(app) {
     const text = h('div', {});
     const close = button('Close', () => app.store.change({ notice: null }), { more: 'the notice' });
     const box = h('div', { class: 'notice', hidden: true }, text, close);
-    const element = h('div', { role: 'alert' }, box);
+    const element = h('div', { role: 'alert', class: 'notices' }, box); // in view wherever the page is scrolled to
     let shown = null;
     return {
         element,
@@ -78,7 +79,8 @@ export function noticeView(app) {
             text.replaceChildren();
             if (!notice) return;
             text.append(h('p', {}, h('span', { class: 'severity' }, notice.severity), ' ', h('strong', {}, notice.title)),
-                notice.sentences.length > 0 ? h('ul', {}, notice.sentences.map((one) => h('li', {}, one))) : '');
+                notice.sentences.length > 0 ? h('ul', {}, notice.sentences.map((one) => h('li', {}, one))) : '',
+                notice.findings.length > 0 ? findingsList(notice.findings, app.lead) : '');
         },
     };
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Check and compare: the format check of any GSD file, and two files side by side.
 import { area, button, checkbox, h } from './dom.js';
-import { findingsList } from './live.js';
+import { findingsList, summaryOf } from './findings.js';
 import { sentencesOf } from '../questions.js';
 
 const kSides = ['First file', 'Second file'];
@@ -30,7 +30,9 @@ function checkPart(app, file, title) {
     const shown = app.ask.show(file);
     const wrong = checked.findings ? shown.refusals : [];
     return h('section', { class: 'card result', 'aria-label': `Check of ${title}` }, h('h2', {}, file.name),
-        h('p', { class: checked.exit === 0 ? 'good' : 'bad', 'data-result': checked.exit }, checked.lines.slice(-1)[0] ?? sentencesOf(checked).join(' ')),
+        h('p', { class: checked.exit === 0 ? 'good' : 'bad', 'data-result': checked.exit },
+            checked.findings ? `${file.name}: ${summaryOf(checked.findings)}` : sentencesOf(checked).join(' ')),
+        file.device.profile ? h('p', { class: 'note' }, `Judged as a file for the profile ${file.device.profile}.`) : null,
         findingsList(checked.findings ?? []),
         shown.lines.length > 0 ? h('pre', { tabIndex: 0, role: 'region', 'aria-label': `What ${title} says` }, shown.lines.join('\n')) : null,
         wrong.map((one) => h('p', {}, one)));

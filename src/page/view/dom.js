@@ -21,11 +21,14 @@ export function newId(stem) {
     return `${stem}-${++ids}`;
 }
 
-/** A button with a visible text. `more` completes the name for those who do not see where it stands. */
-export function button(text, action, { more = '', icon = '', ...properties } = {}) {
-    return h('button', { type: 'button', on: { click: action }, ...properties },
+/**
+ * A button with a visible text. `more` completes the name for those who do not see where it stands. A `compact` one shows its
+ * icon alone.
+ */
+export function button(text, action, { more = '', icon = '', compact = false, ...properties } = {}) {
+    return h('button', { type: 'button', on: { click: action }, ...(compact && { title: text }), ...properties },
         icon ? h('span', { class: 'icon', 'aria-hidden': 'true' }, icon) : null,
-        h('span', {}, text), more ? h('span', { class: 'unseen' }, ` ${more}`) : null);
+        h('span', { class: compact ? 'unseen' : '' }, text), more ? h('span', { class: 'unseen' }, ` ${more}`) : null);
 }
 
 /** A field with its label. Gives {row, input}. */
@@ -51,6 +54,11 @@ export function area(name, hint, properties, ...children) {
 /** Sets a text only where it differs: a live region then says it only when it is new. */
 export function setText(element, text) {
     if (element.textContent !== text) element.textContent = text;
+}
+
+/** Why the last step was not done, where it was asked for. Empty: it was done, or it was asked for elsewhere. */
+export function reasonAt({ reason }, place) {
+    return reason?.places.includes(place) ? reason.text : '';
 }
 
 /** The class of a parameter's colour, "D" for Demand Data. The number beside it says the same without colour. */

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lists of the mapping: inputs, outputs, and on technology boxes the third one, read and write.
 import { kDirections, kListNames, placesOf } from '../mapping/model.js';
-import { demandText } from './about.js';
-import { area, button, h, setText } from './dom.js';
+import { demandText, shortText } from './about.js';
+import { area, button, h, reasonAt, setText } from './dom.js';
 import { makeDraggable } from './drag.js';
 import { listbox } from './listbox.js';
 import { openMenu } from './menu.js';
@@ -17,7 +17,7 @@ const kHints = {
     out: 'What the master writes to the device, in every cycle: an output overrides the front panel.',
     'in-out': 'What the master reads and writes: one parameter in both directions.',
 };
-const kHow = ' Select the list, then add by double click or arrow; drag to reorder or to move. Alt and the arrow keys move, Delete deletes.';
+const kHow = ' Select the list, then add by double click or Add; drag to reorder or to move. Alt and the arrow keys move, Delete deletes.';
 
 /** What is done in one list, by buttons, keys and menu. */
 function entryActions(app, direction) {
@@ -25,7 +25,7 @@ function entryActions(app, direction) {
     const name = kListNames[direction];
     const present = () => store.state().history.present;
     const otherLists = () => ask.profile(present().profile).lists.filter((one) => one !== direction);
-    const choose = (at) => store.change({ selectedList: direction, selectedAt: at });
+    const choose = (at) => store.change({ selectedList: direction, selectedAt: at, reason: null });
     const chosen = () => (present().list[store.state().selectedAt]?.direction === direction ? store.state().selectedAt : -1);
     return {
         choose,
@@ -34,12 +34,12 @@ function entryActions(app, direction) {
         },
         onChosen(action) {
             const at = chosen();
-            if (at < 0) app.say(`Select a parameter of the ${name} first.`, 'error');
+            if (at < 0) app.explain(direction, `Select a parameter of the ${name} first.`);
             else action(at);
         },
         addFromTree() {
             const { treeTag } = store.state();
-            if (treeTag === null) app.say('Select a parameter of the device first.', 'error');
+            if (treeTag === null) app.explain(direction, 'Select a parameter of the device first.');
             else edit.add(treeTag, direction);
         },
         key(event, at) {
@@ -102,20 +102,25 @@ function listView(app, direction) {
     const actions = entryActions(app, direction);
     const list = entryList(app, direction, actions);
     const moves = kDirections.filter((one) => one !== direction).map((to) =>
-        [to, button(`To ${kListNames[to]}`, () => actions.onChosen((at) => edit.move(at, to)), { more: `from ${name}` })]);
+        [to, button(`To ${kListNames[to]}`, () => actions.onChosen((at) => edit.move(at, to)), { more: `from ${name}`, class: 'move' })]);
     const count = h('span', { class: 'count' });
-    const empty = h('p', { class: 'empty' }, 'No parameter. Drop one here, or select this list and double click one.');
+    const empty = h('p', { class: 'empty' }, 'No parameter. Choose one of the device and press Add, or drop it here.');
     const bar = h('div', { class: 'bar list-bar' },
-        button('Up', () => actions.onChosen((at) => edit.step(at, -1)), { icon: '↑', more: `in ${name}` }),
-        button('Down', () => actions.onChosen((at) => edit.step(at, 1)), { icon: '↓', more: `in ${name}` }),
+        button('Up', () => actions.onChosen((at) => edit.step(at, -1)), { icon: '↑', compact: true, more: `in ${name}` }),
+        button('Down', () => actions.onChosen((at) => edit.step(at, 1)), { icon: '↓', compact: true, more: `in ${name}` }),
         moves.map(([, one]) => one),
         button('Delete', () => actions.onChosen(edit.remove), { more: `from ${name}` }),
-        button('Clear', () => edit.clear(direction), { more: name }));
+        button('Clear', () => edit.clear(direction), { more: name }),
+        button('More', (event) => actions.onChosen(() => actions.menu(event, list.element)), { more: `in ${name}`, 'aria-haspopup': 'menu' }));
+    const about = h('p', { class: 'about' });
+    const reason = h('p', { class: 'wrong-note', role: 'alert' });
+    const add = button('Add', actions.addFromTree, { icon: '→', more: `to ${name}`, class: 'add' });
     const element = area(kTitles[direction], kHints[direction] + kHow, {
         class: 'list', 'data-drop': direction, 'data-list': direction, on: { click: actions.select, focusin: actions.select },
-    }, h('div', { class: 'list-body' }, button('Add', actions.addFromTree, { icon: '→', more: `to ${name}`, class: 'add' }),
-        h('div', { class: 'list-rows' }, list.element, empty), bar));
-    element.querySelector('h2').append(' ', count);
+    }, h('div', { class: 'list-rows' }, list.element, empty), h('div', { class: 'facts', tabIndex: 0, role: 'group', 'aria-label': `About the parameter of the ${name}` }, reason, about), bar);
+    const heading = element.querySelector('h2');
+    heading.append(' ', count);
+    element.prepend(h('div', { class: 'bar spread' }, heading, add));
 
     let shown = { document: null, rows: [] };
     return {
@@ -132,7 +137,12 @@ function listView(app, direction) {
             element.classList.toggle('selected', selected);
             setText(count, `${rows.length}${selected ? ' · selected list' : ''}`);
             empty.hidden = rows.length > 0;
-            for (const [to, one] of moves) one.hidden = !lists.includes(to);
+            const chosen = selected ? document.list[state.selectedAt] : undefined;
+            const why = reasonAt(state, direction);
+            setText(reason, why);
+            setText(about, why || chosen?.direction !== direction ? '' : shortText(ask.tags(document).byNumber.get(chosen.tag) ?? null));
+            // With three lists the menu has these: their rows of buttons would push the lists apart.
+            for (const [to, one] of moves) one.hidden = !lists.includes(to) || lists.length > 2;
         },
     };
 }

@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the mapping gives, while it is edited: findings, the text of the file, octets, I/O map.
+import { fileNameOf } from '../mapping/model.js';
 import { area, button, h, setText } from './dom.js';
+import { findingsList, summaryOf } from './findings.js';
 import { mapPart, mapText, octetsPart, octetsText } from './octets.js';
 import { tabs } from './tabs.js';
 import { textPart } from './text.js';
 
 const kTabs = ['GSD file', 'Octets', 'I/O map'];
-
-/** A list of findings. `at` of a finding leads to its parameter where `lead` is given. */
-export function findingsList(findings, lead = null) {
-    return h('ul', { class: 'findings' }, findings.map((one) => h('li', { class: one.severity, 'data-code': one.code ?? '' },
-        h('span', { class: 'severity' }, one.severity), ' ',
-        one.line > 0 ? h('span', { class: 'line' }, `line ${one.line}: `) : null, h('span', {}, one.text),
-        lead && Number.isInteger(one.at) ? [' ', button('Show', () => lead(one.at), { more: 'the parameter' })] : null)));
-}
 
 /** What the shown tab has, as text. */
 function textOfTab(tab, preview) {
@@ -25,13 +19,6 @@ function partOfTab(tab, preview) {
     if (tab === 'I/O map') return mapPart(preview);
     return preview.text ? h('pre', { tabIndex: 0, role: 'region', 'aria-label': 'Text of the GSD file' }, textPart(preview))
         : h('p', {}, 'The mapping does not fit into a telegram, or it is refused: see the findings.');
-}
-
-function summaryOf(findings) {
-    const count = (severity) => findings.filter((one) => one.severity === severity).length;
-    const some = (number, word) => `${number} ${word}${number === 1 ? '' : 's'}`;
-    if (findings.length === 0) return 'No findings.';
-    return `${some(count('error'), 'error')}, ${some(count('warning'), 'warning')}`;
 }
 
 /** The view of the live pane. */
@@ -58,8 +45,8 @@ export function liveView(app) {
             strip.show(kTabs, state.live);
             if (shown.preview === preview && shown.live === state.live) return;
             if (shown.preview !== preview) {
-                setText(summary, summaryOf(preview.findings));
-                findings.replaceChildren(findingsList(preview.findings, (at) => app.showEntry(at)));
+                setText(summary, `${fileNameOf(state.history.present)}: ${summaryOf(preview.findings)}`);
+                findings.replaceChildren(findingsList(preview.findings, app.lead));
             }
             shown = { preview, live: state.live };
             panel.replaceChildren(partOfTab(state.live, preview));

@@ -51,8 +51,8 @@ export function orderView(app) {
     const count = h('span', { class: 'count' });
     const empty = h('p', { class: 'empty' }, 'No parameter. Add one to a list by direction.');
     const bar = h('div', { class: 'bar list-bar' },
-        button('Up', () => actions.onChosen((at) => edit.stepInTelegram(at, -1)), { icon: '↑', more: 'in the telegram' }),
-        button('Down', () => actions.onChosen((at) => edit.stepInTelegram(at, 1)), { icon: '↓', more: 'in the telegram' }),
+        button('Up', () => actions.onChosen((at) => edit.stepInTelegram(at, -1)), { icon: '↑', compact: true, more: 'in the telegram' }),
+        button('Down', () => actions.onChosen((at) => edit.stepInTelegram(at, 1)), { icon: '↓', compact: true, more: 'in the telegram' }),
         button('Delete', () => actions.onChosen(edit.remove), { more: 'from the telegram' }));
     const element = area(kTitle, kHint, { class: 'list', 'data-drop': 'telegram' },
         h('div', { class: 'list-rows' }, list.element, empty), bar);

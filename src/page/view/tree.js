@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The parameters of the device on the left: tabs of the instrument's lists, and a search over all of them.
 import { kListNames } from '../mapping/model.js';
-import { kStatusWords, search } from '../mapping/search.js';
+import { tagOf } from '../mapping/numbers.js';
+import { kStatusWords, search, suggestion } from '../mapping/search.js';
 import { aboutPart, accessText, demandText } from './about.js';
-import { area, button, field, h, setText } from './dom.js';
+import { area, button, field, h, reasonAt, setText } from './dom.js';
 import { makeDraggable } from './drag.js';
 import { listbox } from './listbox.js';
 import { openMenu } from './menu.js';
 import { tabs } from './tabs.js';
 
-const kHint = 'Choose a list or search, then drag a parameter to a list, double click it, or press Enter: it goes to the ' +
-    'list that is selected. The right button shows its Demand Data tag.';
+const kHint = 'Choose a list or search, then drag a parameter to a list, or choose it and press Add there. A double click or Enter ' +
+    'adds it to the list that is selected. What the table says of it stands below.';
 
 function rowOf(tag) {
     return h('div', { role: 'option', id: `tag-${tag.number}`, class: 'row', 'aria-selected': 'false', 'data-tag': tag.number },
@@ -23,7 +24,7 @@ function rowOf(tag) {
 function tableButtons(app) {
     const input = h('input', { type: 'file', accept: '.csv', class: 'unseen', tabIndex: -1, 'aria-label': 'Table file', on: {
         change: () => { if (input.files[0]) app.files.openTable(input.files[0]); input.value = ''; } } });
-    const load = button('Load a table…', () => input.click(), { 'data-do': 'load-table' });
+    const load = button('Load a table…', () => input.click(), { 'data-do': 'load-table', 'data-way': 'table' });
     const drop = button('Use the shipped table', () => {
         app.edit.set('table', null);
         app.say('The table of the profile is used.');
@@ -32,14 +33,26 @@ function tableButtons(app) {
 }
 
 function byNumber(app) {
-    const { row, input } = field('Add tag by number', h('input', { type: 'text', inputMode: 'numeric', autocomplete: 'off', class: 'short' }));
+    const { row, input } = field('Add tag by number', h('input', { type: 'text', inputMode: 'numeric', autocomplete: 'off', class: 'short' }), ' ');
+    const note = row.querySelector('.note');
+    const reason = h('p', { class: 'wrong-note', role: 'alert' });
+    const most = () => app.ask.profile(app.store.state().history.present.profile).max_tag;
     const form = h('form', { class: 'by-number', on: { submit: (event) => {
         event.preventDefault();
-        if (!/^\s*[0-9]{1,5}\s*$/.test(input.value)) return app.say(`"${input.value}" is no tag: write a number such as 271.`, 'error');
-        app.edit.add(Number(input.value));
-        return input.select();
-    } } }, row, h('button', { type: 'submit' }, 'Add tag'));
-    return form;
+        const tag = tagOf(input.value, most());
+        if (tag) app.edit.add(tag, undefined, null, 'number');
+        else app.explain('number', `"${input.value}" is no tag of this device: write a number from 1 to ${most()}.`);
+        input.select();
+    } } }, row, h('button', { type: 'submit' }, 'Add tag'), reason);
+    return {
+        form,
+        update(state) {
+            setText(note, `A number from 1 to ${most()}`);
+            const why = reasonAt(state, 'number');
+            setText(reason, why);
+            input.setAttribute('aria-invalid', String(why !== ''));
+        },
+    };
 }
 
 /** The list of parameters with its keys, its menu and its drag. */
@@ -48,7 +61,7 @@ function parameterList(app) {
     const rows = new WeakMap(); // by tag: a key of the search only puts them together anew
     const list = listbox({ class: 'rows tree-rows', 'aria-label': 'Parameters', on: { contextmenu: onMenu, dblclick: onDouble } }, {
         rowOf: (tag) => rows.get(tag) ?? rows.set(tag, rowOf(tag)).get(tag),
-        choose: (tag) => store.change({ treeTag: tag.number }),
+        choose: (tag) => store.change({ treeTag: tag.number, reason: null }),
         key: onKey,
     });
     makeDraggable(list.element, (row) => ({
@@ -59,14 +72,14 @@ function parameterList(app) {
 
     function onDouble(event) {
         const tag = list.itemOf(event.target);
-        if (tag) app.edit.add(tag.number);
+        if (tag) app.edit.add(tag.number, undefined, null, 'tree');
     }
     function onKey(event, tag) {
         if (event.key === 'ContextMenu' || (event.key === 'F10' && event.shiftKey)) return onMenu(event);
         if (!tag || event.ctrlKey || event.altKey || event.metaKey) return undefined;
         const direction = { i: 'in', o: 'out', b: 'in-out' }[event.key.toLowerCase()];
-        if (event.key === 'Enter' || event.key === ' ') app.edit.add(tag.number);
-        else if (directions().includes(direction)) app.edit.add(tag.number, direction);
+        if (event.key === 'Enter' || event.key === ' ') app.edit.add(tag.number, undefined, null, 'tree');
+        else if (directions().includes(direction)) app.edit.add(tag.number, direction, null, 'tree');
         else return undefined;
         return event.preventDefault();
     }
@@ -78,7 +91,7 @@ function parameterList(app) {
         if (!tag) return event.preventDefault();
         return openMenu(event, list.element, tag.name, [
             { text: demandText(tag), action: () => app.copy(String(tag.demand ?? tag.number), 'The tag') },
-            ...directions().map((direction) => ({ text: `Add to ${kListNames[direction]}`, action: () => app.edit.add(tag.number, direction) })),
+            ...directions().map((direction) => ({ text: `Add to ${kListNames[direction]}`, action: () => app.edit.add(tag.number, direction, null, 'tree') })),
         ]);
     }
     return list;
@@ -106,17 +119,20 @@ export function treeView(app) {
     const { store, ask } = app;
     const list = parameterList(app);
     const count = h('p', { class: 'count' });
-    const panel = h('div', { class: 'tree-panel' }, count, list.element);
+    const meant = button('', () => app.store.change({ query: meant.dataset.query, treeTag: null }), { class: 'meant', 'data-query': '' });
+    const reason = h('p', { class: 'wrong-note', role: 'alert' });
+    const panel = h('div', { class: 'tree-panel' }, count, meant, list.element);
     const strip = tabs('Lists of the instrument', panel, (tab) => store.change({ tab, query: '', treeTag: null }), { vertical: true });
-    const { row: searchRow, input: query } = field('Search parameters', h('input', { type: 'search', autocomplete: 'off', spellcheck: false, on: {
+    const { row: searchRow, input: query } = field('Search parameters', h('input', { type: 'search', 'data-way': 'search', autocomplete: 'off', spellcheck: false, on: {
         input: () => store.change({ query: query.value, treeTag: null }),
         keydown: (event) => { if (event.key === 'ArrowDown' || event.key === 'Enter') { event.preventDefault(); list.element.focus(); } },
     } }));
+    const number = byNumber(app);
     const table = tableButtons(app);
     const tableNote = h('p', { class: 'note' });
-    const about = h('section', { class: 'about-tag', tabIndex: 0, 'aria-label': 'About the parameter' });
-    const element = area('Device parameters', kHint, { class: 'tree' }, searchRow, h('div', { class: 'tree-body' }, strip.list, panel), about,
-        byNumber(app), h('div', { class: 'bar' }, table.load, table.drop, table.input), tableNote);
+    const about = h('section', { class: 'about-tag', 'aria-label': 'About the parameter' });
+    const element = area('Device parameters', kHint, { class: 'tree' }, searchRow, h('div', { class: 'tree-body' }, strip.list, panel), h('div', { class: 'chosen-tag', tabIndex: 0, role: 'group', 'aria-label': 'The chosen parameter' }, reason, about),
+        number.form, h('div', { class: 'bar' }, table.load, table.drop, table.input), tableNote);
     const selection = newSelection();
     let described;
 
@@ -134,6 +150,11 @@ export function treeView(app) {
             list.show(tags, tags.find((tag) => tag.number === state.treeTag) ?? null);
             list.element.classList.toggle('found', searching || tab?.name === kStatusWords);
             setText(count, countText(state.query, index, tags));
+            meant.dataset.query = searching && tags.length === 0 ? suggestion(index, state.query) : '';
+            meant.hidden = meant.dataset.query === '';
+            setText(meant.firstChild, `Search for “${meant.dataset.query}”`);
+            setText(reason, reasonAt(state, 'tree'));
+            number.update(state);
             const tag = index.byNumber.get(state.treeTag) ?? null;
             if (tag !== described) about.replaceChildren(aboutPart(tag));
             described = tag;

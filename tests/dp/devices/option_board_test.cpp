@@ -6,7 +6,7 @@
 namespace test {
 namespace {
 
-using dpslave::Parameter;
+using dpslave::LayoutEntry;
 using dpslave::dp::Refusal;
 using dpslave::dp::RefusalDetail;
 

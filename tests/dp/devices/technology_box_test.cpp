@@ -6,7 +6,7 @@
 namespace test {
 namespace {
 
-using dpslave::Parameter;
+using dpslave::LayoutEntry;
 using dpslave::dp::Refusal;
 using dpslave::dp::RefusalDetail;
 using dpslave::dp::State;
@@ -49,7 +49,7 @@ TEST_F(TechnologyBox, OneIdentifierReadsAndWritesTheSameParameter)
     EXPECT_EQ(master.data_exchange("AA BB"), "DL 11 11 22 22");
 
     EXPECT_EQ(seen().outputs[0], 0xAABB);
-    EXPECT_EQ(seen().layout.parameters[0], (Parameter{16, true, true}));
+    EXPECT_EQ(seen().layout.parameters[0], (LayoutEntry{16, true, true}));
 }
 
 TEST_F(TechnologyBox, NoUserPrmDataIsNoTags)
@@ -171,7 +171,7 @@ TEST_F(TechnologyBox, RefusesAZeroInFrontOfATagHoweverManyFollowIt)
 TEST_F(TechnologyBox, TakesThirtyParametersWithDemandDataAndWithout)
 {
     start_up(prm(tags_from_101(30)), show(Octets(30, 0x70)));
-    EXPECT_EQ(seen().layout.parameters[29], (Parameter{130, true, true}));
+    EXPECT_EQ(seen().layout.parameters[29], (LayoutEntry{130, true, true}));
     EXPECT_EQ(master.data_exchange(Octets(60)), "DH " + show(Octets(60)));
     master.set_prm("40 00 00 00 16 49 00");
 

@@ -92,9 +92,9 @@ public:
         return all;
     }
 
-    static dpslave::dp::Parameters parameters(std::uint8_t groups, milliseconds watchdog)
+    static dpslave::dp::SetPrm parameters(std::uint8_t groups, milliseconds watchdog)
     {
-        dpslave::dp::Parameters taken;
+        dpslave::dp::SetPrm taken;
         taken.groups = groups;
         taken.watchdog_on = true;
         taken.watchdog = watchdog;
@@ -115,7 +115,7 @@ public:
 private:
     dpslave::dp::Personality device = example_device();
     dpslave::dp::ProcessData data{device};
-    dpslave::dp::EventLog log;
+    dpslave::dp::PendingEvents log;
     dpslave::dp::StateMachine machine{device, data, log};
 };
 
@@ -245,6 +245,7 @@ std::vector<Pair> reference()
         {watchdog_expired, "", "", left_wait_cfg("wd"), left_data_exch("wd")}, // W1
         {diagnosis_changed, "", "", ", Diag_Pending 1", ", Diag_Pending 1"},   // A1
         {inputs_ready, "", "", "", ", Stat_Diag 0, Diag_Pending 1"},           // A2
+        {drive_gone, "", "", "", ", Stat_Diag 1, Diag_Pending 1"},             // A4
     };
 }
 
@@ -252,8 +253,8 @@ std::vector<Pair> reference()
 bool is_answered(Trigger trigger)
 {
     using enum Trigger;
-    for (const Trigger one :
-         {start, stop, control, control_not_ours, watchdog_expired, diagnosis_changed, inputs_ready})
+    for (const Trigger one : {start, stop, control, control_not_ours, watchdog_expired, diagnosis_changed,
+                              inputs_ready, drive_gone})
         if (trigger == one) return false;
     return true;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the tests of the transition table's rows share.
+/// The tests of the transition table's rows use this.
 #pragma once
 
 #include "dp/bench.hpp"

@@ -324,6 +324,47 @@ TEST_F(Rows, A2_InputsReadyEndsStatDiagAndIsReported)
     EXPECT_EQ(master.data_exchange("00 00"), "DL 12 34");
 }
 
+TEST_F(Rows, A4_ADriveThatIsGoneAsksForDiagnosisUntilEveryInputIsReadAgain)
+{
+    exchanges();
+    master.data_exchange("A5 01");
+    dpslave::InputImage gone{.generation = generation(), .drive_gone = true};
+    gone.words[0] = 0x1234;
+    slave.set_inputs(gone);
+
+    EXPECT_EQ(master.data_exchange("A5 01"), "DH 12 34");
+    EXPECT_EQ(diag_of(master), "00 0E 00 02") << "Stat_Diag";
+    EXPECT_EQ(master.data_exchange("A5 01"), "DH 12 34") << "Stat_Diag keeps the flag";
+    EXPECT_EQ(state(), State::data_exch);
+
+    slave.set_inputs({.generation = generation(), .drive_answers = true, .words = {0x5678}}); // not read yet
+    EXPECT_EQ(diag_of(master), "00 0E 00 02");
+    inputs_are({0x5678});
+    EXPECT_EQ(diag_of(master), "00 0C 00 02");
+    EXPECT_EQ(master.data_exchange("A5 01"), "DL 56 78");
+}
+
+TEST_F(Rows, A4_ATagThatTheDriveDeniesWhenItIsBackDoesNotHoldTheExchangeThatHadBegun)
+{
+    exchanges();
+    slave.set_inputs({.generation = generation(), .drive_gone = true});
+    slave.set_inputs({.generation = generation(),
+                      .every_input_tried = true,
+                      .drive_answers = true,
+                      .hold = dpslave::StartHold::denied});
+    EXPECT_EQ(diag_of(master), "00 0C 00 02");
+}
+
+TEST_F(Rows, A4_AFrozenImageIsReleased)
+{
+    start_up("B8 14 01 0C 47 11 01", kCfg);
+    inputs_are({0x1234});
+    master.control("08 00");
+    ASSERT_TRUE(slave.snapshot().freeze);
+    slave.set_inputs({.generation = generation(), .drive_gone = true, .words = {0x1234}});
+    EXPECT_FALSE(slave.snapshot().freeze);
+}
+
 TEST_F(Rows, A3_AnInputImageThatIsStaleChangesNeitherStateNorDiagnosis)
 {
     exchanges();

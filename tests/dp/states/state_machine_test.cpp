@@ -35,21 +35,21 @@ protected:
     }
     void exchanges()
     {
-        apply({Trigger::prm_ok, dpslave::dp::Parameters{}});
+        apply({Trigger::prm_ok, dpslave::dp::SetPrm{}});
         apply({Trigger::cfg_ok, dpslave::dp::Configuration{}});
         ASSERT_EQ(machine.state(), State::data_exch);
     }
 
     dpslave::dp::Personality device = example_device();
     dpslave::dp::ProcessData data{device};
-    dpslave::dp::EventLog log;
+    dpslave::dp::PendingEvents log;
     dpslave::dp::StateMachine machine{device, data, log};
     dpslave::fdl::ReplyData reply;
 };
 
 TEST_F(StateMachine, TakesOwnerAndParametersOfAnAcceptedSetPrm)
 {
-    dpslave::dp::Parameters parameters;
+    dpslave::dp::SetPrm parameters;
     parameters.groups = 4;
 
     EXPECT_EQ(apply({Trigger::prm_ok, parameters}), Answer::sc);
@@ -63,7 +63,7 @@ TEST_F(StateMachine, TakesOwnerAndParametersOfAnAcceptedSetPrm)
 TEST_F(StateMachine, KeepsAndLogsTheRefusalThatComesWithATrigger)
 {
     const RefusalDetail refusal{Refusal::cfg_identifier, 2, 0x11, 0x99};
-    apply({Trigger::prm_ok, dpslave::dp::Parameters{}});
+    apply({Trigger::prm_ok, dpslave::dp::SetPrm{}});
     while (log.take({}, {})) {
     }
 
@@ -87,7 +87,7 @@ TEST_F(StateMachine, ForgetsARefusedSetPrmWithTheNextAcceptedOne)
     apply({Trigger::prm_bad, refusal});
     ASSERT_EQ(seen().refusal, refusal);
 
-    apply({Trigger::prm_ok, dpslave::dp::Parameters{}});
+    apply({Trigger::prm_ok, dpslave::dp::SetPrm{}});
 
     EXPECT_EQ(seen().refusal, RefusalDetail{});
 }
@@ -95,9 +95,9 @@ TEST_F(StateMachine, ForgetsARefusedSetPrmWithTheNextAcceptedOne)
 TEST_F(StateMachine, ForgetsARefusedChkCfgWithTheNextAcceptedOneAndNoSooner)
 {
     const RefusalDetail refusal{Refusal::cfg_identifier, 2, 0x11, 0x99};
-    apply({Trigger::prm_ok, dpslave::dp::Parameters{}});
+    apply({Trigger::prm_ok, dpslave::dp::SetPrm{}});
     apply({Trigger::cfg_bad, refusal});
-    apply({Trigger::prm_ok, dpslave::dp::Parameters{}});
+    apply({Trigger::prm_ok, dpslave::dp::SetPrm{}});
     ASSERT_EQ(seen().refusal, refusal);
 
     apply({Trigger::cfg_ok, dpslave::dp::Configuration{}});
@@ -107,7 +107,7 @@ TEST_F(StateMachine, ForgetsARefusedChkCfgWithTheNextAcceptedOneAndNoSooner)
 
 TEST_F(StateMachine, EndsTheProcessDataOnlyWhenItLeavesDataExch)
 {
-    apply({Trigger::prm_ok, dpslave::dp::Parameters{}});
+    apply({Trigger::prm_ok, dpslave::dp::SetPrm{}});
     apply({Trigger::prm_unlock});
     EXPECT_FALSE(data.take_left());
 

@@ -17,7 +17,7 @@ TEST(StateTable, HasEveryRowOfTheReferenceThatIsForThisRoom)
     const std::set<std::string_view> expected{"B1", "B2", "S3", "D1", "D2", "D3",  "P1",  "P2",  "P3", "P4",
                                               "P5", "P6", "P7", "P8", "P9", "P10", "P11", "P12", "C1", "C2",
                                               "C3", "C4", "C5", "C6", "X1", "X2",  "X3",  "X4",  "X5", "R1",
-                                              "R2", "R3", "G1", "G2", "W1", "A1",  "A2",  "M2"};
+                                              "R2", "R3", "G1", "G2", "W1", "A1",  "A2",  "A4",  "M2"};
 
     std::set<std::string_view> rows;
     for (const auto& row : dpslave::dp::kTable)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What dpctl top shows, and what the keys change in it.
+// Tests what dpctl top shows, and what the keys change in it.
 #include "sightings.hpp"
 
 #include <gmock/gmock.h>

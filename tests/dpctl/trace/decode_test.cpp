@@ -33,7 +33,7 @@ Octets octets(const std::string& text)
     return *dpctl::read_octets({text});
 }
 
-/// An SD2 with its length and check sum.
+/// An SD2 with its length and checksum.
 Octets sd2(std::uint8_t da, std::uint8_t sa, std::uint8_t fc, const std::string& rest)
 {
     Octets body{da, sa, fc};

@@ -134,7 +134,7 @@ TEST_F(DpctlIncident, OfSeveralStationsEachIsStartedAfterTheOther)
 
     trace::Entry to_other = data_exchange(0x7D);
     to_other.octets[4] = 0x06;
-    ++to_other.octets[9]; // its check sum
+    ++to_other.octets[9]; // its checksum
 
     const auto entries = start_up({unwinder(), other}, {data_exchange(0x5D), to_other});
 
@@ -143,6 +143,71 @@ TEST_F(DpctlIncident, OfSeveralStationsEachIsStartedAfterTheOther)
     EXPECT_EQ(entries[2].octets.at(4), 0x85);
     EXPECT_EQ(entries[6].octets.at(4), 0x86);
     EXPECT_EQ(entries[6].octets.at(6), 0x5D) << "of each its own frame count bit";
+}
+
+/// A request of master 2 to station 5 with SAPs, at this second.
+trace::Entry at_sap(std::uint8_t dsap, int second)
+{
+    trace::Entry entry;
+    const auto sum = static_cast<std::uint8_t>(0x85 + 0x82 + 0x5D + dsap + 0x3E);
+    entry.octets = {0x68, 0x05, 0x05, 0x68, 0x85, 0x82, 0x5D, dsap, 0x3E, sum, 0x16};
+    entry.at = entry.first = entry.last = Instant{seconds{second}};
+    return entry;
+}
+
+TEST_F(DpctlIncident, TheCauseIsTheLastTelegramThatItsReasonNamesUpToTheMoment)
+{
+    trace::Entry exchange = data_exchange(0x5D);
+    exchange.first = Instant{seconds{4}};
+    trace::Entry of_another_master = at_sap(61, 5);
+    of_another_master.octets[5] = 0x83;
+    ++of_another_master.octets[9];
+    const std::vector<trace::Entry> entries{at_sap(61, 1), at_sap(62, 2),     at_sap(60, 3),
+                                            exchange,      of_another_master, at_sap(61, 9)};
+    const auto cause = [&](const char* kind, const char* reason) {
+        report::IncidentHead head{.what = {.kind = kind, .station = "unwinder", .reason = reason},
+                                  .at_ns = std::chrono::nanoseconds{seconds{6}}.count()};
+        head.stations = {unwinder()};
+        return cause_in(head, entries);
+    };
+
+    EXPECT_EQ(cause("refused", "prm_ident"), 4U) << "of whichever master";
+    EXPECT_EQ(cause("refused", "foreign_set_prm"), 4U);
+    EXPECT_EQ(cause("refused", "cfg_too_few"), 1U);
+    EXPECT_EQ(cause("left", "unlock"), 0U) << "of its own master, and not what came later";
+    EXPECT_EQ(cause("left", "cfg_fault"), 1U);
+    EXPECT_EQ(cause("left", "output_length"), 3U);
+    EXPECT_EQ(cause("left", "watchdog"), 3U) << "the last sign of the master";
+    EXPECT_EQ(cause("flaws", "checksum"), std::nullopt) << "each of them is bad";
+    EXPECT_EQ(cause("drive", "silent"), std::nullopt) << "it is on the drive line";
+}
+
+TEST_F(DpctlIncident, TheCauseOnADriveLineIsTheSilenceOrTheAnswerThatWasRefused)
+{
+    const auto frame = [](LineEntry::What what, drive::Judgement judgement, int second) {
+        LineEntry entry;
+        entry.what = what;
+        entry.judgement = judgement;
+        entry.first = Instant{seconds{second}};
+        return entry;
+    };
+    using enum LineEntry::What;
+    const std::vector<LineEntry> frames{
+        frame(answer, drive::Judgement::bad_checksum, 1), frame(silence, drive::Judgement::taken, 2),
+        frame(answer, drive::Judgement::late, 3),         frame(answer, drive::Judgement::taken, 4),
+        frame(answer, drive::Judgement::foreign, 1),      frame(silence, drive::Judgement::taken, 9)};
+    const auto cause = [&](const char* kind, const char* reason) {
+        return cause_in(report::IncidentHead{.what = {.kind = kind, .reason = reason},
+                                             .at_ns = std::chrono::nanoseconds{seconds{6}}.count()},
+                        frames);
+    };
+
+    EXPECT_EQ(cause("answer", "damaged"), 0U);
+    EXPECT_EQ(cause("drive", "silent"), 1U);
+    EXPECT_EQ(cause("answer", "late"), 2U);
+    EXPECT_EQ(cause("answer", "foreign"), 4U);
+    EXPECT_EQ(cause("drive", "port"), std::nullopt);
+    EXPECT_EQ(cause("left", "unlock"), std::nullopt);
 }
 
 TEST_F(DpctlIncident, ThereIsNoStartUpOfWhatIsNotKnownForCertain)

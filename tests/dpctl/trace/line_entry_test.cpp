@@ -112,11 +112,12 @@ TEST_F(DpctlLineTrace, ModbusIsWhatItsFunctionDoes)
 TEST_F(DpctlLineTrace, AWrongCheckSumIsCalledWrongAndWhatIsNoFrameHasNoWords)
 {
     EXPECT_EQ(ei_answer("02 50 56 31 36 2E 34 03 19", Judgement::bad_checksum),
-              "PV = 16.4, BCC wrong: not taken: wrong check sum");
+              "PV = 16.4, BCC wrong: not taken: wrong checksum");
     EXPECT_EQ(modbus_answer("01 03 02 00 00 B8 45", Judgement::bad_checksum),
-              "value 0, CRC wrong: not taken: wrong check sum");
+              "value 0, CRC wrong: not taken: wrong checksum");
     EXPECT_EQ(ei_answer("02 50 56", Judgement::truncated), "not taken: it broke off, or its length is wrong");
     EXPECT_EQ(modbus_answer("FF", Judgement::no_frame), "no frame");
+    EXPECT_EQ(modbus_answer("01 03 02 00 FF", Judgement::noise_before), "noise before the frame");
 }
 
 TEST_F(DpctlLineTrace, AnyOctetsHaveWords)

@@ -2,7 +2,7 @@
 /// dpctl bus: who is on the bus, in a table.
 #include "control/fixtures.hpp"
 #include "control/lines.hpp"
-#include "dpctl/watch/bus.hpp"
+#include "dpctl/cli/render.hpp"
 
 #include <gmock/gmock.h>
 

@@ -2,8 +2,8 @@
 // dpctl metrics: the text, as a reader of the format of its own understands it, and as promtool judges it.
 #include "control/fixtures.hpp"
 #include "dpctl/dpctl_bench.hpp"
-#include "dpctl/watch/exposition.hpp"
-#include "dpctl/watch/metrics.hpp"
+#include "dpctl/metrics/exposition.hpp"
+#include "dpctl/metrics/metrics.hpp"
 
 #include <gmock/gmock.h>
 #include <sys/wait.h>
@@ -150,6 +150,17 @@ TEST(Metrics, HaveTheCountersOfBusStationDriveAndSocketUnderNamesOfTheirOwn)
     EXPECT_EQ(value(text, "dpslaved_control_calls_total", {{"bus", "/dev/ttyS1"}}), "9");
 }
 
+TEST(Metrics, SayThatADriveIsGoneAndThatOneThatComesBackAnswers)
+{
+    Figures now = figures();
+    now.status.stations[0].drive.link = "gone";
+    now.status.stations[1].drive.link = "returning";
+    const std::string text = render_metrics(now, "/run/s");
+    EXPECT_EQ(value(text, "dpslaved_drive_gone", {{"station", "unwinder"}, {"line", "p3"}}), "1");
+    EXPECT_EQ(value(text, "dpslaved_drive_answers", {{"station", "unwinder"}, {"line", "p3"}}), "0");
+    EXPECT_EQ(value(text, "dpslaved_drive_answers", {{"station", "rewinder"}, {"line", "p3"}}), "1");
+}
+
 TEST(Metrics, HaveTheStateOfEachStationAndDrive)
 {
     const std::string text = render_metrics(figures(), "/run/s");
@@ -167,6 +178,7 @@ TEST(Metrics, HaveTheStateOfEachStationAndDrive)
     EXPECT_EQ(value(text, "dpslaved_station_info", {{"station", "rewinder"}, {"address", "16"}}), "1");
     EXPECT_EQ(value(text, "dpslaved_drive_answers", {{"station", "unwinder"}, {"line", "p3"}}), "1");
     EXPECT_EQ(value(text, "dpslaved_drive_answers", {{"station", "rewinder"}, {"line", "p3"}}), "0");
+    EXPECT_EQ(value(text, "dpslaved_drive_gone", {{"station", "rewinder"}, {"line", "p3"}}), "0");
     EXPECT_EQ(value(text, "dpslaved_line_port_open", {{"line", "p3"}}), "1") << "once for both drives";
 }
 
@@ -355,7 +367,7 @@ TEST(DpctlMetrics, ReplaceTheFileThatWriteNamesAndLeaveNothingBeside)
     const auto file = folder.path() / "dpslaved.prom";
     std::ofstream{file} << "of before\n";
 
-    const Ran ran = dpctl({"metrics", "--write", file, "--socket", daemon.socket()});
+    const Ran ran = dpctl({"metrics", "--output", file, "--socket", daemon.socket()});
 
     EXPECT_EQ(ran.exit, 0) << ran.err;
     EXPECT_EQ(ran.out + ran.err, "");
@@ -372,7 +384,7 @@ TEST(DpctlMetrics, AreNeverHalfWritten)
     std::ofstream{file} << "of before\n";
     std::ifstream reader{file};
 
-    ASSERT_EQ(dpctl({"metrics", "--write", file, "--socket", daemon.socket()}).exit, 0);
+    ASSERT_EQ(dpctl({"metrics", "--output", file, "--socket", daemon.socket()}).exit, 0);
 
     std::ostringstream seen;
     seen << reader.rdbuf();
@@ -385,7 +397,7 @@ TEST(DpctlMetrics, SayInTheFileThatNoDaemonAnswers)
     const auto file = folder.path() / "dpslaved.prom";
     std::ofstream{file} << "of before\n";
 
-    const Ran ran = dpctl({"metrics", "--write", file, "--socket", "/nonexistent/s"});
+    const Ran ran = dpctl({"metrics", "--output", file, "--socket", "/nonexistent/s"});
 
     EXPECT_EQ(ran.exit, 3);
     EXPECT_THAT(ran.err, HasSubstr("nothing answers on /nonexistent/s"));
@@ -396,7 +408,7 @@ TEST(DpctlMetrics, SayWhyTheFileCannotBeWritten)
 {
     const FixtureDaemon daemon;
 
-    const Ran ran = dpctl({"metrics", "--write", "/nonexistent/a.prom", "--socket", daemon.socket()});
+    const Ran ran = dpctl({"metrics", "--output", "/nonexistent/a.prom", "--socket", daemon.socket()});
 
     EXPECT_EQ(ran.exit, 1);
     EXPECT_EQ(ran.err, "dpctl: /nonexistent/a.prom: No such file or directory\n");

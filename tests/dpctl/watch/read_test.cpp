@@ -60,15 +60,15 @@ TEST_F(DpctlRead, SaysWhenNoTagHasTheName)
 
     EXPECT_EQ(ran.exit, 2);
     EXPECT_EQ(ran.err,
-              "dpctl: no tag of unwinder has 'colour' in its name; dpctl read --list prints the names\n");
+              "dpctl: no tag of unwinder has 'colour' in its name; dpctl read --names prints the names\n");
     EXPECT_TRUE(daemon.read().empty()) << "also none before it";
 }
 
 TEST_F(DpctlRead, ListsTheTagsWithTheirNames)
 {
-    EXPECT_EQ(run({"--list", "speed"}).out, "  TAG  NAME\n    7  SPEED FEEDBACK\n    8  SPEED DEMAND\n");
-    EXPECT_EQ(Json::parse(run({"--list", "--json"}).out).at("tags").size(), 3u);
-    EXPECT_EQ(run({"--list", "colour"}).out, "no tag of unwinder has such a name\n");
+    EXPECT_EQ(run({"--names", "speed"}).out, "  TAG  NAME\n    7  SPEED FEEDBACK\n    8  SPEED DEMAND\n");
+    EXPECT_EQ(Json::parse(run({"--names", "--json"}).out).at("tags").size(), 3u);
+    EXPECT_EQ(run({"--names", "colour"}).out, "no tag of unwinder has such a name\n");
 }
 
 TEST_F(DpctlRead, ReadsSeveralTagsInTheirOrderAsOneJsonObjectALine)
@@ -84,11 +84,20 @@ TEST_F(DpctlRead, ReadsSeveralTagsInTheirOrderAsOneJsonObjectALine)
     EXPECT_EQ(count, 2);
 }
 
-TEST_F(DpctlRead, OfATagThatIsRefusedReadsTheOthersAndEndsWith1)
+TEST_F(DpctlRead, TakesNumbersInEachFormRangesAndNames)
+{
+    EXPECT_EQ(run({"007", "0x7", "7-8,9", "speed demand"}).exit, 0);
+    EXPECT_EQ(daemon.read(), (std::vector<int>{7, 7, 7, 8, 9, 8}));
+    EXPECT_EQ(run({"torq"}).exit, 0) << "no other tag begins so";
+    EXPECT_EQ(run({"57-55"}).exit, 2);
+    EXPECT_EQ(run({"7,"}).exit, 2);
+}
+
+TEST_F(DpctlRead, OfATagThatIsRefusedReadsTheOthersAndEndsWith5)
 {
     const Ran ran = run({"1", "7"});
 
-    EXPECT_EQ(ran.exit, 1);
+    EXPECT_EQ(ran.exit, 5);
     EXPECT_THAT(ran.out, HasSubstr("tag 7 SPEED FEEDBACK is 50.00"));
     EXPECT_EQ(ran.err, "dpctl: tag 1: read only (Demand Data: error code 1)\n");
 }
@@ -135,7 +144,7 @@ TEST_F(DpctlRead, AgainAndAgainHasOneReadInTheDaemonAtMost)
     EXPECT_TRUE(daemon.was_read(1));
     const Ran ran = reading.wait();
 
-    EXPECT_EQ(ran.exit, 1);
+    EXPECT_EQ(ran.exit, 4);
     EXPECT_THAT(ran.err, HasSubstr("no answer within 3000 ms"));
     EXPECT_EQ(daemon.read(), std::vector<int>{2}) << "30 intervals long";
 }
@@ -149,17 +158,6 @@ TEST_F(DpctlRead, AgainAndAgainEndsOnCtrlCAlsoWhileADriveIsSilent)
     reading.signal(SIGINT);
 
     EXPECT_EQ(reading.wait().exit, 0);
-}
-
-TEST(DpctlInterval, IsATimeFromAHundredMillisecondsUp)
-{
-    using std::chrono::milliseconds;
-    EXPECT_EQ(dpctl::parse_interval("100ms"), milliseconds{100});
-    EXPECT_EQ(dpctl::parse_interval("1s"), milliseconds{1000});
-    EXPECT_EQ(dpctl::parse_interval("2"), milliseconds{2000});
-    EXPECT_EQ(dpctl::parse_interval("10m"), milliseconds{600'000});
-    for (const char* text : {"", "0", "0s", "99ms", "-1s", "1.5s", "ms", "1 s", "99999999999ms", "s"})
-        EXPECT_EQ(dpctl::parse_interval(text), std::nullopt) << text;
 }
 
 } // namespace

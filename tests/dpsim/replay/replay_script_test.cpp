@@ -115,6 +115,36 @@ TEST(ReplayScript, AnAnswerWithoutItsRequestAndAPacketWithoutOctetsAreLeftOut)
     EXPECT_EQ(made.steps[0].packet, 2U);
 }
 
+TEST(ReplayScript, OfATelegramThatTheCaptureBeginsInTheMiddleOfNothingIsSentOrExpected)
+{
+    const auto made = script({bus_in(0, "05 02 49 50 16"), bus_out(1, kFdlStatusOk), bus_in(2, kDiagRequest),
+                              bus_out(3, kDiagReady)});
+
+    ASSERT_EQ(made.steps.size(), 1U);
+    EXPECT_EQ(made.steps[0].packet, 3U);
+    EXPECT_EQ(made.steps[0].answer, wire(kDiagReady));
+}
+
+TEST(ReplayScript, WhatDpctlCallsCutIsNotSent)
+{
+    auto cut = bus_in(2, "3C 3E EE 16");
+    cut.comments = {"cut: the rest of this telegram was not recorded"};
+
+    const auto made = script({bus_in(0, kFdlStatus), bus_out(1, kFdlStatusOk), cut, bus_out(3, kDiagReady)});
+
+    ASSERT_EQ(made.steps.size(), 1U);
+    EXPECT_EQ(made.steps[0].answer, wire(kFdlStatusOk));
+}
+
+TEST(ReplayScript, OfARequestThatIsNotWholeNoAnswerIsExpected)
+{
+    const auto made = script(
+        {bus_in(0, kFdlStatus), bus_out(1, kFdlStatusOk), bus_in(2, "3C 3E EE 16"), bus_out(3, kDiagReady)});
+
+    ASSERT_EQ(made.steps.size(), 2U);
+    EXPECT_FALSE(made.steps[1].answer);
+}
+
 TEST(ReplayScript, KnowsTheFramesOfTheDriveLineByTheirLinkType)
 {
     for (const std::uint16_t link : {kEiAsciiLink, kModbusLink}) {

@@ -172,7 +172,7 @@ TEST_F(ReplayTest, AnAnswerThatTheCaptureDoesNotHaveIsADifference)
     EXPECT_EQ(next(), std::nullopt);
 
     EXPECT_THAT(lines(),
-                ElementsAre(HasSubstr("packet 3: octets that were not asked for, behind Global_Control"),
+                ElementsAre(HasSubstr("packet 3: octets that were not asked for, after Global_Control"),
                             "  now             E5"));
     EXPECT_EQ(counters().differences, 1U);
 }

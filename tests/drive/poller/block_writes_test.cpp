@@ -27,9 +27,9 @@ protected:
         rows[41].access = Access::write_only;
         return TagTable{rows};
     }
-    static UnitSettings settings(const TagTable& tags, bool compare, int retries)
+    static DriveSettings settings(const TagTable& tags, bool compare, int retries)
     {
-        UnitSettings one;
+        DriveSettings one;
         one.retries = retries;
         one.tags = &tags;
         one.compare_outputs = compare;
@@ -66,7 +66,7 @@ protected:
         return out;
     }
     test::MemoryDrive& drive() { return bench.drives[0]; }
-    const UnitSnapshot& seen() { return bench.poller.snapshot(0); }
+    const DriveSnapshot& seen() { return bench.poller.snapshot(0); }
 
     TagTable tags;
     PollerBench bench;

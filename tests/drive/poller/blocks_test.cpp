@@ -24,9 +24,9 @@ protected:
         rows[52].modbus_register = std::uint16_t{0x8068};
         return TagTable{rows};
     }
-    static UnitSettings settings(const TagTable& tags)
+    static DriveSettings settings(const TagTable& tags)
     {
-        UnitSettings one;
+        DriveSettings one;
         one.tags = &tags;
         return one;
     }

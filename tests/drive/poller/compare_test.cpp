@@ -23,9 +23,9 @@ protected:
         rows[91].access = Access::write_only;
         return TagTable{rows};
     }
-    static UnitSettings settings(const TagTable& tags)
+    static DriveSettings settings(const TagTable& tags)
     {
-        UnitSettings one;
+        DriveSettings one;
         one.tags = &tags;
         one.compare_outputs = true;
         one.output_refresh = 0ns; // must have no meaning here
@@ -41,7 +41,7 @@ protected:
         bench.log.clear();
     }
     test::MemoryDrive& drive() { return bench.drives[0]; }
-    const UnitSnapshot& seen() { return bench.poller.snapshot(0); }
+    const DriveSnapshot& seen() { return bench.poller.snapshot(0); }
 
     TagTable tags;
     PollerBench bench;

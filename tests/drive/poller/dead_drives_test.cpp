@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What drives that do not answer may cost those that do, and what cannot be asked for the sake of an owed
-/// answer.
+/// Tests what drives that do not answer may cost those that do, and what cannot be asked for the sake of an
+/// owed answer.
 #include "poller_bench.hpp"
 
 #include <gtest/gtest.h>
@@ -17,9 +17,9 @@ const TagTable& rows_of_100()
     return rows;
 }
 
-UnitSettings drive_of_line()
+DriveSettings drive_of_line()
 {
-    UnitSettings settings;
+    DriveSettings settings;
     settings.tags = &rows_of_100();
     settings.probe_interval = 2s;
     return settings;
@@ -136,12 +136,12 @@ protected:
 
 TEST_F(OneDrive, WhatIsDeferredIsHeldMarkedAndCountedNeitherAsSilenceNorAsRefusal)
 {
-    const UnitSnapshot before = bench.poller.snapshot(0);
+    const DriveSnapshot before = bench.poller.snapshot(0);
     for (int i = 0; i < 20; ++i) {
         if (bench.poller.next_deadline() > bench.now) bench.now = bench.poller.next_deadline();
         next(AccessError::deferred);
     }
-    const UnitSnapshot& after = bench.poller.snapshot(0);
+    const DriveSnapshot& after = bench.poller.snapshot(0);
     EXPECT_EQ(after.silences, before.silences);
     EXPECT_EQ(after.refusals, before.refusals);
     EXPECT_TRUE(after.answers);

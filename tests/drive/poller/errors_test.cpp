@@ -33,9 +33,9 @@ protected:
         rows[70].max = rows[71].max = 100;
         return TagTable{rows};
     }
-    static UnitSettings settings(const TagTable& tags, bool only_from_table)
+    static DriveSettings settings(const TagTable& tags, bool only_from_table)
     {
-        UnitSettings one;
+        DriveSettings one;
         one.tags = &tags;
         one.tags_only_from_table = only_from_table;
         one.never_written = {50, 199};
@@ -50,7 +50,7 @@ protected:
         bench.master_writes(0, tag, 5);
     }
     test::MemoryDrive& drive() { return bench.drives[0]; }
-    const UnitSnapshot& seen() { return bench.poller.snapshot(0); }
+    const DriveSnapshot& seen() { return bench.poller.snapshot(0); }
 
     TagTable tags;
     PollerBench bench;

@@ -25,9 +25,9 @@ protected:
     }
 
     static inline const TagTable table = table_up_to(99);
-    static UnitSettings unit(std::uint8_t address)
+    static DriveSettings unit(std::uint8_t address)
     {
-        UnitSettings settings;
+        DriveSettings settings;
         settings.address.unit = address;
         settings.tags = &table;
         return settings;
@@ -84,7 +84,7 @@ TEST_F(PollerExchange, AsksTheNewOneAsAnyDriveThatIsNew)
 
 TEST_F(PollerExchange, HasTheNumberOfRetriesOfTheNewSettings)
 {
-    UnitSettings more = unit(1);
+    DriveSettings more = unit(1);
     more.retries = 5;
     bench.poller.exchange({more}, {1U}, {});
     bench.drives = {bench.drives[1]};
@@ -125,7 +125,7 @@ class PollerOtherRows : public PollerExchange {
 protected:
     void first_has(const TagTable& tags)
     {
-        UnitSettings first = unit(0);
+        DriveSettings first = unit(0);
         first.tags = &tags;
         bench.poller.exchange({first, unit(1)}, {0U, 1U}, {});
     }
@@ -269,7 +269,7 @@ TEST_F(PollerOtherPort, HoldsAnOutputWithTheReasonThatItIsNotWrittenThereYet)
     bench.poller.leave_port();
     bench.run(500ms);
     other_port();
-    const UnitSnapshot& seen = bench.poller.snapshot(0);
+    const DriveSnapshot& seen = bench.poller.snapshot(0);
     EXPECT_EQ(seen.states[1], WordState::stale);
     EXPECT_EQ(seen.errors[1], AccessError::deferred);
     bench.run(1s);

@@ -22,9 +22,9 @@ protected:
         bench.run(500ms);
         bench.log.clear();
     }
-    static UnitSettings settings(const TagTable& tags, bool compares)
+    static DriveSettings settings(const TagTable& tags, bool compares)
     {
-        UnitSettings one;
+        DriveSettings one;
         one.tags = &tags;
         one.compare_outputs = compares;
         one.output_refresh = 60s;
@@ -39,7 +39,7 @@ protected:
         ASSERT_EQ(bench.log.back().tag, tag);
     }
     test::MemoryDrive& drive() { return bench.drives[0]; }
-    const UnitSnapshot& seen() { return bench.poller.snapshot(0); }
+    const DriveSnapshot& seen() { return bench.poller.snapshot(0); }
     WordState state(std::size_t parameter) { return seen().states[parameter]; }
 
     TagTable tags;

@@ -17,9 +17,9 @@ protected:
         for (int tag = 0; tag < 100; ++tag) drive().words[tag] = static_cast<std::uint16_t>(1000 + tag);
         bench.layout(0, 1, {1, 2}, {10, 11});
     }
-    static UnitSettings settings(const TagTable& tags, ZeroAfter loss)
+    static DriveSettings settings(const TagTable& tags, ZeroAfter loss)
     {
-        UnitSettings one;
+        DriveSettings one;
         one.tags = &tags;
         one.zero_after = loss;
         one.output_refresh = 60s;
@@ -33,7 +33,7 @@ protected:
         bench.log.clear();
     }
     test::MemoryDrive& drive() { return bench.drives[0]; }
-    const UnitSnapshot& seen() { return bench.poller.snapshot(0); }
+    const DriveSnapshot& seen() { return bench.poller.snapshot(0); }
 
     TagTable tags;
     PollerBench bench;
@@ -120,7 +120,7 @@ TEST_F(PollerLoss, OneSilenceIsNoLoss)
 TEST_F(PollerLoss, ADriveThatWasNeverThereIsKnownToBeLost)
 {
     drive().alive = false;
-    EXPECT_FALSE(bench.poller.take_inputs(0));
+    EXPECT_FALSE(bench.poller.take_inputs(0)->every_input_tried);
     bench.run(1s);
     const auto inputs = bench.poller.take_inputs(0);
     ASSERT_TRUE(inputs);

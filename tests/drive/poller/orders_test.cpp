@@ -30,9 +30,9 @@ protected:
         rows[93].max = 10;
         return TagTable{rows};
     }
-    static std::vector<UnitSettings> settings(const TagTable& tags)
+    static std::vector<DriveSettings> settings(const TagTable& tags)
     {
-        UnitSettings one;
+        DriveSettings one;
         one.tags = &tags;
         return {one, one};
     }

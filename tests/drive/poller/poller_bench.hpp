@@ -46,7 +46,7 @@ struct Done {
 
 class PollerBench {
 public:
-    explicit PollerBench(const std::vector<UnitSettings>& units, BlockRule rule = {})
+    explicit PollerBench(const std::vector<DriveSettings>& units, BlockRule rule = {})
         : drives(units.size()), images(units.size()), poller(units, rule)
     {}
 
@@ -55,6 +55,7 @@ public:
     Poller poller;
     Instant now{};
     std::vector<Done> log;
+    bool unplugged = false;                            ///< nothing gets on the line
     std::function<void(const Transaction&)> meanwhile; ///< called while a transaction is under way
 
     /// A new layout: tags that are read, then tags that are written.
@@ -92,7 +93,7 @@ public:
         const Instant began = now;
         if (meanwhile) meanwhile(*transaction);
         std::array<std::uint16_t, 64> words{};
-        const AccessError error = carry_out(*transaction, words);
+        const AccessError error = unplugged ? AccessError::no_answer : carry_out(*transaction, words);
         now += error == AccessError::no_answer ? kSilenceTime : kAnswerTime;
         log.push_back({transaction->purpose,
                        transaction->kind,
@@ -102,7 +103,9 @@ public:
                        {transaction->words.begin(), transaction->words.end()},
                        error,
                        began});
-        poller.done({error, std::span{words}.first(transaction->count)}, now);
+        if (error != AccessError::no_answer) poller.heard(transaction->unit, now);
+        poller.done({.error = error, .words = std::span{words}.first(transaction->count), .sent = !unplugged},
+                    now);
         return true;
     }
     void steps(int count)

@@ -21,9 +21,9 @@ const TagTable& table()
     return all;
 }
 
-UnitSettings unit(std::chrono::nanoseconds refresh = 1s)
+DriveSettings unit(std::chrono::nanoseconds refresh = 1s)
 {
-    UnitSettings settings;
+    DriveSettings settings;
     settings.tags = &table();
     settings.output_refresh = refresh;
     return settings;
@@ -31,12 +31,12 @@ UnitSettings unit(std::chrono::nanoseconds refresh = 1s)
 
 class PollerOfOne : public testing::Test {
 protected:
-    explicit PollerOfOne(const UnitSettings& settings = unit()) : bench({settings})
+    explicit PollerOfOne(const DriveSettings& settings = unit()) : bench({settings})
     {
         for (int tag = 0; tag < 100; ++tag) drive().words[tag] = static_cast<std::uint16_t>(1000 + tag);
     }
     test::MemoryDrive& drive() { return bench.drives[0]; }
-    const UnitSnapshot& seen() { return bench.poller.snapshot(0); }
+    const DriveSnapshot& seen() { return bench.poller.snapshot(0); }
     PollerBench bench;
 };
 
@@ -401,9 +401,9 @@ TEST_F(PollerOfOne, AsksForATagThatIsInNoTableUnderARowOfItsOwn)
 
 class PollerOfListedTags : public PollerOfOne {
 protected:
-    static UnitSettings refusing()
+    static DriveSettings refusing()
     {
-        UnitSettings settings = unit();
+        DriveSettings settings = unit();
         settings.tags_only_from_table = true;
         return settings;
     }

@@ -17,9 +17,9 @@ protected:
         for (int tag = 0; tag < 100; ++tag) drive().words[tag] = static_cast<std::uint16_t>(1000 + tag);
         exchanges(1, {10, 11});
     }
-    static UnitSettings settings(const TagTable& tags, ZeroAfter after)
+    static DriveSettings settings(const TagTable& tags, ZeroAfter after)
     {
-        UnitSettings one;
+        DriveSettings one;
         one.tags = &tags;
         one.zero_after = after;
         return one;
@@ -330,7 +330,7 @@ TEST_F(PollerRideNever, LeavesToTheNewMasterWhatItWrites)
 TEST(PollerRides, AreThoseOfEachDrive)
 {
     const TagTable tags = test::table_up_to(20);
-    UnitSettings hasty, patient;
+    DriveSettings hasty, patient;
     hasty.tags = patient.tags = &tags;
     patient.zero_after = 60s;
     PollerBench bench{{hasty, patient}};

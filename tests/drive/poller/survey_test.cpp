@@ -48,7 +48,7 @@ protected:
         return counts;
     }
 
-    PollerBench bench{{UnitSettings{}, UnitSettings{}}};
+    PollerBench bench{{DriveSettings{}, DriveSettings{}}};
 };
 
 TEST_F(PollerSurvey, takes_one_read_in_a_round_of_the_drive)
@@ -106,7 +106,7 @@ TEST_F(PollerSurvey, silence_loses_no_drive_and_counts_nowhere)
 
     EXPECT_GT(answers.size(), 20u);
     EXPECT_THAT(answers, Each(testing::Field(&OperateAnswer::error, AccessError::no_answer)));
-    const UnitSnapshot& shown = bench.poller.snapshot(0);
+    const DriveSnapshot& shown = bench.poller.snapshot(0);
     EXPECT_TRUE(shown.answers);
     EXPECT_EQ(shown.losses, 0u);
     EXPECT_EQ(shown.silences, 0u);
@@ -169,11 +169,19 @@ std::optional<Transaction> survey_read(PollerBench& bench)
     return std::nullopt;
 }
 
+TEST_F(PollerSurvey, a_tag_is_asked_by_the_rule_that_is_named)
+{
+    bench.poller.survey(0, 1, 55, MnemonicRule::pno);
+    const auto by_rule = survey_read(bench);
+    ASSERT_TRUE(by_rule);
+    EXPECT_EQ(by_rule->tag->mnemonic, "37");
+}
+
 TEST_F(PollerSurvey, a_value_is_reported_as_the_drive_wrote_it_whatever_the_table_makes_of_it)
 {
     bench.poller.survey(0, 1, 55);
     ASSERT_TRUE(survey_read(bench));
-    bench.poller.done({.error = AccessError::invalid_tag, .words = {}, .answer = "-12.34"}, bench.now);
+    bench.poller.done({.error = AccessError::no_scale, .words = {}, .answer = "-12.34"}, bench.now);
 
     const auto answer = bench.poller.take_operate_answer();
     ASSERT_TRUE(answer);
@@ -215,7 +223,7 @@ TEST_F(PollerSurvey, asks_by_the_mnemonic_of_the_table_and_by_nothing_else_of_it
     text.access = Access::write_only;
     text.mnemonic = "xy";
     const TagTable table{{text}};
-    UnitSettings unit;
+    DriveSettings unit;
     unit.tags = &table;
     PollerBench other{{unit}};
 

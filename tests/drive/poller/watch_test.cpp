@@ -23,9 +23,9 @@ protected:
         rows[91].access = Access::write_only;
         return TagTable{rows};
     }
-    static UnitSettings settings(const TagTable& tags, std::vector<std::uint16_t> watched)
+    static DriveSettings settings(const TagTable& tags, std::vector<std::uint16_t> watched)
     {
-        UnitSettings one;
+        DriveSettings one;
         one.tags = &tags;
         one.watched = std::move(watched);
         return one;

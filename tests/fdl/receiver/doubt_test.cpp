@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// A telegram with a silence in it: a real one that was read late, or a stump that makes one by chance with
-/// what came behind it. The check sum and the end delimiter say nothing then; what begins behind the silence
+/// what came behind it. The checksum and the end delimiter say nothing then; what begins behind the silence
 /// does.
 #include "fdl/receiver/receiver_bench.hpp"
 
@@ -104,7 +104,7 @@ TEST_F(SilenceInATelegram, TelegramIsGoodWhenATokenEndsLikeIt)
 
     reads_behind_silence(Octets(whole.end() - 3, whole.end()));
 
-    EXPECT_EQ(next(), "5D!") << "a token has no check sum";
+    EXPECT_EQ(next(), "5D!") << "a token has no checksum";
 }
 
 TEST_F(SilenceInATelegram, TokenThatGoesOnInTheNextReadIsNoneAlsoWithoutASilence)
@@ -225,8 +225,7 @@ TEST_F(SilenceInATelegram, TelegramInDoubtIsHeardWhenTheNextSilenceIsSeenWithWha
     reads_behind_silence(rest);
     EXPECT_EQ(next(), "-");
 
-    reads_behind_silence(
-        octets("02 16")); // would make 10 09 7E 16 02 16 of it: no check sum of that is right
+    reads_behind_silence(octets("02 16")); // would make 10 09 7E 16 02 16 of it: no checksum of that is right
 
     EXPECT_EQ(next(), "5D");
     EXPECT_EQ(next(), "start delimiter");

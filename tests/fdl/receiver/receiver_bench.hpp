@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the tests of the receiver share: octets in, telegrams and flaws out.
+/// The tests of the receiver use this: octets in, telegrams and flaws out.
 #pragma once
 
 #include "fdl/bench.hpp"
@@ -74,7 +74,7 @@ protected:
     }
 
     const Octets behind = octets("10 09 02 49 54 16"); ///< FDL_Status to 9
-    /// Eight octets say that they are a request to 5; with `behind` they are 14 with a right check sum:
+    /// Eight octets say that they are a request to 5; with `behind` they are 14 with a right checksum:
     /// 05 + 02 + 5D + 8C = F0, and 10 more are 00.
     const Octets stump = octets("68 08 08 68 05 02 5D 8C");
     /// A request to 5 whose last octets begin like a telegram of six: 05 + 02 + 5D + 01 + 10 + 09 = 7E.

@@ -52,6 +52,28 @@ TEST(Controller, ExchangesTheStandardMappingInScaledIntegers)
     EXPECT_TRUE(master.leaves());
 }
 
+///
+TEST(Controller, IsHeldAtTheStartWhileItsResolutionIsAnother)
+{
+    Gateway gateway{instrument()};
+    gateway.drive().send_line("set 12550 1");
+    Master master{gateway, for_controller(kStandard)};
+    EXPECT_TRUE(master.does("try start 3s"));
+    EXPECT_TRUE(master.does("expect diag stat-diag"));
+    EXPECT_THAT(
+        gateway.dpctl({"diag"}).out,
+        HasSubstr(
+            "Data exchange does not start: the drive says 1 (Integer) in tag 12550 (Comms resolution), and "
+            "the station says 0 (Full)"));
+    EXPECT_THAT(gateway.dpctl({"doctor"}).out, HasSubstr("tag 12550"));
+    EXPECT_EQ(gateway.word(1).at("raw"), 0);
+
+    gateway.drive().send_line("set 12550 0");
+    EXPECT_TRUE(master.does("start 30s"));
+    gateway.drive().send_line("set 1 12.3");
+    EXPECT_TRUE(master.does("wait 30s for in 1 = 123"));
+}
+
 TEST(Controller, InIntegerResolutionRoundsToWholeNumbersAndWritesThem)
 {
     Gateway gateway{instrument("resolution = \"integer\"\n")};
@@ -286,7 +308,7 @@ TEST(FrontPanel, IsOverriddenWhileDataIsExchanged)
 TEST(FrontPanel, RegainsControlWhenTheNetworkFails)
 {
     Gateway gateway{instrument("display_decimals = 1\n")};
-    Master master{gateway, for_controller({"--tags", "5,24w", "--watchdog", "500"})};
+    Master master{gateway, for_controller({"--tags", "5,24w", "--watchdog", "500ms"})};
     ASSERT_TRUE(master.does("start 30s"));
     EXPECT_TRUE(master.does("out 1 = 605"));
     EXPECT_TRUE(gateway.drive().says("tag 24 written 60.5"));
@@ -310,7 +332,7 @@ TEST(FrontPanel, IsNotAskedForTheInstrumentMode)
     EXPECT_TRUE(gateway.word_becomes(199, "state", "read_only"));
     EXPECT_TRUE(master.does("demand write 199 2"));
     EXPECT_TRUE(master.does("expect demand reject 1"));
-    EXPECT_EQ(gateway.dpctl({"write", "199", "2"}).status, 1);
+    EXPECT_EQ(gateway.dpctl({"write", "199", "2"}).status, 5);
     EXPECT_FALSE(gateway.drive().ever_said("tag 199 written"));
 }
 
@@ -329,21 +351,6 @@ TEST(Rem, FlashesWhileDataIsExchanged)
     EXPECT_TRUE(master.does("unlock"));
     EXPECT_TRUE(eventually(
         [&] { return gateway.json({"show"}).at("stations").at(0).at("info").at("comms_status") == "rdY"; }));
-}
-
-TEST(Controller, WithoutItsPortIsNotStartedAtAll)
-{
-    Wiring wiring = instrument();
-    wiring.started = false;
-    Gateway gateway{wiring};
-    std::string text = gateway.config_text();
-    text.replace(text.find("drive-gateway"), 13, "no-such-port");
-    write_file(gateway.config(), text);
-
-    const Outcome refused = gateway.run_daemon();
-    EXPECT_EQ(refused.status, 3);
-    EXPECT_THAT(refused.err, HasSubstr("[[line]] \"p3\""));
-    EXPECT_THAT(refused.err, HasSubstr("no-such-port"));
 }
 
 TEST(Controller, RefusesSyncAndFreeze)

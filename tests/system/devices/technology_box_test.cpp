@@ -89,7 +89,7 @@ TEST(TechnologyBox, ReportsTheFirstDiagnosisOfAStartUpWithTheTripThatStands)
     EXPECT_TRUE(master.does("diag"));
     EXPECT_TRUE(master.does("expect diag ext-diag"));
     EXPECT_TRUE(master.does("expect diag ext 04141234"));
-    EXPECT_EQ(gateway.dpctl({"tec", "set", "EXT DIAGNOSTIC", "1"}).status, 1) << "a tag of the drive says it";
+    EXPECT_EQ(gateway.dpctl({"tec", "set", "EXT DIAGNOSTIC", "1"}).status, 5) << "a tag of the drive says it";
 }
 
 TEST(TechnologyBox, Of590PlusReportsThatItHasTrippedButNotWhy)
@@ -269,7 +269,7 @@ TEST_F(FunctionBlock, WithAnotherTypeIsSilentOnTheBusAndSaysSo)
     EXPECT_TRUE(master.does("out 1 = 500"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 5.00"));
 
-    EXPECT_EQ(set("TYPE", "3").status, 1) << "the station is in data exchange";
+    EXPECT_EQ(set("TYPE", "3").status, 5) << "the station is in data exchange";
     const Outcome off = gateway.dpctl({"tec", "set", "TYPE", "3", "--yes"});
     EXPECT_EQ(off.status, 0);
     EXPECT_THAT(off.out, AllOf(HasSubstr("TYPE MISMATCH"), HasSubstr("set TYPE to 2")));
@@ -300,9 +300,9 @@ TEST_F(FunctionBlock, TakesAValueThatNoOperatorStationWouldAndIsFaultyUntilItIsM
     EXPECT_THAT(set("ride-through", "0").out, Not(HasSubstr("safety")));
     EXPECT_THAT(gateway.dpctl({"show"}).out, Not(HasSubstr("safety")));
 
-    EXPECT_EQ(set("RIDE THROUGH", "70000").status, 1) << "no 16 bits";
-    EXPECT_EQ(set("FAULT", "0").status, 1) << "an output";
-    EXPECT_EQ(set("NO SUCH", "0").status, 1);
+    EXPECT_EQ(set("RIDE THROUGH", "70000").status, 5) << "no 16 bits";
+    EXPECT_EQ(set("FAULT", "0").status, 5) << "an output";
+    EXPECT_EQ(set("NO SUCH", "0").status, 5);
 }
 
 TEST_F(FunctionBlock, ChangesTheAddressWhileTheProgramRuns)
@@ -330,7 +330,7 @@ TEST(FunctionBlocks, OfTwoStationsNeverHaveOneAddress)
     wiring.units = {"00", "01"};
     Gateway gateway{wiring};
     const Outcome taken = gateway.dpctl({"tec", "set", "ADDRESS", "6", "--station", "unwinder"});
-    EXPECT_EQ(taken.status, 1);
+    EXPECT_EQ(taken.status, 5);
     EXPECT_THAT(taken.err, HasSubstr("address 6 is that of station rewinder"));
     EXPECT_EQ(gateway.station(0).at("address"), 5);
 
@@ -348,7 +348,7 @@ TEST(FunctionBlocks, AreNoneOfAnOptionBoard)
     Gateway gateway;
     EXPECT_EQ(gateway.dpctl({"show", "unwinder"}).status, 0);
     EXPECT_TRUE(gateway.json({"show", "unwinder"}).at("stations").at(0).at("tec").is_null());
-    EXPECT_EQ(gateway.dpctl({"tec", "set", "TYPE", "2"}).status, 1);
+    EXPECT_EQ(gateway.dpctl({"tec", "set", "TYPE", "2"}).status, 5);
 }
 
 /// What becomes of the outputs when the master is killed: the watchdog of the slave is 500 ms.
@@ -357,7 +357,7 @@ protected:
     void lose_master_with(const std::string& seconds)
     {
         gateway.emplace(box("ride_through = " + seconds + "\n"));
-        Master master{*gateway, for_box({"--tags", "55,56w,57w", "--watchdog", "500"})};
+        Master master{*gateway, for_box({"--tags", "55,56w,57w", "--watchdog", "500ms"})};
         ASSERT_TRUE(master.does("start 30s"));
         ASSERT_TRUE(master.does("out 1 = 500"));
         ASSERT_TRUE(gateway->drive().says("tag 56 written 5.00"));

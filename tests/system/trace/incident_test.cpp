@@ -99,6 +99,19 @@ TEST_F(Incidents, OfAStationThatLeftHaveItsParametersAndTheTelegramsAroundIt)
                 HasSubstr(station.at("set_prm").get<std::string>()));
 }
 
+TEST_F(Incidents, ListTheirCauseAmongWhatIsBad)
+{
+    Gateway gateway{wiring()};
+    release(gateway);
+
+    EXPECT_TRUE(eventually([&] {
+        const std::string said = gateway.dpctl({"trace", "--incident", "1", "--bad"}).out;
+        const std::size_t cause = said.find("(the cause of the incident)");
+        return cause != std::string::npos && said.rfind("Set_Prm", cause) != std::string::npos &&
+               said.find("Data_Exchange") == std::string::npos;
+    })) << "the Set_Prm that released it";
+}
+
 TEST_F(Incidents, OfAShortExchangeNeverHaveTheParametersThatEndedIt)
 {
     Gateway gateway{wiring()};
@@ -151,7 +164,7 @@ TEST_F(Incidents, BecomeACaptureThatBeginsWithTheStartUp)
     release(gateway, kLongExchange);
     const std::string path = gateway.folder("incident.pcapng").string();
 
-    EXPECT_EQ(gateway.dpctl({"trace", "--incident", "1", "--write", path}).status, 0);
+    EXPECT_EQ(gateway.dpctl({"trace", "--incident", "1", "--output", path}).status, 0);
 
     std::ifstream file{path, std::ios::binary};
     const std::vector<std::uint8_t> octets{std::istreambuf_iterator<char>{file}, {}};
@@ -169,12 +182,12 @@ TEST_F(Incidents, HaveTheFramesOfTheDriveLines)
     release(gateway);
     ASSERT_GT(lines_of(gateway, "1").size(), 5U);
 
-    const Outcome frames = gateway.dpctl({"trace", "--incident", "1", "--drive", "p3"});
+    const Outcome frames = gateway.dpctl({"trace", "--incident", "1", "--line", "p3"});
     EXPECT_EQ(frames.status, 0) << frames.err;
     EXPECT_THAT(frames.out, HasSubstr("BCC right: taken"));
     EXPECT_THAT(frames.out, testing::Not(HasSubstr("Data_Exchange"))) << "in place of the telegrams";
     EXPECT_THAT(gateway.dpctl({"trace", "--incident", "1"}).out, testing::Not(HasSubstr("taken")));
-    const Outcome unknown = gateway.dpctl({"trace", "--incident", "1", "--drive", "p4"});
+    const Outcome unknown = gateway.dpctl({"trace", "--incident", "1", "--line", "p4"});
     EXPECT_EQ(unknown.status, 2);
     EXPECT_THAT(unknown.err, HasSubstr("incident 1 has no drive line 'p4'; it has: p3"));
 }
@@ -191,7 +204,7 @@ TEST_F(Incidents, AreReplayedToAnotherDaemonWithoutADifference)
         release(gateway, exchange);
         const auto lines = lines_of(gateway, "1");
         EXPECT_GT(lines.size(), 5U);
-        EXPECT_EQ(gateway.dpctl({"trace", "--incident", "1", "--write", path}).status, 0);
+        EXPECT_EQ(gateway.dpctl({"trace", "--incident", "1", "--output", path}).status, 0);
         return std::none_of(lines.begin(), lines.end(), [](const Json& line) {
             return line.at("what") == "unanswered" || line.at("what") == "piece";
         });
@@ -202,7 +215,7 @@ TEST_F(Incidents, AreReplayedToAnotherDaemonWithoutADifference)
 
         const Gateway other{{.bus_baud = slow.bus_baud}};
         const Outcome outcome = run({DPSIM_PROGRAM, "replay", path, "--port", other.bus_end().string(),
-                                     "--baud", std::to_string(other.bus_baud()), "--slot-ms", "200"});
+                                     "--baud", std::to_string(other.bus_baud()), "--slot", "200ms"});
         EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
         EXPECT_THAT(outcome.out, HasSubstr(": no difference"));
     }
@@ -243,7 +256,7 @@ TEST_F(Incidents, AreSkippedWhereAFileIsForeignOrCutOff)
     EXPECT_TRUE(gateway.daemon().ever_said("7.incident is skipped"));
     EXPECT_TRUE(gateway.daemon().ever_said("letter.txt is skipped"));
     EXPECT_EQ(list(gateway).at("incidents").at(0).at("number"), 8);
-    EXPECT_EQ(gateway.dpctl({"trace", "--incident", "7"}).status, 1);
+    EXPECT_EQ(gateway.dpctl({"trace", "--incident", "7"}).status, 2);
 }
 
 TEST_F(Incidents, AreOffWithoutAFolderAndTheReasonIsGiven)
@@ -252,7 +265,7 @@ TEST_F(Incidents, AreOffWithoutAFolderAndTheReasonIsGiven)
 
     const Outcome outcome = gateway.dpctl({"trace", "--incidents"});
 
-    EXPECT_EQ(outcome.status, 1);
+    EXPECT_EQ(outcome.status, 5);
     EXPECT_THAT(outcome.err, HasSubstr("STATE_DIRECTORY"));
 }
 

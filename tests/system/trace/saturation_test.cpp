@@ -127,7 +127,7 @@ protected:
     std::unique_ptr<Master> start_master() const
     {
         return std::make_unique<Master>(
-            gateway, Arguments{"--tags", "55,56w", "--cycle", "0", "--others", "32", "--slot-ms", "200"});
+            gateway, Arguments{"--tags", "55,56w", "--cycle", "0", "--others", "32", "--slot", "200ms"});
     }
     std::uint64_t heard() { return passed(gateway.passed_on_the_bus("a to b")); }
     ::testing::AssertionResult traffic_goes_on(Master& master, std::uint64_t octets)
@@ -199,7 +199,7 @@ TEST_F(TraceAtSaturation, HasEachOctetThatTheLineCountedAndNoMore)
 {
     start_daemon(4096);
     const std::filesystem::path path = folder / "bus.pcapng";
-    Process follower{gateway.dpctl_command({"trace", "--follow", "--write", path})};
+    Process follower{gateway.dpctl_command({"trace", "--follow", "--output", path})};
     ASSERT_TRUE(follows(path));
 
     const auto began = std::chrono::steady_clock::now();
@@ -255,7 +255,7 @@ protected:
 TEST_F(StalledReader, HasItsLossAsANumberInACaptureThatIsWholeBeforeAndBehindIt)
 {
     const std::filesystem::path path = folder / "bus.pcapng";
-    Process follower{gateway.dpctl_command({"trace", "--follow", "--write", path})};
+    Process follower{gateway.dpctl_command({"trace", "--follow", "--output", path})};
     ASSERT_TRUE(follows(path));
     stall({&follower}, [] { return true; });
     const Octets heard = log_of_heard();

@@ -57,7 +57,7 @@ TEST(DpctlPlot, HasTheValuesOfTheDriveAndWhatWasHeld)
     EXPECT_THAT(csv, HasSubstr(",in,3.00,3,300,good\n"));
     EXPECT_LT(csv.find(",stale\n"), csv.find(",3.00,"));
 
-    const Outcome svg = gateway.dpctl({"plot", "55", "56", "--svg", "-"});
+    const Outcome svg = gateway.dpctl({"plot", "55", "56", "--output", "-"});
     EXPECT_EQ(svg.status, 0) << svg.err;
     const Outcome read = parsed(gateway, svg.out);
     EXPECT_EQ(read.status, 0) << read.err;
@@ -98,7 +98,7 @@ TEST(DpctlPlot, EscapesANameOfTheTagTable)
     Master master{gateway, {"--tags", "55,56w"}};
     ASSERT_TRUE(master.does("start 30s"));
 
-    const Outcome read = parsed(gateway, gateway.dpctl({"plot", "55", "--svg", "-"}).out);
+    const Outcome read = parsed(gateway, gateway.dpctl({"plot", "55", "--output", "-"}).out);
     EXPECT_EQ(read.status, 0) << read.err;
     EXPECT_THAT(read.out, HasSubstr("\ntag 55 <script>\"a\"&'b</script>, in\n")) << "a text, no element";
     EXPECT_THAT(gateway.dpctl({"plot", "55", "--csv"}).out,
@@ -113,7 +113,7 @@ TEST(DpctlPlot, SaysThatNoValuesAreKept)
     gateway.start_daemon();
 
     const Outcome outcome = gateway.dpctl({"plot", "55"});
-    EXPECT_EQ(outcome.status, 1);
+    EXPECT_EQ(outcome.status, 5);
     EXPECT_THAT(outcome.err, HasSubstr("samples_kib"));
     EXPECT_THAT(outcome.err, Not(HasSubstr("org.dpslaved")));
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the commands that watch say of a real daemon: events, one screen, reads by name, the level of the log.
+// Tests what the commands that watch say of a real daemon: events, one screen, reads by name, the level of
+// the log.
 #include "gateway.hpp"
 
 #include <gmock/gmock.h>

@@ -76,6 +76,22 @@ end_endless_master() {
     wait "$endless" || true
 }
 
+# A two-wire drive line: at 9600 bit/s a request takes 8 ms and more, with a master or without.
+direct_drive_line_by_gpio() {
+    direct_by_gpio "$enable_line" false 9600
+    sed -i "/^\[\[line\]\]/a direction = \"gpio\"\ngpio_chip = \"$(chip_device)\"\ngpio_line = $drive_enable_line" "$conf"
+}
+drive_line_is_released() {
+    direct_drive_line_by_gpio
+    restart_service
+    expect_text "$(service_log)" "driver enable: line $drive_enable_line"
+    catch_level "$drive_enable_line" 1 "$(main_pid)" KILL
+    eventually has_level "$drive_enable_line" 0
+    eventually is_active
+    stop_service
+    expect_level "$drive_enable_line" 0
+}
+
 # --- Trouble with the chip ---------------------------------------------------------------------------------------------
 
 chip_goes_and_comes() {
@@ -132,6 +148,9 @@ prove "given direction gpio, when the service stops, then the line is low" low_a
 prove "given the bare program, when it is killed at random moments and while the line is high, then the line is low" \
     low_after_kills
 cat "$bench/kills" 2>/dev/null
+prove "given a drive line with direction gpio, when the service is killed within a request, then the line is low" \
+    drive_line_is_released
+direct_by_gpio "$enable_line" false 9600
 prove "given data exchange, when the GPIO chip goes and comes back, then the log says so and the same process exchanges again" \
     chip_goes_and_comes
 prove "given a line that another program has, when dpslaved starts, then it ends with 3 and names that program" chip_is_busy

@@ -30,7 +30,7 @@ by_rts() {
 baud_is_found() {
     configure "port = \"$bus_port\"" 'baud = "auto"' 'direction = "none"' </dev/null
     restart_service
-    local slots=(--slot-ms 100 --retries 15)
+    local slots=(--slot 100ms --retries 15)
     master "$bus_far_port" 93750 "try start 10s" "try start 10s" "try start 10s" "wait 10s for state data-exchange" unlock
 }
 

@@ -12,6 +12,7 @@ monitor_port=/dev/ttyS9   # qemu's monitor (QMP)
 chip_label=board
 enable_line=3      # driver enable of the RS-485 transceiver
 low_enable_line=4  # the same, low while sending
+drive_enable_line=6 # driver enable of a two-wire drive line
 lamp_line=5        # a lamp by the GPIO character device
 sysfs_lamp_line=2  # a lamp by sysfs GPIO
 

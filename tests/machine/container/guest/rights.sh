@@ -17,7 +17,7 @@ visitor_looks() {
     local command
     for command in status show io diag counters; do expect_status 0 as visitor dpctl "$command"; done
     expect_status 0 as visitor dpctl status unwinder --wait 0 --quiet
-    expect_status 1 as visitor dpctl write --station unwinder 62 33.3
+    expect_status 5 as visitor dpctl write --station unwinder 62 33.3
     expect_text "$output" "only root and members of the group 'dpslaved' may do this"
     ! drive_has_said 1 "tag 62 written 33.3" || fail "the drive was written"
 }
@@ -26,7 +26,7 @@ prove "given a user outside the group, when the state is read then it is shown, 
 visitor_reloads_not() {
     local pid
     pid=$(main_pid)
-    expect_status 1 as visitor dpctl reload
+    expect_status 5 as visitor dpctl reload
     expect_text "$output" "only root and members of the group 'dpslaved' may do this"
     expect_status 0 as mechanic dpctl reload
     expect_equal "process" "$(main_pid)" "$pid"

@@ -33,7 +33,7 @@ CONFIG
 }
 # station NAME ADDRESS UNIT
 station() {
-    printf '[[station]]\nname = "%s"\naddress = %s\nprofile = "590"\nline = "p3"\nunit = "%s"\ntags = "/usr/share/dpslaved/tags/example.csv"\n' "$@"
+    printf '[[station]]\nname = "%s"\naddress = %s\nprofile = "590"\nline = "p3"\nunit = "%s"\ntags = "/usr/share/dpslaved/tags/example.csv"\nwhen_drive_lost = "hold"\n' "$@"
 }
 two_stations() {
     bus_and_line 1

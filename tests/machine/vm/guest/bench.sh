@@ -26,7 +26,7 @@ configure() { # KEY=VALUE...
         printf 'max_tsdr = 65535\n'
         for setting in "$@"; do printf '%s\n' "$setting"; done
         printf '\n[[line]]\nname = "p3"\nport = "%s"\nprotocol = "ei-ascii"\nbaud = 9600\ntimeout_ms = 1000\n' "$drive_port"
-        printf '\n[[station]]\nname = "unwinder"\naddress = 5\nprofile = "590"\nline = "p3"\nunit = "00"\ntags = "/usr/share/dpslaved/tags/example.csv"\n'
+        printf '\n[[station]]\nname = "unwinder"\naddress = 5\nprofile = "590"\nline = "p3"\nunit = "00"\ntags = "/usr/share/dpslaved/tags/example.csv"\nwhen_drive_lost = "hold"\n'
         [ -t 0 ] || cat
     } >"$conf"
 }
@@ -71,8 +71,8 @@ start_drive() {
 send_to_drive() { echo "$*" >"$bench/drive.in"; }
 
 # DP masters are patient with a slow machine.
-master_options=(--slave 5 --tags "55,56w,288" --watchdog 20000 --cycle 20 --script -)
-slots=(--slot-ms 500 --retries 5)
+master_options=(--slave 5 --tags "55,56w,288" --watchdog 20s --cycle 20ms --script -)
+slots=(--slot 500ms --retries 5)
 # A master that ends after these commands, or at the first that fails.
 master() { # PORT BAUD COMMAND...
     printf '%s\n' "${@:3}" | timeout 60 dpsim master --port "$1" --baud "$2" "${master_options[@]}" "${slots[@]}"

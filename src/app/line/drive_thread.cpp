@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drive_thread.hpp"
+
+#include "probe_run.hpp"
+
+#include "dpslave/io/clock.hpp"
+#include "dpslave/report/words.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+namespace dpslave::app {
+
+namespace {
+
+/// What says something about the tag: neither silence nor an answer that is not proven.
+bool is_refusal(AccessError error)
+{
+    return error != AccessError::none && error != AccessError::no_answer && error != AccessError::deferred;
+}
+
+/// At level debug each request to a drive is a line of the log.
+void log_transaction(const std::string& line, const LineUnit& unit, const drive::Transaction& transaction,
+                     const drive::Outcome& outcome)
+{
+    if (!spdlog::should_log(spdlog::level::debug)) return;
+    using Kind = drive::Transaction::Kind;
+    const char* const kind = transaction.kind == Kind::read    ? "read"
+                             : transaction.kind == Kind::write ? "write"
+                                                               : "look for the drive";
+    std::string what = transaction.tag == nullptr ? std::string{}
+                       : transaction.count == 1
+                           ? fmt::format(" tag {}", transaction.tag->number)
+                           : fmt::format(" {} tags from {}", transaction.count, transaction.tag->number);
+    const auto words = transaction.kind == Kind::write ? transaction.words : outcome.words;
+    if (outcome.error == AccessError::none || transaction.kind == Kind::write)
+        for (const std::uint16_t word : words) what += fmt::format(" {:04X}", word);
+    spdlog::debug("line {}, {}: {}{}: {}", line, unit.config->name, kind, what,
+                  outcome.error == AccessError::none ? "done" : report::text(outcome.error));
+}
+
+template <class Units>
+auto find_unit(Units& units, std::uint32_t number)
+{
+    return std::find_if(units.begin(), units.end(),
+                        [number](const DriveUnit& unit) { return unit.number == number; });
+}
+
+} // namespace
+
+DriveThread::DriveThread(config::LineConfig line, FirstPort port, const std::vector<DriveUnit>& units,
+                         LineLink& link)
+    : line_(std::move(line)),
+      link_(link),
+      port_(std::move(port), listeners_of(link)),
+      units_(units.begin(), units.end()),
+      poller_(poller_settings(units, line_), LineBackend::block_rule(line_)),
+      troubles_(link.happenings, link.troubles),
+      words_(LineBackend::block_rule(line_).max_tags)
+{
+    port_.set_units(units);
+    port_.log_driver(line_);
+}
+
+void DriveThread::run(const std::stop_token& stop, io::EventFd& wake)
+{
+    while (!stop.stop_requested()) {
+        take_change();
+        if (const auto order = link_.probes.pop()) probe(*order, stop);
+        fetch();
+        const bool waits = port_.is_awaited(io::monotonic_now()) && !port_.open(line_);
+        note_heard(); // an answer that came between two questions
+        const auto transaction = waits ? std::nullopt : poller_.next(io::monotonic_now());
+        if (transaction) carry_out(*transaction);
+        publish(); // also what the poller has decided without the drive
+        if (next_ && leaving_is_over()) {
+            apply_change();
+        } else if (!transaction) {
+            rest(wake.fd(), waits ? kTickWithLayout : rest_time(io::monotonic_now()));
+            wake.clear(); // a change and stop are looked at right after this
+        }
+    }
+    write_safe_state();
+    link_.ended.store(true, std::memory_order_release);
+}
+
+/// An order for a drive that is about to come waits for it: the highest numbers are the newest.
+void DriveThread::fetch()
+{
+    for (std::size_t i = 0; i < units_.size(); ++i) units_[i].fetch(poller_, i);
+    while (const auto order = link_.orders.pop()) {
+        const bool is_early = std::all_of(units_.begin(), units_.end(),
+                                          [&](const LineUnit& unit) { return unit.number < order->station; });
+        if (is_early)
+            early_orders_.push_back(*order);
+        else
+            apply(*order);
+    }
+}
+
+void DriveThread::apply(LineOrder order)
+{
+    order.order.unit = static_cast<std::size_t>(find_unit(units_, order.station) - units_.begin());
+    const bool taken = order.is_survey
+                           ? poller_.survey(order.order.unit, order.order.number, order.order.tag, order.rule)
+                           : poller_.operate(order.order);
+    if (!taken) // also where the station has left the line in the meantime
+        link_.answers.push({.number = order.order.number, .error = AccessError::no_answer, .word = 0});
+}
+
+void DriveThread::carry_out(const drive::Transaction& transaction)
+{
+    const LineUnit& unit = units_[transaction.unit];
+    const drive::Outcome outcome =
+        port_.open(line_) ? exchange_with(unit, transaction)
+                          : drive::Outcome{.error = AccessError::no_answer, .words = {}, .sent = false};
+    log_transaction(line_.name, unit, transaction, outcome);
+    note_heard();
+    poller_.done(outcome, io::monotonic_now());
+}
+
+drive::Outcome DriveThread::exchange_with(const LineUnit& unit, const drive::Transaction& transaction)
+{
+    using Kind = drive::Transaction::Kind;
+    drive::Backend& backend = port_.backend()->backend();
+    const drive::UnitAddress address = unit.config->unit;
+    drive::Outcome outcome;
+    switch (transaction.kind) {
+        case Kind::read: {
+            const std::span<std::uint16_t> words = std::span{words_}.first(transaction.count);
+            outcome.error = backend.read(address, *transaction.tag, words);
+            outcome.words = words;
+            outcome.answer = backend.last_answer();
+            break;
+        }
+        case Kind::write:
+            outcome.error = transaction.once
+                                ? backend.write_once(address, *transaction.tag, transaction.words.first<1>())
+                                : backend.write(address, *transaction.tag, transaction.words);
+            outcome.sent = backend.has_sent();
+            break;
+        case Kind::probe: outcome.error = backend.probe(address); break;
+    }
+    outcome.questions = backend.questions();
+    if (transaction.purpose == drive::Purpose::survey) {
+        survey_trouble_ = backend.last_trouble();
+        outcome.trouble = survey_trouble_;
+        return outcome; // a survey is no trouble
+    }
+    // What was ordered by hand was answered there: it says nothing about the plant.
+    const bool is_by_hand = transaction.purpose == drive::Purpose::operate;
+    if (transaction.tag != nullptr && transaction.count == 1) {
+        if (outcome.error == AccessError::none)
+            troubles_.remove(unit, transaction);
+        else if (is_refusal(outcome.error) && !is_by_hand)
+            troubles_.add(unit, transaction, outcome.error, backend.last_trouble());
+    }
+    return outcome;
+}
+
+void DriveThread::publish()
+{
+    LineBackend* const backend = port_.backend();
+    for (std::size_t i = 0; i < units_.size(); ++i) {
+        std::optional<drive::AnswerCounts> heard;
+        if (backend != nullptr) heard = backend->backend().counts(units_[i].config->unit);
+        units_[i].publish(poller_, i, heard);
+        units_[i].sample(poller_.snapshot(i), link_.samples);
+    }
+    while (const auto answer = poller_.take_operate_answer()) link_.answers.push(*answer);
+    if (backend != nullptr) backend->tell_port_messages();
+    for (std::size_t i = 0; i < units_.size(); ++i) units_[i].tell(poller_.snapshot(i), link_.happenings);
+}
+
+/// Whether a drive is gone is decided by its last valid frame, whoever was asked then.
+void DriveThread::note_heard()
+{
+    if (port_.backend() == nullptr) return;
+    for (std::size_t i = 0; i < units_.size(); ++i) {
+        const Instant at = port_.backend()->backend().counts(units_[i].config->unit).valid_at;
+        if (at != Instant{}) poller_.heard(i, at);
+    }
+}
+
+/// The line does nothing else meanwhile; its own port is closed for it and opened again like one that was not
+/// there.
+void DriveThread::probe(const ProbeOrder& order, const std::stop_token& stop)
+{
+    link_.probe_tried.store(0, std::memory_order_relaxed);
+    ProbeReport report{.number = order.number, .tried = 0, .answers = {}, .count = 0};
+    if (const auto unit = find_unit(units_, order.station); unit != units_.end() && !unit->leaves) {
+        port_.close();
+        poller_.not_asked(io::monotonic_now());
+        publish();
+        report = run_probe(order, line_, *unit, units_, link_, stop);
+    }
+    link_.probe_reports.push(report);
+}
+
+/// Until the next deadline, but not longer than an order of the master may wait.
+std::chrono::nanoseconds DriveThread::rest_time(Instant now) const
+{
+    const auto is_busy = [](const LineUnit& unit) { return unit.is_busy(); };
+    const auto is_lost = [](const LineUnit& unit) { return unit.is_lost(); };
+    std::chrono::nanoseconds tick = kTickIdle;
+    if (std::any_of(units_.begin(), units_.end(), is_busy)) tick = kTickWithLayout;
+    if (!units_.empty() && std::all_of(units_.begin(), units_.end(), is_lost)) tick = kTickLost;
+    return std::clamp<std::chrono::nanoseconds>(poller_.next_deadline() - now, std::chrono::nanoseconds{0},
+                                                tick);
+}
+
+/// Nothing to do: waits, until something is to be looked at. An answer that comes too late comes now: its
+/// delay is measured here.
+void DriveThread::rest(int wake, std::chrono::nanoseconds wait)
+{
+    LineBackend* const backend = port_.backend();
+    const timespec time{.tv_sec = 0, .tv_nsec = static_cast<long>(wait.count())};
+    std::array<pollfd, 2> fds{
+        {{.fd = wake, .events = POLLIN, .revents = 0},
+         {.fd = backend != nullptr ? backend->fd() : -1, .events = POLLIN, .revents = 0}}};
+    ::ppoll(fds.data(), fds.size(), &time, nullptr); // a negative descriptor is not looked at
+    if (fds[1].revents != 0) backend->backend().listen();
+}
+
+/// The bus has been left. A drive that does not answer at this moment is waited for as long as any.
+void DriveThread::write_safe_state()
+{
+    const Instant end = io::monotonic_now() + kSafeStateLimit;
+    fetch();
+    // Usually the bus has said so; one that hangs or has failed has not.
+    for (std::size_t i = 0; i < units_.size(); ++i)
+        poller_.left_data_exchange(i, {.generation = units_[i].layout()});
+    poller_.cancel_ride_through(); // nothing could zero the outputs later
+    while (poller_.safe_state_pending() && io::monotonic_now() < end) {
+        if (const auto transaction = poller_.next(io::monotonic_now()))
+            carry_out(*transaction);
+        else
+            rest(-1, rest_time(io::monotonic_now()));
+    }
+    publish(); // the cause first
+    for (std::size_t i = 0; i < units_.size(); ++i)
+        if (poller_.safe_state_pending(i))
+            link_.happenings.tell(
+                Severity::error, units_[i].number,
+                units_[i].config->name +
+                    ": not every output could be put into its safe state: the drive does not answer");
+}
+
+// ---- other drives, another port
+
+/// The main thread has other drives for this line. The stations of those that leave are off the bus: their
+/// outputs go to the safe state first, between the transactions of the others.
+void DriveThread::take_change()
+{
+    if (next_ || !link_.change.take(next_)) return;
+    leave_until_ = io::monotonic_now() + kSafeStateLimit;
+    for (std::size_t i = 0; i < units_.size(); ++i) {
+        units_[i].leaves = find_unit(next_->units, units_[i].number) == next_->units.end();
+        if (units_[i].leaves) poller_.cancel_ride_through(i); // nothing could zero the outputs later
+    }
+    if (next_->leaves_drives) poller_.leave_port();
+}
+
+bool DriveThread::leaving_is_over() const
+{
+    // A drive that is lost at the port that is left is not waited for: its cable may be at the new one.
+    const auto is_waited_for = [this](std::size_t i) {
+        return poller_.safe_state_pending(i) &&
+               (units_[i].leaves || (next_->leaves_drives && poller_.snapshot(i).answers));
+    };
+    bool pending = false;
+    for (std::size_t i = 0; i < units_.size(); ++i) pending = pending || is_waited_for(i);
+    if (pending && io::monotonic_now() < leave_until_) return false;
+    for (std::size_t i = 0; i < units_.size(); ++i)
+        if (poller_.safe_state_pending(i) && (units_[i].leaves || next_->leaves_drives))
+            link_.happenings.tell(
+                Severity::error, units_[i].number,
+                fmt::format(
+                    "{}: not every output could be put into its safe state before {}: the drive does not answer",
+                    units_[i].config->name,
+                    units_[i].leaves ? "the station was taken away" : line_.port + " was left"));
+    return true;
+}
+
+/// The new drives come only now: no station writes to a drive that another one still leaves.
+void DriveThread::apply_change()
+{
+    if (next_->line) line_ = *next_->line;
+    std::vector<LineUnit> units;
+    std::vector<std::optional<std::size_t>> stays;
+    for (const DriveUnit& one : next_->units) {
+        const auto known = find_unit(units_, one.number);
+        const bool is_known = known != units_.end();
+        if (is_known) troubles_.remove_changed_rows(*known, *one.config);
+        stays.push_back(is_known ? std::optional{static_cast<std::size_t>(known - units_.begin())}
+                                 : std::nullopt);
+        units.push_back(is_known ? *known : LineUnit{one});
+        units.back().config = one.config;
+    }
+    if (next_->opens_port) {
+        port_.exchange(std::move(next_->port));
+        port_.log_driver(line_);
+        if (next_->is_other_port) poller_.port_changed();
+    }
+    const drive::BlockRule rule = LineBackend::block_rule(line_);
+    poller_.exchange(poller_settings(next_->units, line_), stays,
+                     rule); // the tables of before are there still
+    units_ = std::move(units);
+    port_.set_units(next_->units);
+    words_.resize(std::max<std::size_t>(words_.size(), rule.max_tags)); // those that stay keep their rule
+    troubles_.keep_only(next_->units);
+    for (const LineOrder& order : std::exchange(early_orders_, {})) apply(order);
+    next_.reset();
+    link_.changes_done.fetch_add(1, std::memory_order_release);
+}
+
+} // namespace dpslave::app

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The port of a drive line from start to end: opened now or later, exchanged for another, closed for a
+/// probe. The drive thread's own.
+#pragma once
+
+#include "app/links/links.hpp"
+#include "line_backend.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <vector>
+
+namespace dpslave::app {
+
+class LinePort {
+public:
+    /// How long a port is waited for that another line still has: that one may leave its drives first.
+    static constexpr std::chrono::seconds kPatience{3};
+
+    /// `first`: as LineChange has it. `listeners`: of LineBackend::open(); they outlive the object.
+    LinePort(FirstPort first, const LineBackend::Listeners& listeners);
+
+    /// The drives from now on.
+    void set_units(std::vector<DriveUnit> units);
+    LineBackend* backend() { return backend_.get(); } ///< null: the port could not be opened yet
+    /// True: there is a back-end. Tries to open the port when the time for that has come.
+    bool open(const config::LineConfig& line);
+    /// Another line may still have the port: nothing is asked.
+    bool is_awaited(Instant now) const { return !backend_ && now < awaited_until_; }
+    /// The new port, or the old one set in another way.
+    void exchange(FirstPort next);
+    /// Until the next open().
+    void close();
+    /// Who switches the transceiver of the port that is open, unless it does so by itself.
+    void log_driver(const config::LineConfig& line) const;
+
+private:
+    static constexpr std::chrono::seconds kOpenAgainAfter{1};
+
+    void begin(FirstPort first);
+
+    std::unique_ptr<LineBackend> backend_;
+    LineBackend::Listeners listeners_;
+    std::vector<DriveUnit> units_;
+    Instant next_open_{};
+    Instant awaited_until_{};
+    bool failure_logged_ = false;
+};
+
+} // namespace dpslave::app

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+/// All that crosses between the threads: one struct per pair of neighbours, made of Mailbox, Ring, Handover
+/// and atomics. Each member names its one writer and its one reader (docs/internals/architecture.md, "Five
+/// kinds of threads").
+#pragma once
+
+#include "line_happenings.hpp"
+#include "line_trace.hpp"
+#include "probe_report.hpp"
+
+#include "dpslave/base/handover.hpp"
+#include "dpslave/base/histogram.hpp"
+#include "dpslave/base/mailbox.hpp"
+#include "dpslave/base/process_image.hpp"
+#include "dpslave/base/ring.hpp"
+#include "dpslave/config/config.hpp"
+#include "dpslave/dp/bus_members.hpp"
+#include "dpslave/dp/pending_events.hpp"
+#include "dpslave/dp/snapshot.hpp"
+#include "dpslave/drive/poller.hpp"
+#include "dpslave/fdl/layer2.hpp"
+#include "dpslave/io/switched_port.hpp"
+#include "dpslave/trace/samples.hpp"
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dpslave::app {
+
+/// What a station on the bus is to be, main -> bus.
+struct BusOrders {
+    bool enabled = true; ///< false: the station is silent (TEC OPTION: FAULT is not NONE)
+    std::uint8_t address = 0;
+    ByteBuffer<8> ext_diag;      ///< the block of the extended diagnosis; empty = the device has none
+    bool ext_diag_fault = false; ///< it reports a fault, and the Ext_Diag bit shall say so
+    friend bool operator==(const BusOrders&, const BusOrders&) = default;
+};
+
+/// StationLink::zero_after_ms: how ZeroAfter crosses between threads.
+inline constexpr std::int64_t kNeverToZero = -1;
+constexpr std::int64_t to_ms(drive::ZeroAfter after)
+{
+    return after ? std::chrono::ceil<std::chrono::milliseconds>(*after).count() : kNeverToZero;
+}
+constexpr drive::ZeroAfter from_ms(std::int64_t after)
+{
+    if (after == kNeverToZero) return std::nullopt;
+    return std::chrono::milliseconds{after};
+}
+
+/// One station between its bus, its drive line and the main thread.
+struct StationLink {
+    // drive -> bus
+    /// Counts how often the station has left for a drive that is gone, and has come back (X-51): odd while it
+    /// is away. A bus thread that missed both still leaves once.
+    std::atomic<std::uint32_t> departures{0};
+    Mailbox<InputImage> inputs;
+    /// Newest wins: an answer to an order that no longer stands is dropped anyway.
+    Mailbox<DemandAnswer> demand_answer;
+    // bus -> drive
+    /// Every layout up to this generation has ended. Stored before the outputs of the next layout are
+    /// published, read after them: a thread that sees a new layout also sees the end of the old one. It only
+    /// grows, so no end is overwritten.
+    std::atomic<Generation> ended{0};
+    Mailbox<OutputImage> outputs;
+    Ring<DemandOrder, 16> demand_orders;
+    // bus -> main
+    Mailbox<dp::Snapshot> bus_snapshot;
+    Ring<dp::Event, 64> events;
+    // drive -> main
+    Mailbox<drive::DriveSnapshot> drive_snapshot;
+    // main -> bus
+    Mailbox<BusOrders> bus_orders;
+    // main -> drive
+    /// When the outputs go to zero after the loss of the master, ms; kNeverToZero = never. Settable while the
+    /// program runs (RIDE THROUGH).
+    std::atomic<std::int64_t> zero_after_ms{0};
+};
+
+class BusStation;
+/// The stations of the bus, at most 127, in any order. A station that is in the present set and in the next
+/// one stays on the bus without a break.
+using BusStations = std::vector<std::shared_ptr<BusStation>>;
+
+/// What happened to the port of the bus, for the log.
+enum class PortEvent : std::uint8_t {
+    lost,
+    back,
+    driver_lost, ///< an edge of the driver enable failed: nothing is sent until it works again
+    driver_back,
+    driver_guarded, ///< only the guard made it inactive; reported once until the port is opened again
+};
+
+/// A sentence about the port, with its path, each reason once.
+struct PortMessage {
+    bool is_warning = false; ///< else the port is closed
+    std::string text;
+};
+
+/// The bus as a whole, bus -> main.
+struct BusSnapshot {
+    Baud baud = Baud::k9_6;
+    fdl::BaudState baud_state = fdl::BaudState::fixed;
+    bool port_open = true; ///< the daemon starts with an open port
+    Instant taken_at{};
+    Instant last_telegram{}; ///< with a right checksum, of any station; default = none was heard yet
+    fdl::Counters counters{};
+    dp::BusMembers::UnansweredList unanswered{}; ///< addresses that do not answer, ours among them
+    std::uint64_t write_errors = 0;
+    std::uint64_t unsent = 0; ///< replies not sent: write errors, no port, or no driver enable
+    /// Of each reply, from the read of the request's last octet to the end of the write: us, and T_bit of the
+    /// rate of then.
+    Histogram turnaround_us, turnaround_tbit;
+    std::uint64_t too_late = 0;       ///< replies whose write began within their window and ended behind it
+    bool driver_works = true;         ///< false: an edge of the driver enable has failed, nothing is sent
+    std::uint64_t driver_errors = 0;  ///< edges of the driver enable that failed
+    std::uint64_t driver_guarded = 0; ///< times that only the guard made the driver enable inactive
+    std::uint64_t echo_broken = 0;    ///< echoes that were not what was sent
+    std::uint64_t echo_missing = 0;   ///< echoes that were due and did not come
+    std::uint64_t page_faults = 0;    ///< of the bus thread since it serves with locked memory
+    bool valid = false;               ///< false: nothing was published yet
+};
+struct BusLink {
+    /// `trace_octets`: the size of the ring of the trace; 0: nothing is recorded.
+    explicit BusLink(std::size_t trace_octets = 0) : trace(trace_octets) {}
+
+    Mailbox<BusSnapshot> snapshot;
+    /// Who is on the bus, bus -> main; twice a second.
+    Mailbox<dp::BusMembers::Table> members;
+    /// Counts the rounds of the bus thread: while it moves, the watchdog of systemd is fed.
+    std::atomic<std::uint64_t> heartbeat{0};
+    /// A thread has failed (the log says how): the main thread ends the program.
+    std::atomic<bool> failed{false};
+    /// The stations from now on, main -> bus, and back the set of before.
+    Handover<BusStations> stations;
+    Ring<PortEvent, 8> port_events; ///< bus -> main
+    /// Why the port is closed and stays so, or what it cannot do since it is open again, bus -> main.
+    Handover<PortMessage> port_messages;
+    std::atomic<Baud> baud{Baud::k9_6}; ///< the rate of replies, bus -> guard of the driver enable
+    std::atomic<bool> ended{false};     ///< the bus thread has ended
+    /// Main -> bus: the memory is locked, if it is to be. The bus is served before.
+    std::atomic<bool> memory_is_ready{true};
+    trace::Ring trace; ///< what was heard and sent, bus -> whoever looks
+    /// How long the port may keep a received character, bus -> main.
+    std::atomic<std::int64_t> hold_back_ns{0};
+};
+
+/// What a drive refused, in words; the newest few of a line.
+struct Trouble {
+    std::uint32_t station = 0; ///< DriveUnit::number
+    std::uint16_t tag = 0;
+    bool is_write = false; ///< a tag may be read and refuse to be written
+    AccessError error = AccessError::none;
+    std::array<char, 240> text{}; ///< ends with NUL
+};
+struct TroubleList {
+    std::array<Trouble, 16> troubles{};
+    std::uint8_t count = 0;
+};
+
+/// One drive of a line: the station that it stands for.
+struct DriveUnit {
+    std::uint32_t number = 0; ///< of the station: never given twice while the program runs
+    std::shared_ptr<const config::StationConfig> config;
+    std::shared_ptr<StationLink> link;
+};
+
+class LineBackend;
+/// With what the port of a line begins.
+struct FirstPort {
+    std::unique_ptr<LineBackend> backend; ///< null: it is not open yet
+    /// With a null: it could not be opened, and that was said. Otherwise another line has it still and will
+    /// close it.
+    bool is_missing = false;
+};
+
+/// What a reload changes at a line.
+struct LineChange {
+    ~LineChange();
+    /// One that was there before goes on without a break, with its `config` of now.
+    std::vector<DriveUnit> units;
+    std::optional<config::LineConfig> line; ///< a key of it is different
+    bool opens_port = false;                ///< the port is another one, or set in another way
+    bool is_other_port = false;             ///< with `opens_port`: standing outputs are written there at once
+    bool leaves_drives = false; ///< with `is_other_port`: the drives at the old one go to the safe state
+    FirstPort port;             ///< with `opens_port`
+};
+
+/// An order of `dpctl`; its `unit` is found by the number of the station.
+struct LineOrder {
+    std::uint32_t station = 0; ///< DriveUnit::number
+    drive::OperateOrder order;
+    bool is_survey = false;                                 ///< Poller::survey() in place of operate()
+    std::optional<drive::MnemonicRule> rule = std::nullopt; ///< of a survey; nothing = that of the profile
+};
+
+/// A drive line and the main thread.
+struct LineLink {
+    /// `trace_octets`, `sample_octets`: the sizes of the rings of its trace and of its samples; 0: nothing is
+    /// kept.
+    explicit LineLink(std::size_t trace_octets = 0, std::size_t sample_octets = 0)
+        : samples(sample_octets), trace(std::make_shared<LineTrace>(trace_octets))
+    {}
+
+    Ring<LineOrder, 16> orders;                // main -> drive
+    Ring<drive::OperateAnswer, 16> answers;    // drive -> main
+    Ring<ProbeOrder, 2> probes;                // main -> drive
+    Ring<ProbeReport, 2> probe_reports;        // drive -> main
+    std::atomic<std::uint32_t> probe_tried{0}; ///< drive -> main: questions of the probe that runs
+    /// main -> drive: the number of a probe whose caller has gone.
+    std::atomic<std::uint32_t> probe_ended{0};
+    Mailbox<TroubleList> troubles;              // drive -> main
+    LineHappenings happenings;                  // drive -> main
+    std::atomic<bool> port_open{false};         // drive -> main
+    io::TransceiverCounts transceiver;          ///< of a line that the program switches, drive -> main
+    trace::Ring samples;                        ///< trace/samples.hpp, drive -> whoever looks
+    Handover<LineChange> change;                // main -> drive
+    std::atomic<std::uint32_t> changes_done{0}; ///< drive -> main: how many of them were carried out
+    std::atomic<bool> ended{false};             ///< drive -> main: the thread has ended
+    /// Its frames, drive -> whoever looks, who may keep it longer than the line is there.
+    const std::shared_ptr<LineTrace> trace;
+};
+
+} // namespace dpslave::app

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "first_start.hpp"
+
+#include <algorithm>
+#include <fstream>
+
+namespace dpslave::app {
+
+std::optional<std::string> first_start_words(const config::Config& config, const std::filesystem::path& state)
+{
+    const auto leaves = [](const config::StationConfig& station) {
+        return station.loss.when == drive::WhenLost::silent;
+    };
+    if (state.empty() || std::none_of(config.stations.begin(), config.stations.end(), leaves))
+        return std::nullopt;
+    const std::filesystem::path said = state / "said-when-drive-lost";
+    std::error_code ignored;
+    if (std::filesystem::exists(said, ignored)) return std::nullopt;
+    std::ofstream{said} << "The default of when_drive_lost was named in the log.\n";
+    return "A drive that is switched off takes its station off the bus, as the old board did: when_drive_lost is \"silent\" by default. A CPU without OB86 then stops. when_drive_lost = \"hold\" under [[station]] keeps the last values as before; docs/guide/master.md says how to choose.";
+}
+
+} // namespace dpslave::app

@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plant.hpp"
+
+#include "app/line/line_backend.hpp"
+#include "app/state/device_news.hpp"
+
+#include "dpslave/io/realtime.hpp"
+#include "dpslave/io/tty.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+namespace dpslave::app {
+
+namespace {
+
+DriveUnit unit_of(const Station& station)
+{
+    return {.number = station.number, .config = station.config, .link = station.link};
+}
+
+std::vector<DriveUnit> units_on(const DriveLine& line, const std::vector<Station>& stations)
+{
+    std::vector<DriveUnit> units;
+    for (const Station& station : stations)
+        if (station.drive_line.get() == &line) units.push_back(unit_of(station));
+    return units;
+}
+
+bool are_same(const std::vector<DriveUnit>& a, const std::vector<DriveUnit>& b)
+{
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const DriveUnit& one, const DriveUnit& other) {
+                          return one.number == other.number && one.config == other.config;
+                      });
+}
+
+std::string not_opened(const config::Config& config, const config::LineConfig& line, const std::string& why)
+{
+    return fmt::format("{}[[line]] \"{}\": {}; its drives count as silent until it can be opened",
+                       place(config, line.port_line), line.name, why);
+}
+
+/// The one place where the port of a line is opened for the first time. Not opened: `missing` has a sentence
+/// more.
+FirstPort first_port(const config::Config& config, const config::LineConfig& line, LineLink& link,
+                     std::vector<std::string>& missing)
+{
+    auto backend = LineBackend::open(line, listeners_of(link));
+    if (backend) return {.backend = std::move(*backend), .is_missing = false};
+    missing.push_back(not_opened(config, line, backend.error()));
+    return {.backend = nullptr, .is_missing = true};
+}
+
+} // namespace
+
+std::string place(const config::Config& config, unsigned line)
+{
+    return fmt::format("{}:{}: ", config.file.string(), line);
+}
+
+void guarded(std::atomic<bool>& failed, const char* name, const std::function<void()>& work)
+{
+    try {
+        io::name_thread(name);
+        work();
+    } catch (const std::exception& error) {
+        spdlog::critical("the {} thread ended because of an error: {}", name, error.what());
+        failed.store(true, std::memory_order_relaxed);
+    }
+}
+
+void Plant::end()
+{
+    for (auto* const lines : {&lines_, &leaving_lines_})
+        for (const auto& line : *lines) line->request_stop();
+    for (auto* const lines : {&lines_, &leaving_lines_})
+        for (const auto& line : *lines)
+            if (line->thread.joinable()) line->thread.join();
+}
+
+Station Plant::new_station(const config::StationConfig& config, const std::shared_ptr<DriveLine>& line)
+{
+    Station station;
+    station.number = ++last_number_;
+    station.config = std::make_shared<const config::StationConfig>(config);
+    station.link = std::make_shared<StationLink>();
+    const bool waits = config.loss.when == drive::WhenLost::silent; // for the first answer of its drive
+    station.link->departures.store(waits ? 1 : 0, std::memory_order_relaxed);
+    station.bus_station = std::make_shared<BusStation>(*station.config, station.link);
+    station.drive_line = line;
+    station.line = &line->config;
+    station.device = std::make_shared<EmulatedDevice>(*station.config, self_test_passed_);
+    station.news = std::make_shared<DeviceNews>();
+    station.address = station.device->address();
+    // Before the bus has the station: one that is to be silent never answers.
+    station.ordered = station.device->bus_orders();
+    station.link->bus_orders.publish(station.ordered);
+    station.link->zero_after_ms.store(station.device->zero_after_ms(), std::memory_order_relaxed);
+    return station;
+}
+
+void Plant::open(const config::Config& config)
+{
+    std::vector<FirstPort> ports;
+    for (const config::LineConfig& line : config.lines) {
+        lines_.push_back(std::make_shared<DriveLine>(line, config.trace));
+        LineLink& link = lines_.back()->link;
+        std::vector<std::string> missing;
+        ports.push_back(first_port(config, line, link, missing));
+        for (const std::string& why : missing) link.happenings.tell(Severity::error, 0, why);
+    }
+    for (const config::StationConfig& station : config.stations)
+        stations_.push_back(new_station(station, lines_[station.line]));
+    for (std::size_t i = 0; i < lines_.size(); ++i)
+        lines_[i]->work = std::make_unique<DriveThread>(lines_[i]->config, std::move(ports[i]),
+                                                        units_on(*lines_[i], stations_), lines_[i]->link);
+}
+
+void Plant::start()
+{
+    for (const auto& line : lines_) start(*line);
+}
+
+void Plant::start(DriveLine& line)
+{
+    line.thread = std::jthread([this, &line](const std::stop_token& stop) {
+        guarded(failed_, "drive", [&] {
+            io::unlock_deep_stack(); // it waits for drives anyway, and there may be many lines
+            line.work->run(stop, line.wake);
+        });
+    });
+}
+
+std::unique_ptr<BusStations> Plant::bus_stations() const
+{
+    auto all = std::make_unique<BusStations>();
+    for (const Station& station : stations_) all->push_back(station.bus_station);
+    return all;
+}
+
+// ---- the exchange
+
+struct Plant::Next {
+    DriveLines lines;
+    std::vector<FirstPort> ports; ///< in the order of `lines`
+    std::vector<Station> stations;
+    std::vector<Change> changes;
+};
+
+/// A port that a present line has cannot be opened as a trial: that line closes it first.
+bool Plant::has_port(const std::string& port) const
+{
+    const std::string wanted = config::canonical(port);
+    return std::any_of(lines_.begin(), lines_.end(), [&wanted](const auto& line) {
+        return config::canonical(line->config.port) == wanted;
+    });
+}
+
+/// Likewise the GPIO line of its transceiver.
+bool Plant::has_gpio_line(const config::LineConfig& wanted) const
+{
+    const io::DriverEnableSettings& driver = wanted.driver_enable;
+    return driver.direction == io::Direction::gpio &&
+           std::any_of(lines_.begin(), lines_.end(), [&driver](const auto& line) {
+               const io::DriverEnableSettings& present = line->config.driver_enable;
+               return present.direction == io::Direction::gpio && present.gpio_line == driver.gpio_line &&
+                      config::canonical(present.gpio_chip) == config::canonical(driver.gpio_chip);
+           });
+}
+
+bool Plant::opens_for_a_trial(const Plan& plan, std::size_t line) const
+{
+    const Plan::Line& planned = plan.lines[line];
+    const config::LineConfig& wanted = plan.config.lines[line];
+    return (!planned.before || planned.is_opened_anew) && !has_port(wanted.port) && !has_gpio_line(wanted);
+}
+
+std::vector<std::string> Plant::missing_ports(const Plan& plan) const
+{
+    std::vector<std::string> missing;
+    for (std::size_t i = 0; i < plan.lines.size(); ++i) {
+        const config::LineConfig& line = plan.config.lines[i];
+        if (!opens_for_a_trial(plan, i)) continue;
+        if (const auto trouble = io::port_trouble(line.port))
+            missing.push_back(not_opened(plan.config, line, *trouble));
+    }
+    return missing;
+}
+
+std::vector<std::string> Plant::make_lines(const Plan& plan, Next& next) const
+{
+    std::vector<std::string> missing;
+    for (std::size_t i = 0; i < plan.lines.size(); ++i) {
+        const config::LineConfig& config = plan.config.lines[i];
+        const Plan::Line& planned = plan.lines[i];
+        next.lines.push_back(planned.before ? lines_[*planned.before]
+                                            : std::make_shared<DriveLine>(config, plan.config.trace));
+        next.ports.push_back(opens_for_a_trial(plan, i)
+                                 ? first_port(plan.config, config, next.lines[i]->link, missing)
+                                 : FirstPort{});
+    }
+    return missing;
+}
+
+void Plant::make_stations(const Plan& plan, Next& next)
+{
+    for (std::size_t i = 0; i < plan.stations.size(); ++i) {
+        const config::StationConfig& config = plan.config.stations[i];
+        const auto [stays, is_changed] = plan.stations[i];
+        if (!stays) {
+            next.stations.push_back(new_station(config, next.lines[config.line]));
+            continue;
+        }
+        next.stations.push_back(stations_[*stays]);
+        if (is_changed) next.stations.back().config = std::make_shared<const config::StationConfig>(config);
+    }
+}
+
+/// What a line that goes on has to do with its port. Two names may be those of one port.
+void Plant::plan_port(const Plan& plan, std::size_t index, LineChange& change) const
+{
+    const Plan::Line& planned = plan.lines[index];
+    if (!planned.is_changed) return;
+    change.line = plan.config.lines[index];
+    change.opens_port = planned.is_opened_anew;
+    const std::string old_port = config::canonical(lines_[*planned.before]->config.port);
+    change.is_other_port = config::canonical(change.line->port) != old_port;
+    change.leaves_drives =
+        change.is_other_port && std::none_of(plan.config.lines.begin(), plan.config.lines.end(),
+                                             [&old_port](const config::LineConfig& line) {
+                                                 return config::canonical(line.port) == old_port;
+                                             });
+}
+
+/// What is new for each line that goes on; lines that are new get their threads.
+void Plant::make_changes(const Plan& plan, Next& next) const
+{
+    for (std::size_t i = 0; i < next.lines.size(); ++i) {
+        DriveLine& line = *next.lines[i];
+        auto units = units_on(line, next.stations);
+        if (!plan.lines[i].before) {
+            line.work =
+                std::make_unique<DriveThread>(line.config, std::move(next.ports[i]), units, line.link);
+        } else if (plan.lines[i].is_changed || !are_same(units, units_on(line, stations_))) {
+            auto change = std::make_unique<LineChange>();
+            change->units = std::move(units);
+            plan_port(plan, i, *change);
+            change->port = std::move(next.ports[i]);
+            next.changes.push_back({next.lines[i], std::move(change)});
+        }
+    }
+}
+
+std::vector<std::string> Plant::exchange(const Plan& plan)
+{
+    Next next;
+    std::vector<std::string> missing = make_lines(plan, next);
+    make_stations(plan, next);
+    make_changes(plan, next);
+    for (std::size_t i = 0; i < next.lines.size(); ++i)
+        if (!plan.lines[i].before) start(*next.lines[i]);
+
+    commit(plan, std::move(next));
+    return missing;
+}
+
+/// Nothing can fail any more.
+void Plant::commit(const Plan& plan, Next next)
+{
+    for (const auto& line : lines_)
+        if (std::find(next.lines.begin(), next.lines.end(), line) == next.lines.end())
+            leaving_lines_.push_back(line);
+    for (std::size_t i = 0; i < next.lines.size(); ++i) next.lines[i]->config = plan.config.lines[i];
+    std::vector<bool> stays(stations_.size());
+    for (std::size_t i = 0; i < next.stations.size(); ++i) {
+        const auto before = plan.stations[i].stays;
+        if (!before) continue;
+        stays[*before] = true;
+        if (plan.stations[i].is_changed) next.stations[i].device->adopt(*next.stations[i].config);
+    }
+    for (std::size_t i = 0; i < stations_.size(); ++i)
+        if (!stays[i]) leaving_stations_.push_back(std::move(stations_[i]));
+    lines_ = std::move(next.lines);
+    stations_ = std::move(next.stations);
+    changes_ = std::move(next.changes);
+}
+
+void Plant::finish()
+{
+    for (Change& one : changes_) {
+        ++one.line->changes_offered;
+        one.line->link.change.offer(one.change);
+        one.line->wake.ring();
+    }
+    changes_.clear();
+    for (const auto& line : leaving_lines_) line->request_stop();
+}
+
+bool Plant::is_settled()
+{
+    const bool have_ended = std::all_of(leaving_lines_.begin(), leaving_lines_.end(), [](const auto& line) {
+        return line->link.ended.load(std::memory_order_acquire);
+    });
+    const bool done = std::all_of(lines_.begin(), lines_.end(), [](const auto& line) {
+        return line->link.changes_done.load(std::memory_order_acquire) == line->changes_offered;
+    });
+    return done && have_ended && changes_.empty();
+}
+
+std::vector<Station> Plant::take_leaving()
+{
+    leaving_lines_.clear();
+    return std::exchange(leaving_stations_, {});
+}
+
+} // namespace dpslave::app

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The stations and the drive lines that a configuration asks for: their links, ports and threads, and how
+/// they are exchanged for those of another configuration while the others go on. The main thread's own.
+#pragma once
+
+#include "app/bus/bus_station.hpp"
+#include "app/line/drive_line.hpp"
+#include "app/state/station.hpp"
+#include "reload_plan.hpp"
+
+#include "dpslave/config/config.hpp"
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dpslave::app {
+
+class Plant {
+public:
+    /// `failed` is set when a thread had to end early; it outlives this object. After a failed self-test
+    /// every station stays silent.
+    Plant(std::atomic<bool>& failed, bool self_test_passed)
+        : failed_(failed), self_test_passed_(self_test_passed)
+    {}
+
+    /// Opens the lines and makes the stations, before there are any. A port that cannot be opened now is a
+    /// happening of its line, with its place in the file. Its drives count as silent until the port appears.
+    void open(const config::Config& config);
+    /// Starts the threads of the lines.
+    void start();
+    /// Ends them: the outputs go to their safe state, on all lines at the same time. The bus has ended
+    /// before.
+    void end();
+
+    /// In the order of the configuration. The main thread keeps in them what it knows.
+    std::vector<Station>& stations() { return stations_; }
+    const std::vector<Station>& stations() const { return stations_; }
+    /// Stations and lines that bus and drives are not yet done with. They are kept until take_leaving(),
+    /// which is due when is_settled().
+    const std::vector<Station>& leaving() const { return leaving_stations_; }
+    const DriveLines& leaving_lines() const { return leaving_lines_; }
+    std::vector<Station> take_leaving();
+    const DriveLines& lines() const { return lines_; }
+    /// For the bus: those that are there now.
+    std::unique_ptr<BusStations> bus_stations() const;
+
+    /// Makes what `plan` asks for and takes over what stays: stations() and lines() are the new ones, and
+    /// finish() is due when the bus has removed the stations that left. The result is as that of open(), of
+    /// the ports that none of the present lines has. Precondition: is_settled().
+    std::vector<std::string> exchange(const Plan& plan);
+    /// What exchange() would say of `plan`, as far as the file system shows. Opens nothing.
+    std::vector<std::string> missing_ports(const Plan& plan) const;
+    /// The bus has removed the stations that left: the lines write the safe state of drives that left, then
+    /// they ask the new drives. Does not wait.
+    void finish();
+    /// True: every line has carried out its change, and the threads of lines that left have ended.
+    bool is_settled();
+
+private:
+    struct Change {
+        std::shared_ptr<DriveLine> line;
+        std::unique_ptr<LineChange> change;
+    };
+    struct Next;
+
+    Station new_station(const config::StationConfig& config, const std::shared_ptr<DriveLine>& line);
+    bool has_port(const std::string& port) const;
+    bool has_gpio_line(const config::LineConfig& wanted) const;
+    bool opens_for_a_trial(const Plan& plan, std::size_t line) const;
+    std::vector<std::string> make_lines(const Plan& plan, Next& next) const;
+    void make_stations(const Plan& plan, Next& next);
+    void plan_port(const Plan& plan, std::size_t index, LineChange& change) const;
+    void make_changes(const Plan& plan, Next& next) const;
+    void commit(const Plan& plan, Next next);
+    void start(DriveLine& line);
+
+    std::atomic<bool>& failed_;
+    bool self_test_passed_;
+    DriveLines lines_;
+    std::vector<Station> stations_;
+    std::vector<Station> leaving_stations_;
+    DriveLines leaving_lines_;
+    std::vector<Change> changes_; ///< to be offered by finish()
+    std::uint32_t last_number_ = 0;
+};
+
+/// "FILE:LINE: ", where the key stands that named a device.
+std::string place(const config::Config& config, unsigned line);
+
+/// Runs `work` under the thread name `name`. An exception is logged and sets `failed`: the program then ends
+/// in order.
+void guarded(std::atomic<bool>& failed, const char* name, const std::function<void()>& work);
+
+} // namespace dpslave::app

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dpslave/io/switched_port.hpp"
+
+#include "tty_settings.hpp"
+
+#include "dpslave/io/clock.hpp"
+#include "dpslave/io/realtime.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace dpslave::io {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::int64_t kLongestRequest = 255; ///< octets
+/// A wait shorter than this is spun: to sleep takes longer.
+constexpr auto kSpin = 25us;
+/// No instrument answers sooner, at any rate: above 19200 bit/s a frame of Modbus begins 1.75 ms after the
+/// one before (MODBUS over Serial Line V1.02, 2.5.1.1).
+constexpr auto kSoonestAnswer = 500us;
+/// A UART that was never empty within the guard time for so many requests is not asked any more.
+constexpr std::uint64_t kTrusted = 3;
+
+void count(TransceiverCounts* counts, std::atomic<std::uint64_t> TransceiverCounts::*which)
+{
+    if (counts != nullptr) (counts->*which).fetch_add(1, std::memory_order_relaxed);
+}
+
+Transmission::Times times_of(const TtySettings& settings)
+{
+    const auto character = character_time(settings);
+    return {.character = character, .guard = 2 * kLongestRequest * character};
+}
+
+} // namespace
+
+SwitchedPort::SwitchedPort(Port port, DriverEnable driver, const TransceiverSettings& settings)
+    : port_(std::move(port)),
+      driver_(std::move(driver)),
+      settings_(settings),
+      times_(times_of(port_.settings()))
+{}
+
+Result<SwitchedPort, std::string> SwitchedPort::open(std::string path, const TtySettings& settings,
+                                                     const TransceiverSettings& transceiver,
+                                                     std::chrono::nanoseconds first_wait)
+{
+    auto driver = DriverEnable::open(transceiver.driver);
+    if (!driver) return Failure{driver.error()};
+    TtySettings wanted = settings;
+    wanted.drop_rts_at_close =
+        transceiver.driver.direction != Direction::rts || !transceiver.driver.active_low;
+    auto port = Port::open(std::move(path), wanted, first_wait);
+    if (!port) return Failure{port.error()};
+    SwitchedPort made{*std::move(port), *std::move(driver), transceiver};
+    if (auto trouble = made.join()) return Failure{*std::move(trouble)};
+    return made;
+}
+
+std::optional<std::string> SwitchedPort::join()
+{
+    if (auto trouble = driver_.attach(port_.tty())) return trouble;
+    auto trouble = driver_.self_check();
+    if (trouble) driver_.detach();
+    return trouble;
+}
+
+std::chrono::nanoseconds SwitchedPort::late_after() const
+{
+    return std::max<std::chrono::nanoseconds>(times_.character, kSoonestAnswer);
+}
+
+bool SwitchedPort::ready(Instant now)
+{
+    if (port_.is_open()) return true;
+    if (!port_.ready(now)) return false;
+    std::optional<std::string> trouble = driver_.attach(port_.tty());
+    if (!trouble && !driver_.ready(now)) trouble = "the driver enable does not work yet";
+    if (!trouble) return true;
+    driver_.detach();
+    port_.refuse(now, port_.path() + ": " + *trouble);
+    return false;
+}
+
+void SwitchedPort::lose(Instant now)
+{
+    transmission_.stop();
+    if (port_.is_open()) driver_.detach();
+    port_.lose(now);
+}
+
+std::error_code SwitchedPort::write(Bytes octets)
+{
+    if (!driver_.by_hand()) return port_.tty().write(octets);
+    const RaisedPriority raised{settings_.priority};
+    if (const auto error = driver_.set(true, monotonic_now())) {
+        count(settings_.counts, &TransceiverCounts::errors);
+        if (error != std::errc::resource_unavailable_try_again) refuse(error);
+        return error;
+    }
+    count(settings_.counts, &TransceiverCounts::requests);
+    const std::error_code error = port_.tty().write(octets);
+    if (error)
+        static_cast<void>(port_.tty().discard_unsent()); // it must not leave with the next request
+    else
+        wait_until_gone(octets.size());
+    release(!error);
+    return error;
+}
+
+/// Sleeps until the last stop bit should have gone, and then until the UART agrees or the guard time is over.
+void SwitchedPort::wait_until_gone(std::size_t octets)
+{
+    const std::uint64_t guarded = transmission_.guarded();
+    transmission_.begin(static_cast<std::int64_t>(octets) * times_.character, monotonic_now(), times_);
+    std::optional<bool> empty;
+    do {
+        sleep_until(transmission_.ends_at() - kSpin);
+        while (monotonic_now() < transmission_.ends_at()) {
+        }
+        empty = transmission_.guarded() < kTrusted ? port_.tty().transmitter_empty() : std::nullopt;
+    } while (!transmission_.is_over(monotonic_now(), empty));
+    if (transmission_.guarded() != guarded) count(settings_.counts, &TransceiverCounts::guarded);
+}
+
+void SwitchedPort::release(bool is_sent)
+{
+    transmission_.stop();
+    const std::error_code error = driver_.set(false, monotonic_now());
+    if (is_sent && monotonic_now() - transmission_.busy_until() > late_after())
+        count(settings_.counts, &TransceiverCounts::late);
+    if (!error) return;
+    count(settings_.counts, &TransceiverCounts::errors);
+    refuse(error);
+}
+
+/// Nothing is sent through a port whose driver enable does not work.
+void SwitchedPort::refuse(const std::error_code& why)
+{
+    driver_.detach();
+    port_.refuse(monotonic_now(), port_.path() + ": the driver enable cannot be switched (" + why.message() +
+                                      "): look at gpio_chip, gpio_line and `direction`");
+}
+
+} // namespace dpslave::io

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Stations come and go while the bus is served, and the others notice nothing.
+#include "app/bus_bench.hpp"
+
+namespace dpslave::test {
+namespace {
+
+class StationsOfTheBus : public OnABus {
+protected:
+    /// Offers a new set and waits until it is in use; gives the old one back.
+    std::unique_ptr<app::BusStations> change_to(app::BusStations stations)
+    {
+        auto next = std::make_unique<app::BusStations>(std::move(stations));
+        EXPECT_TRUE(link.stations.offer(next));
+        std::unique_ptr<app::BusStations> old;
+        EXPECT_TRUE(eventually([&] { return (old = link.stations.collect()) != nullptr; }));
+        return old;
+    }
+    bool answers(std::uint8_t address, int tries = 20)
+    {
+        return master.ask(fdl_status(address), tries).has_value();
+    }
+};
+
+TEST_F(StationsOfTheBus, MayBeEmptyAtFirst)
+{
+    start({}, {});
+    EXPECT_FALSE(answers(5, 1));
+
+    change_to({station(5)});
+    EXPECT_TRUE(eventually([this] { return answers(5, 1); }));
+}
+
+TEST_F(StationsOfTheBus, TakesAStationOnAndTheOneThatWasThereGoesOn)
+{
+    const auto five = station(5);
+    start({}, {five});
+    start_up(5);
+    drive_reads(5, 1234);
+    ASSERT_EQ(exchange(5), 1234);
+    change_to({five, station(6)});
+
+    EXPECT_EQ(exchange(5), 1234); // without a new start-up
+    EXPECT_TRUE(eventually([this] { return answers(6, 1); }));
+    EXPECT_EQ(links[5]->ended.load(), 0u); // its layout has not ended
+}
+
+TEST_F(StationsOfTheBus, ThatChangesAllTheTimeCostsTheOthersNotOneReply)
+{
+    const auto five = station(5);
+    start({.direction = io::Direction::none}, {five, station(6)}); // the number of replies is not known
+    start_up(5);
+    std::uint16_t value = 0;
+    for (std::uint8_t other = 7; other < 27; ++other) {
+        auto next = std::make_unique<app::BusStations>(app::BusStations{five, station(other)});
+        ASSERT_TRUE(link.stations.offer(next));
+        while (!link.stations.taken()) {
+            drive_reads(5, ++value);
+            ASSERT_EQ(exchange(5), value);
+        }
+        ASSERT_TRUE(eventually([this] { return link.stations.collect() != nullptr; }));
+    }
+    EXPECT_TRUE(eventually([this] { return answers(26, 1); }));
+    EXPECT_FALSE(answers(25, 1));
+    EXPECT_EQ(allocations(), 0u); // all of it is built and thrown away elsewhere
+}
+
+TEST_F(StationsOfTheBus, TakesAStationOffWithAllThatLeavingMeans)
+{
+    const auto five = station(5), six = station(6);
+    start({}, {five, six});
+    start_up(6);
+    ASSERT_TRUE(exchange(6));
+    const auto generation = links[6]->outputs.latest().layout.generation;
+    const auto old = change_to({five});
+
+    EXPECT_FALSE(answers(6, 2));
+    EXPECT_TRUE(answers(5));
+    EXPECT_EQ(links[6]->ended.load(), generation); // its outputs go to the safe state
+    EXPECT_EQ(links[6]->bus_snapshot.latest().state, dp::State::power_on);
+    EXPECT_EQ(old->size(), 2u); // and what is given back is not used any more
+    EXPECT_EQ(six.use_count(), 2);
+}
+
+TEST_F(StationsOfTheBus, GivesAnAddressToAnotherStation)
+{
+    start({}, {station(5)});
+    start_up(5);
+    const auto first = links[5];
+    change_to({station(5)});
+
+    EXPECT_TRUE(eventually([this] { return answers(5, 1); }));
+    EXPECT_EQ(exchange(5), std::nullopt); // a new one: it waits for its parameters
+    EXPECT_NE(first->ended.load(), 0u);
+}
+
+TEST_F(StationsOfTheBus, IsTakenOnlyWhenTheOrdersOfThoseThatLeaveWereTaken)
+{
+    const auto five = station(5);
+    while (links[5]->demand_orders.push({})) { // as if the drive line took none
+    }
+    start({}, {five});
+    start_up(5);
+    ASSERT_TRUE(exchange(5));
+    const Octets read_tag_7{0x10, 0x07, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00}; // Demand Data
+    ASSERT_TRUE(master.ask(::test::sd2(5, 2, master.next_fc(), read_tag_7)));
+    ASSERT_TRUE(eventually([this] { return links[5]->demand_orders.refused() > 1; })); // the ring is full
+    auto next = std::make_unique<app::BusStations>(app::BusStations{station(6)});
+    ASSERT_TRUE(link.stations.offer(next));
+    ASSERT_TRUE(eventually([this] { return answers(5, 1) == false; })); // it is silent at once
+    EXPECT_FALSE(link.stations.taken());
+
+    EXPECT_TRUE(eventually([&] {
+        static_cast<void>(links[5]->demand_orders.pop());
+        return link.stations.taken();
+    }));
+    EXPECT_TRUE(eventually([this] { return answers(6, 1); }));
+}
+
+TEST_F(StationsOfTheBus, ShowsEachStationInItsTurn)
+{
+    app::BusStations all;
+    for (std::uint8_t address = 3; address < 40; ++address) all.push_back(station(address));
+    start({}, all);
+
+    EXPECT_TRUE(eventually([this] {
+        return std::all_of(links.begin(), links.end(), [](const auto& one) {
+            return one.second->bus_snapshot.latest().state == dp::State::wait_prm;
+        });
+    }));
+}
+
+} // namespace
+} // namespace dpslave::test
