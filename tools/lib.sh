@@ -64,6 +64,42 @@ judge_second_tries() {
     [ "$count" -le $most ] || die "more than $most tests needed a second try: look for the race in each"
 }
 
+# A daemon that lost its line opens /dev/pts/N again, which may be the terminal of another program by then. So the script runs again with
+# terminals and processes that nobody else has: own_terminals SCRIPT WORDS. Where the user may not do that, nothing else may run.
+own_terminals() {
+    [ -z "${DPSLAVE_OWN_TERMINALS:-}" ] || return 0
+    export DPSLAVE_OWN_TERMINALS=yes
+    # shellcheck disable=SC2016 # the inner shell expands it
+    local own=(unshare --mount --propagation private --pid --fork --kill-child --mount-proc bash -c
+        'mount -t devpts -o newinstance,mode=600,ptmxmode=0666 devpts /dev/pts && mount --bind /dev/pts/ptmx /dev/ptmx && exec "$@"' _)
+    "${own[@]}" true 2>/dev/null && exec "${own[@]}" "$@"
+    ! pgrep -x 'dpslaved|dpsim' >/dev/null || die "a dpslaved or dpsim runs here: end it, for its terminals can become those of the tests"
+}
+
+report=${TMPDIR:-/tmp}/dpslaved-failed.$$ # what failed, for the end
+steps=()
+failed_steps=0
+# step NAME COMMAND...: runs it, and goes on behind a failure.
+step() {
+    local name=$1 began=$SECONDS status
+    shift
+    set +e
+    (set -e && "$@")
+    status=$?
+    set -e
+    [ $status -eq 0 ] || failed_steps=$((failed_steps + 1))
+    steps+=("$(printf '%-12s %-6s %5d s' "$name" "$([ $status -eq 0 ] && echo ok || echo FAILED)" $((SECONDS - began)))")
+}
+# Prints the steps, and behind them what failed. The exit status says whether all went well.
+table_of_steps() {
+    say "Steps, $SECONDS s together"
+    printf '%s\n' "${steps[@]}"
+    [ ! -e "$report" ] || cat "$report"
+    rm -f "$report"
+    [ "$failed_steps" -eq 0 ] || die "$failed_steps steps failed: see the table"
+    say "All checks passed"
+}
+
 # Configures and builds one preset; further words are targets.
 build() {
     local preset=$1

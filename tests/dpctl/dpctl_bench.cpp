@@ -310,10 +310,12 @@ Dpctl::Dpctl(std::vector<std::string> arguments, As user, bool terminal)
         if (terminal) ::login_tty(out[1]); // standard input and output, and the signals of its keys
         if (!terminal) ::dup2(out[1], STDOUT_FILENO);
         ::dup2(err[1], STDERR_FILENO);
+        // Opened with the rights of the test: the other user may not reach a checkout in a private folder.
+        const int program = ::open(argv[0], O_PATH | O_CLOEXEC);
         if (user == As::unprivileged &&
             (::setgroups(0, nullptr) != 0 || ::setgid(kUnprivileged) != 0 || ::setuid(kUnprivileged) != 0))
             ::_exit(126);
-        ::execve(argv[0], argv.data(), environment.data());
+        ::fexecve(program, argv.data(), environment.data());
         ::_exit(127);
     }
     ::close(out[1]);

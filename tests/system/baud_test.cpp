@@ -16,7 +16,7 @@ using std::chrono::seconds;
 using std::chrono::steady_clock;
 
 /// A loaded machine repeats what came too late; the rate that is heard is the same.
-const Arguments kPatientMaster{"--tags", "55,56w", "--retries", "15", "--slot", "100ms"};
+const Arguments kPatientMaster{"--tags", "55,56w"};
 
 /// A gateway on a line of `line_baud`, its configuration with another rate: "auto", or a number.
 class GatewayAt : public Gateway {
@@ -108,7 +108,7 @@ TEST(SearchedRateOfTheMaster, ThatChangesIsFoundAgain)
 
     gateway.bus().send_line("baud 93750");
     Process other{{DPSIM_PROGRAM, "master", "--port", gateway.bus_end(), "--baud", "93750", "--slave", "5",
-                   "--watchdog", "5s", "--tags", "55,56w", "--retries", "15", "--slot", "100ms"}};
+                   "--watchdog", "5s", "--tags", "55,56w"}};
     other.send_line("start 50s");
     other.send_line("out 1 = 600");
     EXPECT_TRUE(gateway.drive().says("tag 56 written 6.00", 2 * kLimit));

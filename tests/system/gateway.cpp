@@ -338,11 +338,16 @@ Arguments master_command(const Gateway& gateway, const Arguments& settings, unsi
                       "--port",      gateway.bus_end(),
                       "--baud",      std::to_string(gateway.bus_baud()),
                       "--slave",     std::to_string(slave)};
-    const auto says_watchdog = [](const std::string& word) {
-        return word.find("watchdog") != std::string::npos;
-    };
-    if (std::none_of(settings.begin(), settings.end(), says_watchdog))
-        command.insert(command.end(), {"--watchdog", "5s"});
+    // A machine that stops the daemon for a moment is no fault: without these the station is lost in 40 ms.
+    constexpr std::array<std::array<const char*, 2>, 3> kPatience{
+        {{"--watchdog", "5s"}, {"--slot", "100ms"}, {"--retries", "15"}}};
+    for (const auto& [option, value] : kPatience) {
+        const auto says_it = [&](const std::string& word) {
+            return word.find(option + 2) != std::string::npos;
+        };
+        if (std::none_of(settings.begin(), settings.end(), says_it))
+            command.insert(command.end(), {option, value});
+    }
     command.insert(command.end(), settings.begin(), settings.end());
     return command;
 }

@@ -114,7 +114,7 @@ TEST(GoneDriveOnASearchedRate, WhileAllStationsAreSilentANewRateOfTheMasterIsFou
     gateway.start_daemon();
     const auto bus = [&](const char* field) { return gateway.json({"status"}).at("bus").at(field); };
     {
-        Master master{gateway, {"--tags", "55,56w", "--retries", "15", "--slot", "100ms"}};
+        Master master{gateway, {"--tags", "55,56w"}};
         ASSERT_TRUE(master.does("start 50s"));
         ASSERT_EQ(bus("baud_state"), "DP_Control");
         gateway.drive().send_line("silence");
@@ -124,7 +124,7 @@ TEST(GoneDriveOnASearchedRate, WhileAllStationsAreSilentANewRateOfTheMasterIsFou
     }
     gateway.bus().send_line("baud 500000");
     Process other{{DPSIM_PROGRAM, "master", "--port", gateway.bus_end(), "--baud", "500000", "--slave", "5",
-                   "--watchdog", "5s", "--tags", "55,56w", "--retries", "15", "--slot", "100ms"}};
+                   "--watchdog", "5s", "--tags", "55,56w"}};
     other.send_line("start 50s");
     other.send_line("out 1 = 600");
     EXPECT_TRUE(eventually([&] { return bus("baud") == 500'000 && bus("baud_state") == "Baud_Control"; }))

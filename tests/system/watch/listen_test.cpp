@@ -129,7 +129,7 @@ protected:
 
 TEST_F(Listen, ShowsTheSegmentAtTheRateThatItFindsAndSendsNotOneOctet)
 {
-    Master master{gateway, {"--tags", "55,56w", "--retries", "15", "--slot", "100ms"}};
+    Master master{gateway, {"--tags", "55,56w"}};
     ASSERT_TRUE(master.does("start 50s"));
     ASSERT_TRUE(eventually(
         [&] { return ask({"status"}).out.find("187.5 kbit/s (Baud_Control)") != std::string::npos; }));
