@@ -6,6 +6,9 @@ set -euo pipefail
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$project"
 
+# What was compiled once, in whichever clone, is not compiled again (ccache).
+export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=$project CCACHE_NOHASHDIR=1
+
 say() { printf '\n\033[1m==> %s\033[0m\n' "$*"; }
 die() {
     printf '%s: %s\n' "$(basename "$0")" "$*" >&2
@@ -14,7 +17,7 @@ die() {
 
 # What a bare Debian needs to build the programs.
 build_packages=(
-    g++ cmake ninja-build pkg-config
+    ccache g++ cmake ninja-build pkg-config
     libspdlog-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libsystemd-dev libmodbus-dev
     libgpiod-dev scdoc
 )
@@ -47,23 +50,6 @@ install_missing() {
         die "apt-get could not install ${missing[*]}"
 }
 
-# The tests that needed their second try, by name: from what a ctest with --repeat until-pass printed (stdin). The
-# first try stands there as "3/9 Test #5: NAME", a further one as "Test #5: NAME".
-second_tries() {
-    sed -nE 's/^ +Test +#[0-9]+: ([^ ]+) \.+ +Passed +.*$/\1/p'
-}
-
-# Says which tests needed their second try (in the file $1, one a line); fails with more than two of them, for a race
-# that is tried away is still one.
-judge_second_tries() {
-    local most=2 count
-    count=$(wc -l <"$1")
-    [ "$count" -eq 0 ] && return 0
-    say "Needed a second try: $count"
-    sed 's/^/    /' "$1"
-    [ "$count" -le $most ] || die "more than $most tests needed a second try: look for the race in each"
-}
-
 # A daemon that lost its line opens /dev/pts/N again, which may be the terminal of another program by then. So the script runs again with
 # terminals and processes that nobody else has: own_terminals SCRIPT WORDS. Where the user may not do that, nothing else may run.
 own_terminals() {
@@ -76,37 +62,71 @@ own_terminals() {
     ! pgrep -x 'dpslaved|dpsim' >/dev/null || die "a dpslaved or dpsim runs here: end it, for its terminals can become those of the tests"
 }
 
-report=${TMPDIR:-/tmp}/dpslaved-failed.$$ # what failed, for the end
-steps=()
-failed_steps=0
-# step NAME COMMAND...: runs it, and goes on behind a failure.
-step() {
-    local name=$1 began=$SECONDS status
-    shift
-    set +e
-    (set -e && "$@")
-    status=$?
-    set -e
-    [ $status -eq 0 ] || failed_steps=$((failed_steps + 1))
-    steps+=("$(printf '%-12s %-6s %5d s' "$name" "$([ $status -eq 0 ] && echo ok || echo FAILED)" $((SECONDS - began)))")
+# The steps of a run stand in the file $DPSLAVE_STEPS, which all scripts of the run share: name, verdict, seconds. Behind it stand what
+# failed (.failed) and what the compiler cache had (.ccache).
+steps() {
+    if [ -z "${DPSLAVE_STEPS:-}" ]; then
+        DPSLAVE_STEPS=$(mktemp)
+        trap 'rm -f "$DPSLAVE_STEPS" "$DPSLAVE_STEPS".*' EXIT
+    fi
+    export DPSLAVE_STEPS CCACHE_STATSLOG=$DPSLAVE_STEPS.ccache
 }
-# Prints the steps, and behind them what failed. The exit status says whether all went well.
+# The seconds of the step NAME so far; 0 without one.
+seconds_of() { awk -v name="$1" '$1 == name { sum += $3 } END { print sum + 0 }' "$DPSLAVE_STEPS"; }
+note_step() { printf '%s %s %s\n' "$1" "$2" "$3" >>"$DPSLAVE_STEPS"; }
+
+# step NAME SECONDS COMMAND...: runs it, and goes on behind a failure. SECONDS is what it takes on a machine that builds the programs in
+# 295 s. What takes three times as long hangs: it is ended and has failed. A machine that built them more slowly has so much more time.
+step() {
+    local name=$1 limit=$(($2 * 3)) began=$SECONDS status=0 programs running watching
+    shift 2
+    programs=$(seconds_of programs)
+    [ "$programs" -le 295 ] || limit=$((limit * programs / 295))
+    [ "$limit" -ge 60 ] || limit=60
+    set -m # a process group of its own, which can be ended
+    (set -e && "$@") </dev/null &
+    running=$!
+    (sleep "$limit" && echo "--- $name was ended: it had taken $limit s" | tee -a "$DPSLAVE_STEPS.failed" &&
+        kill -TERM -- "-$running" && sleep 10 && kill -KILL -- "-$running") 2>/dev/null &
+    watching=$!
+    set +m
+    trap 'kill -TERM -- "-$running" "-$watching" 2>/dev/null; exit 130' INT TERM
+    wait "$running" || status=$?
+    trap - INT TERM
+    kill -TERM -- "-$watching" 2>/dev/null || true
+    wait "$watching" 2>/dev/null || true
+    note_step "$name" "$([ $status -eq 0 ] && echo ok || echo FAILED)" $((SECONDS - began))
+}
+
+# Prints the steps, what they took beside the build of the programs, and what failed. The exit status says whether all went well.
 table_of_steps() {
-    say "Steps, $SECONDS s together"
-    printf '%s\n' "${steps[@]}"
-    [ ! -e "$report" ] || cat "$report"
-    rm -f "$report"
-    [ "$failed_steps" -eq 0 ] || die "$failed_steps steps failed: see the table"
+    local all programs failed hits misses cold
+    say "Steps"
+    awk '{ printf "%-12s %-6s %5d s\n", $1, $2, $3 }' "$DPSLAVE_STEPS"
+    all=$(awk '$1 != "packages" { sum += $3 } END { print sum + 0 }' "$DPSLAVE_STEPS")
+    programs=$(seconds_of programs)
+    failed=$(awk '$2 == "FAILED"' "$DPSLAVE_STEPS" | wc -l)
+    hits=$(grep -cE '^(direct|preprocessed)_cache_hit$' "$CCACHE_STATSLOG" 2>/dev/null || true)
+    misses=$(grep -c '^cache_miss$' "$CCACHE_STATSLOG" 2>/dev/null || true)
+    # How long it took from nothing is kept in the compiler cache: it belongs to this machine, and to what it has compiled.
+    cold=$(ccache --get-config cache_dir)/dpslaved-seconds
+    printf '%s s without the packages; the compiler cache had %s of %s units\n' "$all" "${hits:-0}" $((${hits:-0} + ${misses:-0}))
+    if [ "${hits:-0}" -eq 0 ]; then
+        printf 'From nothing: %s times the build of the programs, %s s (limit: 4)\n' "$(ratio "$all" "$programs")" "$programs"
+        [ "$failed" -ne 0 ] || echo "$all" >"$cold"
+    elif [ -e "$cold" ]; then
+        printf 'With a compiler cache: %s of the %s s from nothing (limit where it has all of them: 0.5)\n' "$(ratio "$all" "$(cat "$cold")")" "$(cat "$cold")"
+    fi
+    cat "$DPSLAVE_STEPS.failed" 2>/dev/null || true
+    [ "$failed" -eq 0 ] || die "$failed steps failed: see the table"
     say "All checks passed"
 }
+ratio() { awk -v a="$1" -v b="$2" 'BEGIN { if (b > 0) printf "%.2f", a / b; else print "?" }'; }
 
 # Configures and builds one preset; further words are targets.
 build() {
     local preset=$1
     shift
-    if command -v ccache >/dev/null; then # clones of the project share what was compiled before
-        local -x CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=$project CCACHE_NOHASHDIR=1
-    fi
     say "Building ($preset)"
     cmake --preset "$preset" >/dev/null || cmake --preset "$preset"
     cmake --build --preset "$preset" ${*:+--target "$@"}
@@ -119,4 +139,19 @@ build_page() {
     say "Building the page ($folder)"
     cmake -S . -B "$folder" -G Ninja -DDPSLAVE_CONFIGURATOR=ON -DBUILD_TESTING=OFF >/dev/null
     cmake --build "$folder" --target configurator "$@"
+}
+
+# What tools/check runs. Unit tests that run with the sanitizers, and not a second time without; the others run as they are shipped.
+# The longest first.
+sanitized=(gsd drive dp fdl modbus profile base control input io direction pcapng)
+shipped=(dpctl configurator drive_line app_bus config app trace dpsim model drive_line_without_drives_apart report arguments tec led
+    fdl_no_allocation dp_no_allocation simulated_captures)
+sanitized_programs=("${sanitized[@]/#/build/asan/tests/test_}")
+shipped_programs=("${shipped[@]/#/build/release/tests/test_}" 'build/release/tests/test_conformance=Simulated_*')
+mapfile -t smoke_tests < <(sed -nE 's,^smoke ([a-z_]+) ([^ ]+) .*,build/release/tests/test_\1=\2,p' tests/gate.txt)
+build_sanitized() { build asan "${sanitized[@]/#/test_}"; }
+build_shipped() {
+    local smoke
+    mapfile -t smoke < <(sed -nE 's,^smoke ([a-z_]+) .*,test_\1,p' tests/gate.txt | sort -u)
+    build release "${shipped[@]/#/test_}" test_conformance "${smoke[@]}" dpslave_impure
 }

@@ -25,7 +25,7 @@ using ::test::Octets;
 inline constexpr std::uint8_t kStation = 5; ///< the address of the station on this bus
 
 template <class Condition>
-bool eventually(Condition condition, std::chrono::nanoseconds within = std::chrono::seconds{10})
+bool eventually(Condition condition, std::chrono::nanoseconds within = std::chrono::minutes{1})
 {
     const Instant limit = io::monotonic_now() + within;
     while (!condition()) {
@@ -41,13 +41,14 @@ public:
     explicit Master(io::Pty& pty) : pty_(pty) {}
     bool echoes = false; ///< the transceiver at the other end hears what it sends
 
-    /// Repeats the request unchanged until it is answered, as a master does.
-    std::optional<Octets> ask(const Octets& request, int tries = 20)
+    /// Repeats the request unchanged until it is answered, as a master does: for a minute, unless the test
+    /// says how often.
+    std::optional<Octets> ask(const Octets& request, int tries = 200)
     {
         for (int i = 0; i < tries; ++i) {
             pty_.received(); // what came too late
             pty_.send(request);
-            if (auto reply = read_telegram(std::chrono::milliseconds{100})) return reply;
+            if (auto reply = read_telegram(std::chrono::milliseconds{300})) return reply;
         }
         return std::nullopt;
     }
@@ -120,6 +121,18 @@ protected:
 
     OnABus() : master(pty) { uart::reset(); }
     ~OnABus() override { stop(); }
+
+    /// Sends the request until the bus thread has come to `condition`: one that stood still drops a request
+    /// whose window is over.
+    template <class Condition>
+    bool asked_until(const Octets& request, Condition condition)
+    {
+        return eventually([&] {
+            if (condition()) return true;
+            master.ask(request, 1);
+            return condition();
+        });
+    }
 
     /// A station that promises nothing hasty: the machine may be busy.
     std::shared_ptr<app::BusStation> station(std::uint8_t address)

@@ -17,7 +17,7 @@ namespace dpslave::bench {
 namespace {
 
 constexpr int kTries = 5;
-/// So long a measurement may take with all its tries: tools/bench has ten minutes for everything.
+/// So long a measurement may take with all its tries: tools/run bench has ten minutes for everything.
 constexpr std::chrono::seconds kLongest{90};
 
 struct Measurement {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "responder.hpp"
 
+#include "support/paths.hpp"
+
 #include "dpslave/io/fd.hpp"
 
 #include <fcntl.h>
@@ -217,7 +219,8 @@ Child start_daemon(const DaemonSetup& setup)
         ::dup2(out, STDOUT_FILENO);
         ::dup2(out, STDERR_FILENO);
         for (const char* name : {"NOTIFY_SOCKET", "JOURNAL_STREAM", "WATCHDOG_USEC"}) ::unsetenv(name);
-        if (!setup.gpio_chip.empty()) ::setenv("LD_LIBRARY_PATH", GPIO_STAND_IN_FOLDER, 1);
+        if (!setup.gpio_chip.empty())
+            ::setenv("LD_LIBRARY_PATH", test::built_path("tests/gpio_stand_in").c_str(), 1);
         ::execl(setup.program.c_str(), setup.program.c_str(), "--config", config.c_str(), "--profiles",
                 setup.profiles.c_str(), nullptr);
     });

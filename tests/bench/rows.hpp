@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The rows of the table of tools/bench: what each measured, what it has to keep, and the JSON that all
+/// The rows of the table of tools/run bench: what each measured, what it has to keep, and the JSON that all
 /// programs of the bench write.
 #pragma once
 

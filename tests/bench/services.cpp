@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Answers one kind of request 10 000 times with layer 2 and slave alone, on simulated time, so that valgrind
-/// counts the same instructions in each run. tools/check-instructions calls it and compares the count.
+/// counts the same instructions in each run. tools/run instructions calls it and compares the count.
 #include "dp/bench.hpp"
 
 #include "dpslave/dp/bus_members.hpp"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Joins what the programs of tools/bench have found into one table, and judges it.
+"""Joins what the programs of tools/run bench have found into one table, and judges it.
 
 Each FILE is what one program wrote: {"rows": [{"id", "metric", "blocks", "ratio", "aa", "aa_ratio", "aa_limits", "blocks_needed",
 "limit", "direction"}], "curves": {}}. Exit status: 0 every row is kept, 1 a row is broken or missing, 77 the machine was too noisy.
@@ -64,7 +64,7 @@ def print_table(rows: list[dict]) -> None:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(prog="tools/bench", description=__doc__.split("\n", maxsplit=1)[0])
+    parser = argparse.ArgumentParser(prog="tools/run bench", description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("file", nargs="+", type=pathlib.Path)
     parser.add_argument("--json", type=pathlib.Path, help="one file with all rows and curves")
     parser.add_argument("--names", action="store_true", help="compares the names of the rows only, without those of tools/run refresh")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""That the table of tools/bench is judged as its page says."""
+"""That the table of tools/run bench is judged as its page says."""
 
 import json
 import pathlib

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // dpsim replay gives a capture to the real daemon. The drive frames of the capture are the drive.
 #include "scenario.hpp"
+#include "support/paths.hpp"
 #include "system/gateway.hpp"
 
 #include <gmock/gmock.h>
@@ -60,8 +61,9 @@ public:
 
     void start()
     {
-        daemon_ = std::make_unique<Process>(
-            Arguments{DPSLAVED_PROGRAM, "--config", path("dpslaved.toml"), "--profiles", station_.profiles});
+        daemon_ =
+            std::make_unique<Process>(Arguments{dpslave::test::program_path("dpslaved"), "--config",
+                                                path("dpslaved.toml"), "--profiles", station_.profiles});
         EXPECT_TRUE(daemon_->says("Wait_Prm"));
     }
 
@@ -85,8 +87,15 @@ public:
 private:
     Arguments command(const std::string& file, const Arguments& more) const
     {
-        Arguments all{DPSIM_PROGRAM, "replay", file,     "--port", path("bus-master"),
-                      "--baud",      "187500", "--slot", "300ms"};
+        Arguments all{dpslave::test::program_path("dpsim"),
+                      "replay",
+                      file,
+                      "--port",
+                      path("bus-master"),
+                      "--baud",
+                      "187500",
+                      "--slot",
+                      "300ms"};
         all.insert(all.end(), more.begin(), more.end());
         return all;
     }
@@ -94,10 +103,10 @@ private:
 
     Station station_;
     Folder folder_;
-    Process bus_{
-        {DPSIM_PROGRAM, "line", "--baud", "187500", "--a", path("bus-slave"), "--b", path("bus-master")}};
-    Process drive_line_{{DPSIM_PROGRAM, "line", "--baud", "115200", "--bits", "10", "--a", path("drive-near"),
-                         "--b", path("drive-end")}};
+    Process bus_{{dpslave::test::program_path("dpsim"), "line", "--baud", "187500", "--a", path("bus-slave"),
+                  "--b", path("bus-master")}};
+    Process drive_line_{{dpslave::test::program_path("dpsim"), "line", "--baud", "115200", "--bits", "10",
+                         "--a", path("drive-near"), "--b", path("drive-end")}};
     std::unique_ptr<Process> daemon_;
 };
 
@@ -179,8 +188,8 @@ TEST(ReplayOfDaemon, ACaptureOfDpctlIsOneToo)
     ASSERT_EQ(gateway.dpctl({"trace", "--output", file}).status, 0);
 
     const Outcome outcome =
-        dpslave::test::run({DPSIM_PROGRAM, "replay", file, "--port", gateway.bus_end().string(), "--baud",
-                            std::to_string(gateway.bus_baud())});
+        dpslave::test::run({dpslave::test::program_path("dpsim"), "replay", file, "--port",
+                            gateway.bus_end().string(), "--baud", std::to_string(gateway.bus_baud())});
 
     EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
 }
@@ -227,8 +236,8 @@ TEST(ReplayOfDaemon, AFileThatIsNoCaptureIsAFaultyInput)
     const std::string file = (folder / "none.pcapng").string();
     dpslave::test::write_file(file, "this is text, and not a capture of anything");
 
-    const Outcome outcome =
-        dpslave::test::run({DPSIM_PROGRAM, "replay", file, "--port", "/none", "--baud", "187500"});
+    const Outcome outcome = dpslave::test::run(
+        {dpslave::test::program_path("dpsim"), "replay", file, "--port", "/none", "--baud", "187500"});
 
     EXPECT_EQ(outcome.status, 1);
     EXPECT_THAT(outcome.err, HasSubstr("none.pcapng: it is no capture"));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenario.hpp"
 
+#include "support/paths.hpp"
+
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -11,12 +13,12 @@
 namespace captures {
 namespace {
 
-const std::string kFolder = std::string{DPSLAVE_SOURCE_DIR} + "/tests/captures/";
+const std::string kFolder = dpslave::test::source_path("tests/captures/");
 const std::string kEnding = ".pcapng";
 
 Station station_of(const std::string& name)
 {
-    const std::string shipped = std::string{DPSLAVE_SOURCE_DIR} + "/config/profiles";
+    const std::string shipped = dpslave::test::source_path("config/profiles");
     for (const Station& station :
          {Station{"590", "590", 0x0533, 8, shipped}, Station{"6053", "605", 0x1649, 8, shipped},
           Station{"2400f", "2408f", 0x4242, 8, shipped},

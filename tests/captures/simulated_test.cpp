@@ -45,8 +45,8 @@ protected:
             const auto verdict = judge.judge(i, *reply);
             const bool is_right = GetParam().is_recorded() ? verdict.is_same : *reply == *step.answer;
             ASSERT_TRUE(is_right) << path << ", packet " << step.answer_packet << ": " << verdict.why << "\n"
-                                  << test::show(*step.answer) << "\n"
-                                  << test::show(*reply);
+                                  << ::test::show(*step.answer) << "\n"
+                                  << ::test::show(*reply);
         }
     }
 
@@ -65,10 +65,10 @@ private:
     dp::Personality personality_;
     fdl::Layer2 layer2_{{.baud = Baud::k187_5, .search = {}, .start_up_latency = {}}};
     dp::Slave slave_;
-    test::Bus bus_{layer2_,
-                   {.baud = Baud::k187_5,
-                    .min_tsdr = Tbit{11},
-                    .max_tsdr = personality_.max_tsdr[index_of(Baud::k187_5)]}};
+    ::test::Bus bus_{layer2_,
+                     {.baud = Baud::k187_5,
+                      .min_tsdr = Tbit{11},
+                      .max_tsdr = personality_.max_tsdr[index_of(Baud::k187_5)]}};
 };
 
 TEST_P(Simulated, GivesTheAnswersOfTheCapture)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Wireshark reads the captures of the real programs with config/wireshark, and calls each telegram as dpctl
 // trace does. tests/wireshark has the dissector with packets written by hand.
+#include "support/paths.hpp"
 #include "system/gateway.hpp"
 
 #include <algorithm>
@@ -25,8 +26,7 @@ Outcome tshark(const Gateway& gateway, const std::string& capture, const Argumen
 {
     Arguments command{kTshark, "-r", capture};
     for (const char* script : {"dpslaved_profibus.lua", "dpslaved_drive.lua"})
-        command.insert(command.end(),
-                       {"-X", "lua_script:" DPSLAVE_SOURCE_DIR "/config/wireshark/" + std::string{script}});
+        command.insert(command.end(), {"-X", "lua_script:" + source_path("config/wireshark/") + script});
     command.insert(command.end(), more.begin(), more.end());
     return run(command, {{"HOME", gateway.folder("home").string()},
                          {"XDG_CONFIG_HOME", gateway.folder("home").string()}});

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "profile/files.hpp"
+#include "support/paths.hpp"
 
 #include "dpslave/config/config.hpp"
 
@@ -15,7 +16,7 @@
 
 namespace dpslave::test {
 
-inline const std::filesystem::path kSource{DPSLAVE_SOURCE_DIR};
+inline const std::filesystem::path kSource{source_path()};
 
 /// The lines are counted by the tests below: change nothing in front of what they name.
 inline constexpr const char* kGood = R"([bus]

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "page.hpp"
 
+#include "support/paths.hpp"
+
 #include "dpslave/io/file.hpp"
+
+#include <gtest/gtest.h>
 
 #include <bitset>
 
@@ -14,7 +18,7 @@ const std::string kAlphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvw
 
 Result<std::string, Unreadable> shipped(const std::string& name)
 {
-    const std::string root = DPSLAVE_SOURCE_DIR;
+    const std::string root = source_path();
     if (name == "index.txt") {
         std::string index = "mappings/gain-scheduling.toml\n";
         for (const std::string& profile : io::names_in(root + "/config/profiles", ".toml"))

@@ -4,6 +4,7 @@
 #include "gsd/reader.hpp"
 #include "made_gsd.hpp"
 #include "simulated_slave.hpp"
+#include "support/count_of.hpp"
 
 #include <random>
 
@@ -163,8 +164,10 @@ void C26_TwentyFourHours(Bench& b, SimulatedSlave& slave)
     const Octets reply = test::sd2(2, test::kUs, 0x08, words({kInputsAtStart.begin(), kInputsAtStart.end()}));
     b.owner.sends(test::sd2(test::kUs, 2, 0x6D, words({5, 6, 7, 8})));
     const auto begin = slave.bus().now();
+    const std::size_t cycles =
+        dpslave::test::count_of("CONFORMANCE_CYCLES", 20'000); // tools/run conformance: all
     std::size_t lost = 0;
-    for (std::size_t cycle = 0; cycle < CONFORMANCE_CYCLES; ++cycle) {
+    for (std::size_t cycle = 0; cycle < cycles; ++cycle) {
         slave.bus().advance(begin + cycle * kCycle - slave.bus().now());
         const auto got = slave.bus().ask(requests[cycle % 2]);
         if (got != reply) ++lost;

@@ -48,7 +48,7 @@ constexpr Group kGroups[]{
     {"2.032 B1", "impedance and reflections", "not testable here: electrical, it needs a network analyser"},
     {"2.032 B2", "control interval monitoring", "C-13, C-14"},
     {"2.032 B2", "T_SDR",
-     "C-01, C-22, C-29. On the wire: `dpctl tune` and `tools/bench` measure the machine that is used"},
+     "C-01, C-22, C-29. On the wire: `dpctl tune` and `tools/run bench` measure the machine that is used"},
     {"2.032 B2", "addressing", "C-02, C-23, C-28"},
     {"2.032 B2", "Ident_Number, id of the manufacturer",
      "C-09, C-29. PI assigns an Ident_Number: the project uses those of the devices that it replaces"},

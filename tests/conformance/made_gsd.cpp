@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "made_gsd.hpp"
 
+#include "support/paths.hpp"
+
 #include "dpslave/gsd/document.hpp"
 #include "dpslave/io/file.hpp"
 #include "dpslave/profile/gsd_device.hpp"
@@ -27,7 +29,7 @@ std::string content_of(const std::string& file)
 
 dpslave::test::SecondHand gsd_of(const Family& family)
 {
-    const std::string source = DPSLAVE_SOURCE_DIR;
+    const std::string source = dpslave::test::source_path();
     const auto known = profile::load_profile(read_regular_file, source + "/config/profiles", family.profile);
     if (!known) throw std::runtime_error{dpslave::input::to_string(known.error().at(0))};
     if (!known->gsd.file.empty())

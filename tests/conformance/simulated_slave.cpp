@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulated_slave.hpp"
 
+#include "support/paths.hpp"
+
 #include "dpslave/io/file.hpp"
 #include "dpslave/profile/profile.hpp"
 
@@ -19,7 +21,7 @@ namespace {
 dp::Personality personality_of(const Family& family)
 {
     const auto profile = dpslave::profile::load_profile(
-        dpslave::io::read_regular_file, std::string{DPSLAVE_SOURCE_DIR} + "/config/profiles", family.profile);
+        dpslave::io::read_regular_file, dpslave::test::source_path("config/profiles"), family.profile);
     if (!profile) throw std::runtime_error{dpslave::input::to_string(profile.error().at(0))};
     dp::Personality personality = profile->personality;
     if (family.has_own_ident) personality.ident = family.ident;

@@ -19,7 +19,7 @@
 namespace dpslave::test {
 namespace {
 
-constexpr int kPatience = 10'000; ///< ms until a test that waits for nothing gives up
+constexpr int kPatience = 60'000; ///< ms until a test that waits for nothing gives up
 
 } // namespace
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "varlink_reader.hpp"
 
+#include "support/paths.hpp"
+
 #include <fstream>
 #include <regex>
 #include <set>
@@ -117,7 +119,7 @@ WrittenInterface read_varlink(const std::string& text)
 
 std::string control_varlink_file()
 {
-    std::ifstream file(DPSLAVE_SOURCE_DIR "/include/dpslave/control/org.dpslaved.Control.varlink");
+    std::ifstream file(source_path("include/dpslave/control/org.dpslaved.Control.varlink"));
     std::stringstream text;
     text << file.rdbuf();
     return text.str();

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# bench_rows.sh ROOT: the table of docs/internals/performance.md has the rows that tools/bench knows, in the same order.
+# bench_rows.sh ROOT: the table of docs/internals/performance.md has the rows that tools/run bench knows, in the same order.
 set -eu
 cd "$1"
 page=docs/internals/performance.md

@@ -3,6 +3,7 @@
 
 #include "control/fixtures.hpp"
 #include "control/interface.hpp"
+#include "support/paths.hpp"
 
 #include <fcntl.h>
 #include <grp.h>
@@ -24,7 +25,7 @@
 namespace dpslave::test {
 namespace {
 
-constexpr int kDpctlPatience = 20'000; ///< ms
+constexpr int kDpctlPatience = 60'000; ///< ms
 constexpr uid_t kUnprivileged = 65534;
 
 using control::Done;
@@ -288,7 +289,7 @@ Reply FixtureDaemon::tag(const Json& parameters, const control::Caller& caller)
 
 Dpctl::Dpctl(std::vector<std::string> arguments, As user, bool terminal)
 {
-    arguments.insert(arguments.begin(), DPCTL_PROGRAM);
+    arguments.insert(arguments.begin(), program_path("dpctl"));
     std::vector<char*> argv;
     for (std::string& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);

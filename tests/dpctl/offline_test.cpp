@@ -3,6 +3,7 @@
 #include "control/fixtures.hpp"
 #include "control/lines.hpp"
 #include "dpctl_bench.hpp"
+#include "support/paths.hpp"
 
 #include <gmock/gmock.h>
 
@@ -12,7 +13,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-const std::string kShipped = DPSLAVE_SOURCE_DIR "/config/profiles";
+const std::string kShipped = source_path("config/profiles");
 
 // ---------------------------------------------------------------- doctor
 
@@ -102,7 +103,7 @@ TEST(DpctlTag, LooksInTheShippedTables)
 
 TEST(DpctlTag, LooksInOneFile)
 {
-    const std::string table = DPSLAVE_SOURCE_DIR "/config/tags/2400.csv";
+    const std::string table = source_path("config/tags/2400.csv");
 
     EXPECT_THAT(dpctl({"tag", "autotune", "--table", table}).out,
                 HasSubstr("2400.csv: tag 270 (0x010E) Autotune enable\n"));

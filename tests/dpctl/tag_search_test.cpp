@@ -3,6 +3,7 @@
 #include "control/lines.hpp"
 #include "dpctl/tags/render_tags.hpp"
 #include "dpctl/tags/tag_search.hpp"
+#include "support/paths.hpp"
 
 #include <gmock/gmock.h>
 
@@ -191,7 +192,7 @@ TEST_F(TagLookup, SaysWhatIsWrongWithATable)
 
 // ---------------------------------------------------------------- what is shipped
 
-const std::filesystem::path kProfiles = DPSLAVE_SOURCE_DIR "/config/profiles";
+const std::filesystem::path kProfiles = test::source_path("config/profiles");
 
 TEST(ShippedTables, HaveTheAddressesOfTheHandbookExamples)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The form of a GSD file (wire reference 9.1), as files of many makers have it: read by the second hand.
 #include "dpsim/common/gsd_file.hpp"
+#include "support/paths.hpp"
 
 #include <gmock/gmock.h>
 
@@ -206,8 +207,8 @@ TEST(GsdFile, ThatCannotBeReadIsNamed)
 {
     EXPECT_EQ(load_gsd("/nowhere/X.GSD").error(),
               "/nowhere/X.GSD: cannot be read; give another one with --gsd FILE");
-    EXPECT_EQ(load_gsd(DPSLAVE_SOURCE_DIR "/LICENSE").error(),
-              DPSLAVE_SOURCE_DIR "/LICENSE: there is no line #Profibus_DP: it is no GSD file");
+    EXPECT_EQ(load_gsd(test::source_path("LICENSE")).error(),
+              test::source_path("LICENSE: there is no line #Profibus_DP: it is no GSD file"));
 }
 
 } // namespace

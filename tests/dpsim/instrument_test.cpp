@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests what a 2408f or 2404f does by itself (handbook chapters 4, 7 and 8).
 #include "modbus_bench.hpp"
+#include "support/paths.hpp"
 
 #include <algorithm>
 
@@ -214,7 +215,7 @@ TEST(InstrumentWithoutProgrammer, HasNoProgramStore)
 
 TEST(InstrumentOfTheShippedTable, HasAllTagsOfChapter8AndOneProgram)
 {
-    const auto tags = load_tags(DPSLAVE_SOURCE_DIR "/config/tags/2400.csv");
+    const auto tags = load_tags(test::source_path("config/tags/2400.csv"));
     ASSERT_TRUE(tags) << tags.error();
     Instrument one{1, 0x2480, *tags, 1}, four{1, 0x2480, *tags, 4};
     EXPECT_EQ(four.parameters().size(), 1050U);

@@ -3,6 +3,7 @@
 // chapter 5.
 #include "dpsim/master/master_options.hpp"
 #include "octets.hpp"
+#include "support/paths.hpp"
 
 #include <gmock/gmock.h>
 
@@ -150,7 +151,7 @@ TEST(MasterOptions, RefuseAnAddressThatIsOneOfTheOtherStations)
 MasterTexts with_gsd(const std::string& file, const std::string& modules = "")
 {
     MasterTexts texts;
-    texts.gsd = DPSLAVE_SOURCE_DIR "/gsd/" + file;
+    texts.gsd = test::source_path("gsd/") + file;
     texts.modules = modules;
     return texts;
 }

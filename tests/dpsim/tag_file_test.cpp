@@ -2,6 +2,7 @@
 // Tag tables as CSV.
 #include "dpsim/common/tag_file.hpp"
 #include "dpsim/drive/ei_ascii.hpp"
+#include "support/paths.hpp"
 
 #include <gmock/gmock.h>
 
@@ -20,7 +21,7 @@ std::string fault_of(const std::string& rows)
 
 TEST(TagFile, LoadsTheShippedExample)
 {
-    const auto tags = load_tags(DPSLAVE_SOURCE_DIR "/config/tags/example.csv");
+    const auto tags = load_tags(test::source_path("config/tags/example.csv"));
     ASSERT_TRUE(tags) << tags.error();
     std::set<TagKind> kinds;
     std::set<unsigned> decimals;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Every answer of a drive belongs to its question: section 4 of the rules of the drive line, with 10^6
-/// transactions for each protocol. Longer runs: DRIVE_LINE_TRANSACTIONS=10000000 DRIVE_LINE_SEED=1000000; one
-/// run with its trace: DRIVE_LINE_ONLY=SEED.
+/// Every answer of a drive belongs to its question: section 4 of the rules of the drive line, with random
+/// transactions of both protocols. tools/run drive-line makes a million of each; from another seed on:
+/// DRIVE_LINE_SEED=1000000; one run with its trace: DRIVE_LINE_ONLY=SEED.
 #include "random_runs.hpp"
+#include "support/count_of.hpp"
 #include "unjudged_clients.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +14,7 @@
 namespace dpslave::drive_line {
 namespace {
 
-constexpr std::uint64_t kTransactions = DRIVE_LINE_TRANSACTIONS;
+constexpr std::uint64_t kTransactions = 30'000;
 
 constexpr int kMostFindings = 5; ///< that are printed in full
 
@@ -23,11 +24,11 @@ template <class Run, class Make>
 void expect_truth(const Run& run, const Make& make, RunOptions options = {},
                   std::uint64_t most = kTransactions)
 {
-    const std::uint64_t only = number_of("DRIVE_LINE_ONLY", 0);
-    const std::uint64_t wanted = only != 0 ? 1 : number_of("DRIVE_LINE_TRANSACTIONS", most);
+    const std::uint64_t only = test::count_of("DRIVE_LINE_ONLY", 0);
+    const std::uint64_t wanted = only != 0 ? 1 : test::count_of("DRIVE_LINE_TRANSACTIONS", most);
     std::uint64_t made = 0, runs = 0;
     int findings = 0;
-    for (std::uint64_t seed = only != 0 ? only : number_of("DRIVE_LINE_SEED", 1); made < wanted;
+    for (std::uint64_t seed = only != 0 ? only : test::count_of("DRIVE_LINE_SEED", 1); made < wanted;
          ++seed, ++runs) {
         options.traces = false;
         const RunResult result = run(seed, make, options);

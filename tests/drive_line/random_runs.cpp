@@ -224,12 +224,6 @@ std::string story(const RunResult& result)
     return text;
 }
 
-std::uint64_t number_of(const char* variable, std::uint64_t otherwise)
-{
-    const char* const text = std::getenv(variable);
-    return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
-}
-
 std::unique_ptr<drive::Backend> ei_client(EiLine& line, const Conditions& conditions)
 {
     return ei_client_on(line, line, conditions);

@@ -49,9 +49,6 @@ struct RunResult {
 };
 
 std::string story(const RunResult& result);
-/// Of an environment variable.
-std::uint64_t number_of(const char* variable, std::uint64_t otherwise);
-
 using MakeEiBackend = std::function<std::unique_ptr<drive::Backend>(EiLine&, const Conditions&)>;
 using MakeModbusBackend = std::function<std::unique_ptr<drive::Backend>(ModbusFrames&, const Conditions&)>;
 

@@ -6,6 +6,7 @@
 #include "bus_master.hpp"
 #include "installation.hpp"
 #include "service_manager.hpp"
+#include "support/paths.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -168,9 +169,9 @@ public:
         {
             std::vector<std::unique_ptr<Process>> attackers;
             for (unsigned i = 0; i < attack.users && !attack.habit.empty(); ++i)
-                attackers.push_back(std::make_unique<Process>(Arguments{
-                    "/usr/bin/python3", std::string{DPSLAVE_SOURCE_DIR} + "/tests/system/attacker.py",
-                    installation_.socket(), std::to_string(kStrangers + i), attack.habit}));
+                attackers.push_back(std::make_unique<Process>(
+                    Arguments{"/usr/bin/python3", test::source_path("tests/system/attacker.py"),
+                              installation_.socket(), std::to_string(kStrangers + i), attack.habit}));
             for (const auto& one : attackers)
                 if (!one->says("attacking")) throw std::runtime_error{"an attacker does not start"};
             const std::jthread exchanging{[&](const std::stop_token& stop) { exchange(stop); }};

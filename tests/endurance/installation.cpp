@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "installation.hpp"
 
+#include "support/paths.hpp"
+
 #include <fmt/format.h>
 
 #include <fstream>
@@ -12,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using dpslave::test::Json;
 
-const fs::path kConfigFolder = fs::path{DPSLAVE_SOURCE_DIR} / "config";
+const fs::path kConfigFolder = test::source_path("config");
 
 /// What was started says all that it has to say, and ends.
 Outcome run_patiently(Arguments command)
@@ -54,19 +56,19 @@ Outcome Installation::release() const
 
 Arguments Installation::daemon_command() const
 {
-    return {DPSLAVED_PROGRAM, "--config", folder_ / "dpslaved.toml", "--profiles",
+    return {test::program_path("dpslaved"), "--config", folder_ / "dpslaved.toml", "--profiles",
             kConfigFolder / "profiles"};
 }
 
 void Installation::plug_drive()
 {
-    line_ =
-        std::make_unique<Process>(Arguments{DPSIM_PROGRAM, "line", "--baud", "38400", "--bits", "10", "--a",
-                                            folder_ / "drive-end", "--b", folder_ / "drive-gateway"});
+    line_ = std::make_unique<Process>(Arguments{test::program_path("dpsim"), "line", "--baud", "38400",
+                                                "--bits", "10", "--a", folder_ / "drive-end", "--b",
+                                                folder_ / "drive-gateway"});
     must(line_->says("ready", kPatience));
-    drive_ = std::make_unique<Process>(
-        Arguments{DPSIM_PROGRAM, "drive", "--profile", "590", "--port", folder_ / "drive-end", "--baud",
-                  "38400", "--table", kConfigFolder / "tags/example.csv", "--unit", "00", "01", "02"});
+    drive_ = std::make_unique<Process>(Arguments{
+        test::program_path("dpsim"), "drive", "--profile", "590", "--port", folder_ / "drive-end", "--baud",
+        "38400", "--table", kConfigFolder / "tags/example.csv", "--unit", "00", "01", "02"});
     must(drive_->says("ready", kPatience));
 }
 
@@ -110,7 +112,8 @@ bool Installation::reload_with_fault()
 
 Arguments Installation::dpctl_command(const Arguments& arguments) const
 {
-    Arguments command{DPCTL_PROGRAM, "--socket", socket(), "--timeout", std::to_string(kPatience.count())};
+    Arguments command{test::program_path("dpctl"), "--socket", socket(), "--timeout",
+                      std::to_string(kPatience.count())};
     command.insert(command.end(), arguments.begin(), arguments.end());
     return command;
 }

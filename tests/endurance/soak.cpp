@@ -5,6 +5,7 @@
 /// tools/run soak runs it.
 #include "bus_master.hpp"
 #include "installation.hpp"
+#include "support/paths.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -161,7 +162,7 @@ private:
     void disturb_by_clients()
     {
         {
-            Process attacker{{"/usr/bin/python3", DPSLAVE_SOURCE_DIR "/tests/system/attacker.py",
+            Process attacker{{"/usr/bin/python3", test::source_path("tests/system/attacker.py"),
                               installation_.socket(),
                               std::to_string(::geteuid() == 0 ? kStranger : ::geteuid())}};
             if (!attacker.says("attacking", kPatience))

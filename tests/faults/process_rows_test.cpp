@@ -4,6 +4,7 @@
 #include "service_manager.hpp"
 #include "stopped_thread.hpp"
 #include "support/gpio_stand_in/chip.hpp"
+#include "support/paths.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -90,7 +91,7 @@ protected:
         wiring.bus_baud = baud;
         wiring.direction = fmt::format("direction = \"gpio\"\ngpio_chip = \"{}\"\ngpio_line = {}\n",
                                        chip.path().string(), kLine);
-        wiring.environment = {{"LD_LIBRARY_PATH", GPIO_STAND_IN_FOLDER}};
+        wiring.environment = {{"LD_LIBRARY_PATH", built_path("tests/gpio_stand_in")}};
         begins(std::move(wiring), master_of("ei-ascii", {"--watchdog", "20s"}));
     }
     void goes_on()

@@ -2,6 +2,7 @@
 // The control socket under attack by a user without rights.
 #include "fault_row.hpp"
 #include "service_manager.hpp"
+#include "support/paths.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -24,7 +25,7 @@ protected:
         wiring.environment = {{"NOTIFY_SOCKET", folder / "notify"}, {"WATCHDOG_USEC", "1000000"}};
         begins(std::move(wiring), master_of("ei-ascii"));
         std::filesystem::permissions(gateway->socket().parent_path(), std::filesystem::perms{0755});
-        const std::string program = std::string{DPSLAVE_SOURCE_DIR} + "/tests/system/attacker.py";
+        const std::string program = source_path("tests/system/attacker.py");
         Process attacker{{"/usr/bin/python3", program, gateway->socket(), std::to_string(kStranger), attack}};
         ASSERT_TRUE(attacker.says("attacking"));
         for (int value = 2; value <= 5; ++value) {

@@ -4,6 +4,8 @@
 #include "dpslave/gsd/device.hpp"
 #include "dpslave/io/file.hpp"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <numeric>
 

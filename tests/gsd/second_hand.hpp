@@ -4,6 +4,7 @@
 
 #include "profile/files.hpp"
 #include "reader.hpp"
+#include "support/paths.hpp"
 
 #include "dpslave/gsd/check.hpp"
 #include "dpslave/profile/gsd_device.hpp"
@@ -17,7 +18,7 @@
 
 namespace dpslave::test {
 
-inline const std::filesystem::path kSource{DPSLAVE_SOURCE_DIR};
+inline const std::filesystem::path kSource{source_path()};
 
 /// Every profile that is shipped, and those whose ident is open.
 inline const std::vector<std::string> kProfiles{"584s", "590",     "620",   "584sv", "590plus",

@@ -115,7 +115,7 @@ TEST(TtyOpen, ForReceivingOnlyLeavesNoWayToWrite)
     EXPECT_EQ(pty.rate(), 9600U);
     EXPECT_TRUE(pty.received().empty());
     pty.send({7});
-    ASSERT_TRUE(tty->wait_readable(std::chrono::seconds{5}));
+    ASSERT_TRUE(tty->wait_readable(std::chrono::minutes{1}));
     std::array<std::uint8_t, 4> buffer{};
     EXPECT_EQ(tty->read(buffer)->octets.size(), 1U);
 }

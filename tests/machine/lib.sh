@@ -2,7 +2,7 @@
 # Shared by the machine tests, on the side of the host: where images are cached, how progress is printed, what is kept on
 # failure. The side of the guest is guest.sh.
 #
-# tests/machine/STEP/run sources this file. tools/check-machine starts it as `run NAME` (NAME is the step as the user
+# tests/machine/STEP/run sources this file. tests/machine/run starts it as `run NAME` (NAME is the step as the user
 # called it) with
 #   DEBS          the packages under test, paths separated by blanks, of every architecture that was built, newest first
 #   MACHINE_LOGS  an empty folder for what should be kept; it is removed when the step has passed
@@ -49,7 +49,7 @@ deb_of() {
     for deb in ${DEBS:-}; do
         case $(basename "$deb") in "${name}"_*_"$architecture".deb | "${name}"_*_all.deb) echo "$deb" && return ;; esac
     done
-    die "DEBS names no package $name for $architecture: tools/package builds it, tools/check-machine hands it over"
+    die "DEBS names no package $name for $architecture: tools/package builds it, tests/machine/run hands it over"
 }
 
 # What these packages need beside each other, as names separated by commas: the first of each alternative.

@@ -2,7 +2,7 @@
 /// Tests what each exception means for the access (EI-ASCII and Modbus reference, section 4), and which
 /// octets are no answer at all.
 #include "modbus/pdu.hpp"
-#include "scripted_slave.hpp"
+#include "wire_line.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,6 @@
 namespace dpslave::modbus::test {
 namespace {
 
-using namespace std::chrono_literals;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -25,7 +24,6 @@ struct Exception {
 };
 
 /// Short enough to be waited for, long enough for the slave of a test to answer within it.
-constexpr auto kTimeout = 300ms;
 
 constexpr auto kNotUnderstood = AccessError::not_understood;
 constexpr auto kNoAnswer = AccessError::no_answer;
@@ -138,13 +136,13 @@ class ModbusNoAnswer : public testing::TestWithParam<NoAnswer> {};
 /// The request is the read of register 1 of unit 1.
 TEST_P(ModbusNoAnswer, IsNotAccepted)
 {
-    Bench line{kTimeout};
-    line.slave().says(GetParam().octets);
+    WireBench bench;
+    bench.says(GetParam().octets);
 
-    EXPECT_EQ(line.read(number(1)), kNoAnswer);
+    EXPECT_EQ(bench.read(number(1)), kNoAnswer);
 
-    EXPECT_EQ(line.word(), kUntouched);
-    EXPECT_THAT(line.drive().last_trouble(), StartsWith(GetParam().words));
+    EXPECT_EQ(bench.word, kUntouched);
+    EXPECT_THAT(bench.drive().last_trouble(), StartsWith(GetParam().words));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -188,15 +186,15 @@ TEST(ModbusNoAnswerToARead, IsOneWhoseCountAndLengthDoNotAgree)
 
 TEST(ModbusNoAnswerToAWrite, IsTheEchoOfAnotherRegisterOrCount)
 {
-    Bench line{kTimeout};
+    WireBench bench;
     const std::array<std::uint16_t, 2> words{1, 2};
-    line.slave().answers("01 06 00 03 00 05");
-    EXPECT_EQ(line.write(number(2), 5), kNoAnswer);
-    EXPECT_THAT(line.drive().last_trouble(), HasSubstr("does not fit the request: 06 00 03 00 05"));
+    bench.answers("01 06 00 03 00 05");
+    EXPECT_EQ(bench.write(number(2), 5), kNoAnswer);
+    EXPECT_THAT(bench.drive().last_trouble(), HasSubstr("does not fit the request: 06 00 03 00 05"));
 
-    line.slave().answers("01 10 00 02 00 01");
-    EXPECT_EQ(line.drive().write({.unit = 1}, number(2), words), kNoAnswer);
-    EXPECT_THAT(line.drive().last_trouble(), HasSubstr("does not fit the request: 10 00 02 00 01"));
+    bench.answers("01 10 00 02 00 01");
+    EXPECT_EQ(bench.drive().write({.unit = 1}, number(2), words), kNoAnswer);
+    EXPECT_THAT(bench.drive().last_trouble(), HasSubstr("does not fit the request: 10 00 02 00 01"));
 }
 
 // ---- a question of a search

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Each frame of a Modbus line is noted once, with its judgement, as it was on the wire. The line has the
 /// only clock; its octets go through the receiver of the real one.
-#include "modbus/frame_receiver.hpp"
-#include "scripted_slave.hpp"
-
-#include "dpslave/modbus/modbus_client.hpp"
+#include "wire_line.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <deque>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,8 +17,6 @@ using namespace std::chrono_literals;
 using drive::TracedFrame;
 using testing::Contains;
 using testing::ElementsAre;
-
-constexpr auto kCharacter = 1'041'666ns; ///< at 9600 bit/s
 
 class Recorder final : public drive::FrameListener {
 public:
@@ -39,100 +33,6 @@ public:
         }
     }
     std::vector<std::string> lines;
-};
-
-/// Gives what it is told after the next request, in one read each.
-class WireLine final : public ModbusPort {
-public:
-    struct Chunk {
-        Octets octets;
-        std::chrono::nanoseconds after = 10ms; ///< the request
-        bool bad_behind = false;               ///< a character with wrong parity follows
-    };
-    std::deque<Chunk> answers;
-    bool echoes = false;
-    Octets noise_before_echo;
-    bool wire_time = false;
-    Instant time{1h};
-
-    bool send(std::uint8_t unit, Bytes pdu) override
-    {
-        receiver_.sent(unit, pdu);
-        if (echoes) {
-            Octets echo = noise_before_echo;
-            const auto begin = static_cast<std::ptrdiff_t>(echo.size());
-            echo.push_back(unit);
-            echo.insert(echo.end(), pdu.begin(), pdu.end());
-            const std::uint16_t crc = crc16(Bytes{echo}.subspan(static_cast<std::size_t>(begin)));
-            echo.push_back(low(crc));
-            echo.push_back(high(crc));
-            coming_.push_back({std::move(echo), time + 1ms, false});
-        }
-        for (Chunk& one : answers)
-            coming_.push_back({std::move(one.octets), time + one.after, one.bad_behind});
-        answers.clear();
-        return true;
-    }
-    Heard receive(Instant until) override
-    {
-        constexpr auto kGap = 20ms;
-        for (;;) {
-            if (const auto heard = take()) return *heard;
-            const bool in_frame = receiver_.in_frame();
-            const Instant end = in_frame ? time + kGap : until;
-            if (coming_.empty() || coming_.front().at > end) {
-                time = std::max(time, end);
-                if (!in_frame) return Heard::silence;
-                const auto found = receiver_.silence();
-                if (found == FrameReceiver::Found::broken) return Heard::broken;
-                if (found == FrameReceiver::Found::rest) return Heard::rest;
-                continue;
-            }
-            time = std::max(time, coming_.front().at);
-            read_.insert(read_.end(), coming_.front().octets.begin(), coming_.front().octets.end());
-            bad_behind_ = coming_.front().bad_behind;
-            coming_.pop_front();
-        }
-    }
-    Bytes frame() const override { return receiver_.frame(); }
-    Piece piece() const override
-    {
-        return {.octets = receiver_.piece(),
-                .flaw = receiver_.flaw(),
-                .read_at = time,
-                .begun = receiver_.begun(kCharacter),
-                .noise = receiver_.noise()};
-    }
-    bool takes_wire_time() const override { return wire_time; }
-    Instant now() const override { return time; }
-
-private:
-    struct Coming {
-        Octets octets;
-        Instant at{};
-        bool bad_behind = false;
-    };
-    std::optional<Heard> take()
-    {
-        while (!read_.empty() || bad_behind_) {
-            auto found = FrameReceiver::Found::nothing;
-            if (read_.empty()) {
-                bad_behind_ = false;
-                found = receiver_.fault();
-            } else {
-                const auto behind = static_cast<std::int64_t>(read_.size() - 1);
-                found = receiver_.feed(read_.front(), time - behind * kCharacter);
-                read_.pop_front();
-            }
-            if (found == FrameReceiver::Found::frame) return Heard::frame;
-            if (found == FrameReceiver::Found::broken) return Heard::broken;
-        }
-        return std::nullopt;
-    }
-    FrameReceiver receiver_;
-    std::deque<Coming> coming_;
-    std::deque<std::uint8_t> read_;
-    bool bad_behind_ = false;
 };
 
 constexpr const char* kAsk = "sent 1: 01 03 00 01 00 01 D5 CA";

@@ -19,7 +19,6 @@
 namespace dpslave::modbus::test {
 
 using Octets = std::vector<std::uint8_t>;
-using Clock = std::chrono::steady_clock;
 
 /// "01 03 02 00 B7" as octets.
 Octets octets(const std::string& text);
@@ -37,31 +36,20 @@ public:
     void answers(const std::string& without_checksum) { says(framed(without_checksum)); }
     void says(Octets exactly);
     void is_silent() { says({}); }
-    /// Without being asked, `after` this call; spoke_at() waits for it and returns its time.
-    void says_by_itself(Octets exactly, std::chrono::milliseconds after);
-    Clock::time_point spoke_at() const;
 
-    struct Request {
-        std::string octets; ///< "01 03 00 01 00 01 D5 CA"
-        Clock::time_point came{}, answered{};
-    };
-    /// All requests so far, once there are `at_least` so many. One that has no good checksum, or more than
-    /// itself in it, is none.
-    std::vector<Request> requests(std::size_t at_least = 0) const;
-    std::vector<std::string> requested(std::size_t at_least = 0) const; ///< their octets
+    /// All requests so far, once there are `at_least` so many: "01 03 00 01 00 01 D5 CA". One that has no
+    /// good checksum, or more than itself in it, is none.
+    std::vector<std::string> requested(std::size_t at_least = 0) const;
 
 private:
     void run();
-    void hear(Clock::time_point now);
-    void speak(Clock::time_point now);
+    void hear();
 
     int fd_;
     mutable std::mutex mutex_;
     mutable std::condition_variable was_asked_;
     std::deque<Octets> script_;
-    Octets by_itself_;
-    Clock::time_point speaks_at_{}, spoke_at_{};
-    std::vector<Request> requests_;
+    std::vector<std::string> requests_;
     Octets heard_;
     std::atomic<bool> ends_{false};
     std::thread thread_;
@@ -71,7 +59,7 @@ private:
 /// long.
 class Bench {
 public:
-    explicit Bench(std::chrono::milliseconds timeout = std::chrono::seconds{20}, std::uint32_t baud = 115'200,
+    explicit Bench(std::chrono::milliseconds timeout = std::chrono::seconds{60}, std::uint32_t baud = 115'200,
                    drive::WireTime wire_time = drive::WireTime::automatic);
 
     ScriptedSlave& slave() { return *slave_; }

@@ -5,24 +5,17 @@
 #include "generator.hpp"
 #include "pair.hpp"
 #include "run.hpp"
+#include "support/count_of.hpp"
 
 #include <gtest/gtest.h>
-
-#include <cstdlib>
 
 namespace test {
 namespace {
 
-std::uint64_t number(const char* variable, std::uint64_t otherwise)
-{
-    const char* text = std::getenv(variable);
-    return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
-}
-
 TEST(Model, AgreesWithTheSlaveAfterEachRandomStep)
 {
-    const std::uint64_t steps = number("MODEL_STEPS", MODEL_STEPS);
-    const std::uint64_t first = number("MODEL_SEED", 1);
+    const std::uint64_t steps = dpslave::test::count_of("MODEL_STEPS", 100'000);
+    const std::uint64_t first = dpslave::test::count_of("MODEL_SEED", 1);
 
     for (std::uint64_t run = 0; run * kStepsOfARun < steps; ++run)
         if (const auto finding = run_seed(first + run)) FAIL() << show(*finding);

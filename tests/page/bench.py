@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Measures the configurator's page against an empty page in the same Chromium (tools/bench --page builds what it needs).
+"""Measures the configurator's page against an empty page in the same Chromium (tools/run bench --page builds what it needs).
 
 Two empty pages are measured, so that A/A (empty/empty) shows the error of the measurement. Exit status 1: A/A is too far from 1.
 """
@@ -133,7 +133,7 @@ def show(found):
 
 
 def words_of_the_caller():
-    parser = argparse.ArgumentParser(prog="tools/bench --page", description=__doc__.split("\n", maxsplit=1)[0])
+    parser = argparse.ArgumentParser(prog="tools/run bench --page", description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("--page", type=pathlib.Path, required=True, help=argparse.SUPPRESS)
     parser.add_argument("--blocks", type=int, default=15)
     parser.add_argument("--opens", type=int, default=5, help="openings of each page in a block")

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests the configurator's page in a browser (tools/check-page builds what it needs)."""
+"""Tests the configurator's page in a browser (tools/run page builds what it needs)."""
 import argparse
 import pathlib
 import signal

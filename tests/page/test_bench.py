@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""That tools/bench --page works. It judges no time: other programs run beside the tests."""
+"""That tools/run bench --page works. It judges no time: other programs run beside the tests."""
 import pathlib
 import tempfile
 

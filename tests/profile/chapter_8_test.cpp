@@ -2,6 +2,7 @@
 // The tag table of the 2408f and 2404f against chapter 8 of their PROFIBUS handbook (C-100 to C-129).
 // chapter_8.txt is the chapter kept by itself; the programs are reckoned here.
 #include "files.hpp"
+#include "support/paths.hpp"
 
 #include "dpslave/io/file.hpp"
 #include "dpslave/profile/profile.hpp"
@@ -23,7 +24,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-const std::filesystem::path kSource{DPSLAVE_SOURCE_DIR};
+const std::filesystem::path kSource{test::source_path()};
 
 const drive::TagTable& table()
 {

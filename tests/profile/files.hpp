@@ -6,6 +6,8 @@
 
 #include "dpslave/input/fault.hpp"
 
+#include <gtest/gtest.h>
+
 #include <filesystem>
 #include <fstream>
 #include <sstream>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files.hpp"
+#include "support/paths.hpp"
 
 #include "dpslave/io/file.hpp"
 #include "dpslave/profile/profile.hpp"
@@ -21,7 +22,7 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-const std::filesystem::path kShipped = std::filesystem::path{DPSLAVE_SOURCE_DIR} / "config/profiles";
+const std::filesystem::path kShipped = test::source_path("config/profiles");
 
 class OwnProfile : public testing::Test {
 protected:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The shipped profiles against the manuals of their devices, key by key.
 #include "files.hpp"
+#include "support/paths.hpp"
 
 #include "dpslave/io/file.hpp"
 #include "dpslave/profile/profile.hpp"
@@ -22,7 +23,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
 
-const std::filesystem::path kProfiles = std::filesystem::path{DPSLAVE_SOURCE_DIR} / "config/profiles";
+const std::filesystem::path kProfiles = test::source_path("config/profiles");
 
 Profile load_shipped(const std::string& name)
 {

@@ -2,6 +2,7 @@
 // The tag tables of config/tags as files, and those of the drives against what public pages of their manuals
 // print.
 #include "files.hpp"
+#include "support/paths.hpp"
 
 #include "dpslave/io/file.hpp"
 #include "dpslave/profile/profile.hpp"
@@ -20,7 +21,7 @@ using drive::TagType;
 using testing::Contains;
 using testing::HasSubstr;
 
-const std::filesystem::path kTags = std::filesystem::path{DPSLAVE_SOURCE_DIR} / "config/tags";
+const std::filesystem::path kTags = test::source_path("config/tags");
 
 drive::TagTable load_table(const std::string& file)
 {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The keys of a station by which it takes the plant's own GSD.
+#include "support/paths.hpp"
+
 #include "dpslave/io/file.hpp"
 #include "dpslave/profile/station_keys.hpp"
 
@@ -14,7 +16,7 @@ using testing::IsEmpty;
 
 Profile shipped(const std::string& name)
 {
-    auto profile = load_profile(io::read_regular_file, DPSLAVE_SOURCE_DIR "/config/profiles", name);
+    auto profile = load_profile(io::read_regular_file, test::source_path("config/profiles"), name);
     return profile ? *std::move(profile) : Profile{};
 }
 

@@ -21,6 +21,13 @@ import time
 
 LINES = 40  # of a failed test
 Failure = collections.namedtuple("Failure", "program test why lines")
+running = set()  # process groups
+
+
+def end_all(*_):
+    for group in list(running):
+        os.killpg(group, signal.SIGKILL)
+    os._exit(143)
 
 
 class Run:
@@ -66,12 +73,14 @@ class Run:
         command = [self.program] + (["--gtest_filter=" + self.test_filter] if self.test_filter else [])
         process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                                    text=True, errors="replace", start_new_session=True)
+        running.add(process.pid)
         done = threading.Event()
         watcher = threading.Thread(target=self.watch, args=(process, done))
         watcher.start()
         for line in process.stdout:
             self.read(line)
         status = process.wait()
+        running.discard(process.pid)
         done.set()
         watcher.join()
         if self.ended_by_limit:
@@ -93,6 +102,7 @@ def main():
     options.add_argument("--report")
     options.add_argument("programs", nargs="+")
     given = options.parse_args()
+    signal.signal(signal.SIGTERM, end_all)
 
     runs = []
     for _ in range(given.times):

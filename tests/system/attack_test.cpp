@@ -3,6 +3,7 @@
 // of it.
 #include "gateway.hpp"
 #include "service_manager.hpp"
+#include "support/paths.hpp"
 
 #include <gmock/gmock.h>
 #include <sys/stat.h>
@@ -19,7 +20,7 @@ constexpr uid_t kStranger = 65534;
 class Attacker : public Process {
 public:
     explicit Attacker(const Gateway& gateway)
-        : Process({"/usr/bin/python3", DPSLAVE_SOURCE_DIR "/tests/system/attacker.py", gateway.socket(),
+        : Process({"/usr/bin/python3", source_path("tests/system/attacker.py"), gateway.socket(),
                    std::to_string(::geteuid() == 0 ? kStranger : ::geteuid())})
     {}
 };
@@ -37,7 +38,7 @@ protected:
 TEST_F(Attack, FromAnyUserKeepsTheMainThreadNeitherFromItsWatchdogNorFromTheLog)
 {
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     ASSERT_TRUE(manager.hears("WATCHDOG=1"));
     Attacker attacker{gateway};
     ASSERT_TRUE(attacker.says("attacking"));
@@ -49,7 +50,7 @@ TEST_F(Attack, FromAnyUserKeepsTheMainThreadNeitherFromItsWatchdogNorFromTheLog)
     gateway.drive().send_line("ok");
 
     EXPECT_LT(manager.longest_silence(), std::chrono::seconds{5}) << "WatchdogSec of the service";
-    EXPECT_TRUE(master.does("wait 30s for state data-exchange"));
+    EXPECT_TRUE(master.does("wait 60s for state data-exchange"));
     EXPECT_EQ(attacker.wait(std::chrono::nanoseconds{0}), std::nullopt) << "it goes on until now";
 }
 
@@ -71,7 +72,7 @@ TEST_F(Attack, OfAnotherUserLeavesTheOperatorsTheirConnectionsReadsAndWrites)
 TEST_F(Attack, ByAHostileFileIsRefusedAtAReloadAndTheExchangeGoesOn)
 {
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     const std::filesystem::path table = gateway.folder("tags.csv");
     std::string with_table = gateway.config_text();
     with_table = with_table.substr(0, with_table.rfind("tags = ")) + "tags = \"tags.csv\"\n";
@@ -94,7 +95,7 @@ TEST_F(Attack, ByAHostileFileIsRefusedAtAReloadAndTheExchangeGoesOn)
     is_refused_for("nested deeper");
 
     EXPECT_LT(manager.longest_silence(), std::chrono::seconds{5}) << "WatchdogSec of the service";
-    EXPECT_TRUE(master.does("wait 30s for state data-exchange"));
+    EXPECT_TRUE(master.does("wait 60s for state data-exchange"));
 }
 
 TEST_F(Attack, ThatIsOverLeavesNothingBehind)

@@ -3,6 +3,7 @@
 // and keeps the level of a line whose owner has died, as many chips do.
 #include "gateway.hpp"
 #include "support/gpio_stand_in/chip.hpp"
+#include "support/paths.hpp"
 
 #include <gmock/gmock.h>
 
@@ -51,7 +52,7 @@ public:
 
     Folder folder;
     /// As the service manager starts it.
-    const Environment environment{{"LD_LIBRARY_PATH", GPIO_STAND_IN_FOLDER},
+    const Environment environment{{"LD_LIBRARY_PATH", built_path("tests/gpio_stand_in")},
                                   {"RUNTIME_DIRECTORY", (folder / "").string()}};
     stand_in::ChipFile chip{folder / "gpiochip0", "pl061"};
     Gateway gateway;
@@ -64,7 +65,7 @@ TEST(DriverEnable, IsHighWhileTheDaemonSendsAndLowWithinACharacterAfterEachReply
     EXPECT_FALSE(at.chip.high(kLine)) << "at start, whatever it was before";
     EXPECT_TRUE(at.gateway.daemon().ever_said("line 5 of GPIO chip " + at.chip.path().string()));
     Master master{at.gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     ASSERT_TRUE(at.answers(40));
 
     EXPECT_EQ(at.gateway.daemon().end(), 0);
@@ -89,7 +90,7 @@ TEST(DriverEnable, ThatIsActiveLowIsLowWhileTheDaemonSends)
     at.gateway.start_daemon();
     EXPECT_TRUE(at.chip.high(kLine));
     Master master{at.gateway, {"--tags", "55"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     ASSERT_TRUE(at.answers(5));
 
     EXPECT_EQ(at.gateway.daemon().end(), 0);
@@ -106,7 +107,7 @@ TEST(DriverEnable, IsInactiveAfterThePortHasGoneInTheMiddleOfAReply)
     at.gateway.start_daemon();
     {
         Master master{at.gateway, {"--tags", "55"}};
-        ASSERT_TRUE(master.does("start 30s"));
+        ASSERT_TRUE(master.does("start 60s"));
         ASSERT_TRUE(at.answers(5));
         ASSERT_TRUE(eventually([&] { return at.chip.high(kLine); }));
         at.gateway.unplug_bus();
@@ -119,7 +120,7 @@ TEST(DriverEnable, IsInactiveAfterThePortHasGoneInTheMiddleOfAReply)
     EXPECT_TRUE(at.gateway.daemon().says("is back"));
     at.chip.watch(kLine, at.gateway.folder("bus-gateway"), kBaud);
     Master again{at.gateway, {"--tags", "55"}};
-    EXPECT_TRUE(again.does("start 30s"));
+    EXPECT_TRUE(again.does("start 60s"));
 }
 
 TEST(DriverEnable, ThatCannotBeHadEndsTheStartWithThreeAndASentence)
@@ -152,19 +153,19 @@ TEST(DriverEnable, WhoseChipIsPulledSilencesTheDaemonUntilItIsBack)
     Switched at;
     at.gateway.start_daemon();
     Master master{at.gateway, {"--tags", "55"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     ASSERT_TRUE(at.answers(5));
 
     at.chip.remove();
     EXPECT_TRUE(at.gateway.daemon().says("the driver enable of"));
     const unsigned sent = at.chip.watched().writes;
-    EXPECT_TRUE(master.does("wait 30s for state not data-exchange"));
+    EXPECT_TRUE(master.does("wait 60s for state not data-exchange"));
     EXPECT_EQ(at.chip.watched().writes, sent) << "a reply without driver enable is no reply";
     EXPECT_TRUE(eventually([&] { return at.gateway.counter("bus", "driver_errors") > 0; }));
 
     at.chip.come_back();
     EXPECT_TRUE(at.gateway.daemon().says("works again"));
-    EXPECT_TRUE(master.does("wait 30s for state data-exchange"));
+    EXPECT_TRUE(master.does("wait 60s for state data-exchange"));
     EXPECT_EQ(at.chip.watched().writes_while_inactive, 0U);
     EXPECT_EQ(at.gateway.daemon().end(), 0);
     EXPECT_FALSE(at.chip.high(kLine));
@@ -219,7 +220,7 @@ public:
     }
 
     Folder folder;
-    const Environment environment{{"LD_LIBRARY_PATH", GPIO_STAND_IN_FOLDER},
+    const Environment environment{{"LD_LIBRARY_PATH", built_path("tests/gpio_stand_in")},
                                   {"RUNTIME_DIRECTORY", (folder / "").string()}};
     stand_in::ChipFile chip{folder / "gpiochip0", "pl061"};
     Gateway gateway;
@@ -237,7 +238,7 @@ TEST(TwoWireLine, IsHighWhileARequestLeavesInBothProtocols)
                                       ? Arguments{"--tags", "55,56w"}
                                       : Arguments{"--family", "controller", "--ident", "0x0A0B", "--master",
                                                   "36", "--tags", "1,5,24w"}};
-        ASSERT_TRUE(master.does("start 30s"));
+        ASSERT_TRUE(master.does("start 60s"));
         ASSERT_TRUE(at.asks(20));
         EXPECT_TRUE(eventually([&] { return at.gateway.station()["drive"]["ever_answered"] == true; }));
 
@@ -309,7 +310,7 @@ TEST(DriverEnable, IsNeverLeftActiveByADaemonThatIsKilledAtARandomMoment)
     std::uniform_int_distribution<int> moment{0, 100'000};
     unsigned met_active = 0;
     at.gateway.start_daemon();
-    ASSERT_TRUE(master.does("start 30s")); // from now on it comes back by itself
+    ASSERT_TRUE(master.does("start 60s")); // from now on it comes back by itself
     at.gateway.daemon().end(SIGKILL);
     for (unsigned kill = 0; kill < kills(); ++kill) {
         at.gateway.start_daemon();

@@ -53,7 +53,7 @@ TEST(DoctorOfTheBus, NamesSilenceACutCableAndAPortThatVanishes)
     EXPECT_THAT(evidence(gateway), HasSubstr("not one octet"));
 
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(first_cause_is(gateway, "well"));
 
     gateway.bus().send_line("cut");
@@ -92,7 +92,7 @@ TEST(DoctorOfTags, NamesAValueOutOfRangeThatTheMasterSendsButNoTypingErrorOfDpct
 {
     Gateway gateway;
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     const Outcome typo = gateway.dpctl({"read", "999"});
     EXPECT_EQ(typo.status, 5);
     EXPECT_THAT(typo.err, HasSubstr("has no line for tag 999"));
@@ -126,7 +126,7 @@ TEST(DoctorOfTheDrive, ThatIsAlwaysLateIsReportedWithTheTimeoutThatItNeeds)
 {
     Gateway gateway;
     Master master{gateway, {"--tags", "55,57,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     gateway.drive().send_line("slow 300ms");
 
     const auto is = [&](const char* rule) {
@@ -173,7 +173,7 @@ TEST(DoctorOfTheDrive, LooksForItWhileItsStationIsOffTheBusAndThenTheExchangeCom
     wiring.when_drive_lost = "silent";
     Gateway gateway{wiring};
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
 
     Process probe{gateway.dpctl_command({"doctor", "--probe", "--yes"})};
     EXPECT_TRUE(gateway.daemon().says("The drive is gone")) << "nobody knew whether it was";
@@ -222,7 +222,7 @@ TEST(DoctorOfABox, NamesATypeThatSilencesItAndTheRideThroughThatRuns)
         Master master{
             gateway,
             {"--family", "technology-box", "--ident", "0x1649", "--tags", "55,56w", "--watchdog", "200ms"}};
-        ASSERT_TRUE(master.does("start 30s"));
+        ASSERT_TRUE(master.does("start 60s"));
         ASSERT_TRUE(master.does("out 1 = 500"));
         EXPECT_TRUE(gateway.drive().says("tag 56 written 5.00"));
         const Outcome silenced = gateway.dpctl({"tec", "set", "RIDE_THROUGH", "99"});

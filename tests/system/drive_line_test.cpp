@@ -55,9 +55,9 @@ protected:
         gateway.emplace(wiring);
         master.emplace(*gateway, Arguments{"--family", "controller", "--ident", "0x0A0B", "--master", "36",
                                            "--tags", "1000,1100,1200,1300,1500,1400w"});
-        ASSERT_TRUE(master->does("start 30s"));
-        ASSERT_TRUE(master->does("wait 30s for in 4 = 4444"));
-        ASSERT_TRUE(master->does("wait 30s for in 1 = 1111"));
+        ASSERT_TRUE(master->does("start 60s"));
+        ASSERT_TRUE(master->does("wait 60s for in 4 = 4444"));
+        ASSERT_TRUE(master->does("wait 60s for in 1 = 1111"));
         ASSERT_TRUE(master->does("follow on"));
     }
     void shows_only_its_own_words()
@@ -107,7 +107,7 @@ TEST_F(InstrumentLine, WithASpoiltFrameBeforeAnAnswerDoesNotTakeThatAnswerForThe
     shows_only_its_own_words();
     gateway->drive().send_line("ok");
     gateway->drive().send_line("set 1000 1112");
-    EXPECT_TRUE(master->does("wait 30s for in 1 = 1112"));
+    EXPECT_TRUE(master->does("wait 60s for in 1 = 1112"));
 }
 
 TEST(DeadDrives, OnALineDelayAChangedOutputByTwoTimeOutsAtMost)
@@ -118,7 +118,7 @@ TEST(DeadDrives, OnALineDelayAChangedOutputByTwoTimeOutsAtMost)
     Gateway gateway{wiring};
     Master master{gateway,
                   {"--family", "controller", "--ident", "0x0A0B", "--master", "36", "--tags", "1000,1400w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(gateway.daemon().says("stacker: the drive does not answer"));
     ASSERT_TRUE(master.does("out 1 = 1"));
     ASSERT_TRUE(gateway.drive().says("tag 1400 written 1"));
@@ -149,16 +149,16 @@ protected:
             drive.send_line(command);
         {
             Master first{*gateway, {"--tags", "55,57,56w", "--no-watchdog"}, 5}; // the slave goes on alone
-            ASSERT_TRUE(first.does("start 30s"));
+            ASSERT_TRUE(first.does("start 60s"));
             ASSERT_TRUE(first.does("out 1 = 500"));
             ASSERT_TRUE(drive.says("unit 00: tag 56 written 5.00"));
             ASSERT_TRUE(first.does("stop"));
             ASSERT_TRUE(first.leaves());
         }
         master.emplace(*gateway, Arguments{"--tags", "55,57,56w"}, 6);
-        ASSERT_TRUE(master->does("start 30s"));
-        ASSERT_TRUE(master->does("wait 30s for in 1 = 2001"));
-        ASSERT_TRUE(master->does("wait 30s for in 2 = 2002"));
+        ASSERT_TRUE(master->does("start 60s"));
+        ASSERT_TRUE(master->does("wait 60s for in 1 = 2001"));
+        ASSERT_TRUE(master->does("wait 60s for in 2 = 2002"));
         ASSERT_TRUE(master->does("follow on"));
     }
     std::optional<Gateway> gateway;
@@ -213,8 +213,8 @@ TEST(EiAsciiLine, WithAStrayEotDoesNotDenyATag)
     Gateway gateway;
     gateway.drive().send_line("set 55 12.50");
     Master master{gateway, {"--tags", "55,57,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
-    ASSERT_TRUE(master.does("wait 30s for in 1 = 1250"));
+    ASSERT_TRUE(master.does("start 60s"));
+    ASSERT_TRUE(master.does("wait 60s for in 1 = 1250"));
     ASSERT_TRUE(master.does("follow on"));
     for (int i = 0; i < 5; ++i) {
         gateway.drive().send_line("instead 04 once tag 55");
@@ -245,7 +245,7 @@ TEST_P(Echo, OfALineWithoutDriveIsNoDrive)
     Gateway gateway{wiring};
     EXPECT_TRUE(gateway.daemon().says("unwinder: the drive does not answer"));
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(master.does("wait 4s"));
     EXPECT_FALSE(gateway.daemon().ever_said("the drive answers"));
 }
@@ -256,9 +256,9 @@ TEST(EchoOfALine, IsNotTakenForAnAnswerOfTheDriveThatIsThere)
 {
     Gateway gateway{{.drive = {"--fault", "echo on"}, .line_keys = "echo = \"on\"\n"}};
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     gateway.drive().send_line("set 55 12.50");
-    EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
+    EXPECT_TRUE(master.does("wait 60s for in 1 = 1250"));
     EXPECT_TRUE(master.does("out 1 = 500"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 5.00"));
 }

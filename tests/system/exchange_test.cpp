@@ -13,11 +13,11 @@ TEST(Exchange, ValuesGoFromTheDriveToTheMasterAndFromTheMasterToTheDrive)
     Gateway gateway;
     Master master{gateway, {"--tags", "55,56w,288"}};
 
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     gateway.drive().send_line("set 55 12.50");
-    EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
+    EXPECT_TRUE(master.does("wait 60s for in 1 = 1250"));
     gateway.drive().send_line("set 55 -0.01");
-    EXPECT_TRUE(master.does("wait 30s for in 1 = -1"));
+    EXPECT_TRUE(master.does("wait 60s for in 1 = -1"));
     EXPECT_TRUE(master.does("expect in 2 = 0x1C00"));
 
     EXPECT_TRUE(master.does("out 1 = 500"));
@@ -47,11 +47,11 @@ TEST(Exchange, TwelveParametersWithoutDemandDataStartAtTheFirstOctet)
                   {"--tags", "90,56w,57,62w,61,70w,91,71w,288,80w,140,81w", "--cfg",
                    "50 60 50 60 50 60 50 60 50 60 50 60"}};
 
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     gateway.drive().send_line("set 90 1480");
-    EXPECT_TRUE(master.does("wait 30s for in 1 = 1480"));
-    EXPECT_TRUE(master.does("wait 30s for in 4 = 40000"));
-    EXPECT_TRUE(master.does("wait 30s for in 6 = 850"));
+    EXPECT_TRUE(master.does("wait 60s for in 1 = 1480"));
+    EXPECT_TRUE(master.does("wait 60s for in 4 = 40000"));
+    EXPECT_TRUE(master.does("wait 60s for in 6 = 850"));
     EXPECT_TRUE(master.does("out 6 = 1234"));
     EXPECT_TRUE(gateway.drive().says("tag 81 written 1.234"));
     EXPECT_TRUE(eventually([&] { return gateway.word(81).is_object(); }));
@@ -67,9 +67,9 @@ TEST(Exchange, WaitsForADriveThatIsSlow)
     Gateway gateway;
     Master master{gateway, {"--tags", "55,56w"}};
     gateway.drive().send_line("slow 50ms");
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     gateway.drive().send_line("set 55 12.50");
-    EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
+    EXPECT_TRUE(master.does("wait 60s for in 1 = 1250"));
     EXPECT_TRUE(master.does("out 1 = 500"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 5.00"));
     EXPECT_EQ(gateway.station().at("drive").at("losses"), 0);
@@ -81,7 +81,7 @@ TEST(Exchange, WritesATagWhoseWritesCountOnceForEachChange)
                               "56,Setpoint,INT,2,,0\n62,Save,WORD,,yes,0000\n";
     Gateway gateway{{.output_refresh_s = "0", .table = table}};
     Master master{gateway, {"--tags", "55,56w,62w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(master.does("out 2 = 1"));
     EXPECT_TRUE(gateway.drive().says("tag 62 written >0001"));
     for (int i = 0; i < 5; ++i) EXPECT_TRUE(gateway.drive().says("tag 56 written")) << "in each round";
@@ -97,9 +97,9 @@ TEST_P(EachProfile, ExchangesWithItsDrive)
     Gateway gateway{{.profile = GetParam()}};
     Master master{gateway, {"--tags", "55,56w"}};
 
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     gateway.drive().send_line("set 55 100.00");
-    EXPECT_TRUE(master.does("wait 30s for in 1 = 10000"));
+    EXPECT_TRUE(master.does("wait 60s for in 1 = 10000"));
     EXPECT_TRUE(master.does("out 1 = 2500"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 25.00"));
     EXPECT_TRUE(master.does("demand read 62"));
@@ -120,9 +120,9 @@ TEST_P(EachRate, ExchangesWithinTheTimesOfTheGsdSd3TelegramsIncluded)
         return more;
     };
     Master variable{gateway, with({"--tags", "55,56w"})};
-    ASSERT_TRUE(variable.does("start 30s"));
+    ASSERT_TRUE(variable.does("start 60s"));
     gateway.drive().send_line("set 55 12.50");
-    EXPECT_TRUE(variable.does("wait 30s for in 1 = 1250"));
+    EXPECT_TRUE(variable.does("wait 60s for in 1 = 1250"));
     EXPECT_TRUE(variable.does("out 1 = -300"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written -3.00"));
     EXPECT_TRUE(variable.does("unlock"));
@@ -130,7 +130,7 @@ TEST_P(EachRate, ExchangesWithinTheTimesOfTheGsdSd3TelegramsIncluded)
     EXPECT_FALSE(variable.ever_said(kViolation));
 
     Master fixed{gateway, with({"--cfg", "73", "--sd3"})};
-    ASSERT_TRUE(fixed.does("start 30s"));
+    ASSERT_TRUE(fixed.does("start 60s"));
     EXPECT_TRUE(fixed.does("demand read 55"));
     EXPECT_TRUE(fixed.does("expect demand = 1250"));
     EXPECT_TRUE(fixed.leaves());
@@ -144,7 +144,7 @@ TEST(MinTsdr, AsLongAsItCanBeDoesNotSilenceTheSlave)
 {
     Gateway gateway{{.max_tsdr = 0}};
     Master master{gateway, {"--tags", "55,56w", "--min-tsdr", "255", "--retries", "15"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(master.does("out 1 = 500"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 5.00"));
     EXPECT_TRUE(eventually([&] { return gateway.station().at("min_tsdr") == 255; }));
@@ -154,7 +154,7 @@ TEST(DemandData, ReadsWritesAndSaysWithZeroOneAndTwoWhyNot)
 {
     Gateway gateway;
     Master master{gateway, {"--tags", "55"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
 
     EXPECT_TRUE(master.does("demand read 62"));
     EXPECT_TRUE(master.does("expect demand = 1100"));
@@ -179,11 +179,11 @@ TEST(DemandData, AStandingReadIsRefreshedAndAStandingWriteIsMadeOnce)
 {
     Gateway gateway;
     Master master{gateway, {"--tags", "55"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
 
     EXPECT_TRUE(master.does("demand read 61"));
     gateway.drive().send_line("set 61 77.7");
-    EXPECT_TRUE(master.does("wait 30s for demand = 777"));
+    EXPECT_TRUE(master.does("wait 60s for demand = 777"));
 
     EXPECT_TRUE(master.does("demand write 62 955"));
     EXPECT_TRUE(gateway.drive().says("tag 62 written 95.5"));
@@ -196,7 +196,7 @@ TEST(GlobalControl, SyncHoldsTheOutputsUntilTheNextSyncOrUnsync)
 {
     Gateway gateway;
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(master.does("out 1 = 500"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 5.00"));
     const auto cycles_pass = [&] {
@@ -233,9 +233,9 @@ TEST(GlobalControl, FreezeHoldsTheInputsUntilTheNextFreezeOrUnfreeze)
 {
     Gateway gateway;
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     gateway.drive().send_line("set 55 10.00");
-    EXPECT_TRUE(master.does("wait 30s for in 1 = 1000"));
+    EXPECT_TRUE(master.does("wait 60s for in 1 = 1000"));
     // Read by hand again and again: after each of them comes a cyclic transaction, and there are two in a
     // round.
     const auto gateway_knows = [&](const std::string& value) {
@@ -255,21 +255,21 @@ TEST(GlobalControl, FreezeHoldsTheInputsUntilTheNextFreezeOrUnfreeze)
     EXPECT_TRUE(master.does("expect in 1 = 1000"));
 
     EXPECT_TRUE(master.does("freeze"));
-    EXPECT_TRUE(master.does("wait 30s for in 1 = 2000"));
+    EXPECT_TRUE(master.does("wait 60s for in 1 = 2000"));
     gateway.drive().send_line("set 55 30.00");
     EXPECT_TRUE(eventually([&] { return gateway_knows("30.00"); }));
     EXPECT_TRUE(master.does("expect in 1 = 2000"));
     EXPECT_TRUE(master.does("unfreeze"));
-    EXPECT_TRUE(master.does("wait 30s for in 1 = 3000"));
+    EXPECT_TRUE(master.does("wait 60s for in 1 = 3000"));
     gateway.drive().send_line("set 55 40.00");
-    EXPECT_TRUE(master.does("wait 30s for in 1 = 4000"));
+    EXPECT_TRUE(master.does("wait 60s for in 1 = 4000"));
 }
 
 TEST(GlobalControl, ClearPutsZeroIntoTheDriveAndOperateTheOutputsAgain)
 {
     Gateway gateway;
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(master.does("out 1 = 500"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 5.00"));
 

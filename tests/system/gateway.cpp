@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gateway.hpp"
 
+#include "support/paths.hpp"
+
 #include <fmt/format.h>
 #include <grp.h>
 #include <unistd.h>
@@ -23,7 +25,7 @@ std::string station_name(std::size_t index)
     return index < kNames.size() ? kNames.at(index) : fmt::format("drive{:02}", index);
 }
 
-const fs::path kConfigFolder = fs::path{DPSLAVE_SOURCE_DIR} / "config";
+const fs::path kConfigFolder = source_path("config");
 
 /// The simulated masters wait 20 ms beyond the slot time; the daemon may take three quarters of that.
 unsigned patient_max_tsdr(unsigned baud)
@@ -46,8 +48,8 @@ void must(const ::testing::AssertionResult& result)
 std::unique_ptr<Process> paced_line(unsigned baud, const char* bits, const fs::path& a, const fs::path& b,
                                     const Arguments& more = {})
 {
-    Arguments command{DPSIM_PROGRAM, "line", "--baud", std::to_string(baud), "--bits", bits, "--a", a,
-                      "--b",         b};
+    Arguments command{
+        program_path("dpsim"), "line", "--baud", std::to_string(baud), "--bits", bits, "--a", a, "--b", b};
     command.insert(command.end(), more.begin(), more.end());
     auto process = std::make_unique<Process>(std::move(command));
     must(process->says("ready"));
@@ -92,10 +94,16 @@ Gateway::Gateway(Wiring wiring) : wiring_(std::move(wiring))
 void Gateway::start_drive()
 {
     const bool is_instrument = wiring_.protocol == "modbus-rtu";
-    Arguments drive{
-        DPSIM_PROGRAM, "drive",     "--profile", wiring_.model.empty() ? wiring_.profile : wiring_.model,
-        "--port",      drive_end(), "--baud",    std::to_string(wiring_.drive_baud),
-        "--log",       "--table"};
+    Arguments drive{program_path("dpsim"),
+                    "drive",
+                    "--profile",
+                    wiring_.model.empty() ? wiring_.profile : wiring_.model,
+                    "--port",
+                    drive_end(),
+                    "--baud",
+                    std::to_string(wiring_.drive_baud),
+                    "--log",
+                    "--table"};
     if (!wiring_.table.empty())
         drive.push_back(folder_ / "tags.csv");
     else
@@ -183,7 +191,7 @@ Arguments Gateway::daemon_command(Arguments more) const
 {
     const fs::path profiles =
         wiring_.profiles.empty() ? kConfigFolder / "profiles" : fs::path{wiring_.profiles};
-    Arguments command{DPSLAVED_PROGRAM, "--config", config(), "--profiles", profiles};
+    Arguments command{program_path("dpslaved"), "--config", config(), "--profiles", profiles};
     command.insert(command.end(), more.begin(), more.end());
     return command;
 }
@@ -231,13 +239,8 @@ void Gateway::unplug_drive()
 Arguments Gateway::dpctl_command(Arguments arguments) const
 {
     // Wide enough for each sentence to be one line.
-    Arguments command{"/usr/bin/env",
-                      "COLUMNS=1000",
-                      DPCTL_PROGRAM,
-                      "--socket",
-                      socket(),
-                      "--timeout",
-                      std::to_string(kLimit.count())};
+    Arguments command{"/usr/bin/env", "COLUMNS=1000", program_path("dpctl"),         "--socket",
+                      socket(),       "--timeout",    std::to_string(kLimit.count())};
     command.insert(command.end(), arguments.begin(), arguments.end());
     return command;
 }
@@ -334,10 +337,14 @@ namespace {
 
 Arguments master_command(const Gateway& gateway, const Arguments& settings, unsigned slave)
 {
-    Arguments command{DPSIM_PROGRAM, "master",
-                      "--port",      gateway.bus_end(),
-                      "--baud",      std::to_string(gateway.bus_baud()),
-                      "--slave",     std::to_string(slave)};
+    Arguments command{program_path("dpsim"),
+                      "master",
+                      "--port",
+                      gateway.bus_end(),
+                      "--baud",
+                      std::to_string(gateway.bus_baud()),
+                      "--slave",
+                      std::to_string(slave)};
     // A machine that stops the daemon for a moment is no fault: without these the station is lost in 40 ms.
     constexpr std::array<std::array<const char*, 2>, 3> kPatience{
         {{"--watchdog", "5s"}, {"--slot", "100ms"}, {"--retries", "15"}}};

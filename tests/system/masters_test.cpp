@@ -77,7 +77,7 @@ TEST(Refusal, IsExplainedByDpctlWithOctetExpectedAndGot)
     for (const Refused& one : refused()) {
         SCOPED_TRACE(one.name);
         Master master{gateway, one.settings};
-        EXPECT_TRUE(master.does("try start 30s"));
+        EXPECT_TRUE(master.does("try start 60s"));
         EXPECT_TRUE(master.does("diag"));
         EXPECT_TRUE(master.does(std::string{"expect diag "} + one.finding));
         EXPECT_TRUE(master.does("expect diag prm-required"));
@@ -101,12 +101,12 @@ TEST(Refusal, IsForgottenWhenTheMasterComesWithGoodParameters)
 {
     Gateway gateway;
     Master wrong{gateway, {"--ident", "0x1234", "--tags", "55"}};
-    EXPECT_TRUE(wrong.does("try start 30s"));
+    EXPECT_TRUE(wrong.does("try start 60s"));
     EXPECT_TRUE(wrong.leaves());
     EXPECT_TRUE(gateway.daemon().says("Set_Prm of master 2 refused"));
 
     Master right{gateway, {"--tags", "55"}};
-    EXPECT_TRUE(right.does("start 30s"));
+    EXPECT_TRUE(right.does("start 60s"));
     EXPECT_TRUE(eventually([&] { return gateway.diagnosis().at("hex") == "00 0C 00 02 05 33"; }));
     EXPECT_TRUE(eventually([&] { return gateway.diagnosis().at("refusal").is_null(); }));
 }
@@ -116,7 +116,7 @@ TEST(Owner, KeepsTheSlaveAgainstAnotherMasterUntilItReleasesIt)
     Gateway gateway;
     {
         Master owner{gateway, {"--tags", "55,56w", "--no-watchdog"}};
-        ASSERT_TRUE(owner.does("start 30s"));
+        ASSERT_TRUE(owner.does("start 60s"));
         EXPECT_TRUE(owner.does("out 1 = 500"));
         EXPECT_TRUE(gateway.drive().says("tag 56 written 5.00"));
         EXPECT_TRUE(owner.does("stop"));
@@ -124,7 +124,7 @@ TEST(Owner, KeepsTheSlaveAgainstAnotherMasterUntilItReleasesIt)
     }
 
     Master other{gateway, {"--tags", "55,56w", "--master", "3"}};
-    EXPECT_TRUE(other.does("try start 30s"));
+    EXPECT_TRUE(other.does("try start 60s"));
     EXPECT_TRUE(other.ever_said("the slave belongs to master 2"));
     EXPECT_FALSE(other.ever_said("station is in data exchange"));
     EXPECT_TRUE(other.does("set-prm B8 01 64 0B 05 33 01" + std::string(48, '0')));
@@ -141,7 +141,7 @@ TEST(Owner, KeepsTheSlaveAgainstAnotherMasterUntilItReleasesIt)
     EXPECT_TRUE(gateway.daemon().says("the master released the slave"));
 
     Master heir{gateway, {"--tags", "55,56w", "--master", "3"}};
-    EXPECT_TRUE(heir.does("start 30s"));
+    EXPECT_TRUE(heir.does("start 60s"));
     EXPECT_TRUE(heir.does("out 1 = 600"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 6.00"));
     EXPECT_TRUE(eventually([&] { return gateway.station().at("master") == 3; }));
@@ -160,7 +160,7 @@ TEST(BusMembers, AreTheMasterThisGatewayAndTheAddressThatNobodyHas)
 {
     Gateway gateway;
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     for (int i = 0; i < 5; ++i) // Slave_Diag of address 7 by master 2
         EXPECT_TRUE(master.does("send 68 05 05 68 87 82 6D 3C 3E F0 16"));
 

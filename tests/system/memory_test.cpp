@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests how much memory the daemon has. It is locked: no other process can use it.
 #include "gateway.hpp"
+#include "support/paths.hpp"
 
 #include <fmt/format.h>
 
@@ -27,11 +28,11 @@ constexpr double kLimit = DPSLAVE_OPTIMISED ? 1.3 : 1.6;
 
 TEST(Memory, OfTheDaemonIsNotMuchMoreThanThatOfItsLibraries)
 {
-    Process sleeper{{LOCKED_SLEEPER_PROGRAM}};
+    Process sleeper{{built_path("tests/locked_sleeper")}};
     if (!sleeper.says("locked")) GTEST_SKIP() << "this user may not lock memory";
     Gateway gateway;
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     if (gateway.daemon().ever_said("memory is not locked")) GTEST_SKIP() << "the daemon may not lock enough";
 
     const unsigned alone = kib_of(sleeper.pid(), "VmRSS");
@@ -55,7 +56,7 @@ std::optional<unsigned> memory_with_recorder(unsigned kib)
     write_file(gateway.config(), gateway.config_text() + fmt::format("\n[trace]\nbus_kib = {}\n", kib));
     gateway.start_daemon();
     Master master{gateway, {"--tags", "55,56w"}};
-    EXPECT_TRUE(master.does("start 30s"));
+    EXPECT_TRUE(master.does("start 60s"));
     if (gateway.daemon().ever_said("memory is not locked")) return std::nullopt;
     return kib_of(gateway.daemon().pid(), "VmRSS");
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A Modbus server of another project (pymodbus) as the instrument: register = tag.
 #include "gateway.hpp"
+#include "support/paths.hpp"
 
 #include <gmock/gmock.h>
 
@@ -32,9 +33,9 @@ protected:
     }
     void start_instrument()
     {
-        instrument.emplace(std::vector<std::string>{
-            "/usr/bin/python3", std::string{DPSLAVE_SOURCE_DIR} + "/tests/system/pymodbus_instrument.py",
-            gateway->drive_end(), "--baud", "19200"});
+        instrument.emplace(std::vector<std::string>{"/usr/bin/python3",
+                                                    source_path("tests/system/pymodbus_instrument.py"),
+                                                    gateway->drive_end(), "--baud", "19200"});
         ASSERT_TRUE(instrument->says("ready"));
     }
     Arguments with(const std::string& tags) const
@@ -49,11 +50,11 @@ protected:
 TEST_F(Pymodbus, IsReadInBlocksAndWritten)
 {
     Master master{*gateway, with("1,2,3,4,5,75,76,77,24w,25w")};
-    ASSERT_TRUE(master.does("start 30s"));
-    EXPECT_TRUE(master.does("wait 30s for in 1 = 183"));
-    EXPECT_TRUE(master.does("wait 30s for in 5 = 216"));
-    EXPECT_TRUE(master.does("wait 30s for in 6 = 0x0021"));
-    EXPECT_TRUE(master.does("wait 30s for diag ext 030021"));
+    ASSERT_TRUE(master.does("start 60s"));
+    EXPECT_TRUE(master.does("wait 60s for in 1 = 183"));
+    EXPECT_TRUE(master.does("wait 60s for in 5 = 216"));
+    EXPECT_TRUE(master.does("wait 60s for in 6 = 0x0021"));
+    EXPECT_TRUE(master.does("wait 60s for diag ext 030021"));
     EXPECT_TRUE(master.does("out 1 = 605"));
     EXPECT_TRUE(instrument->says("24 = 605"));
     EXPECT_TRUE(master.does("out 2 = 401"));
@@ -71,14 +72,14 @@ TEST_F(Pymodbus, HasATagMissingInTheMiddleAndTheOthersGoOn)
     instrument->send_line("drop 3");
     ASSERT_TRUE(instrument->says("done"));
     Master master{*gateway, with("1,2,3,4,5")};
-    ASSERT_TRUE(master.does("start 30s"));
-    EXPECT_TRUE(master.does("wait 30s for in 5 = 216"));
-    EXPECT_TRUE(master.does("wait 30s for in 1 = 183"));
+    ASSERT_TRUE(master.does("start 60s"));
+    EXPECT_TRUE(master.does("wait 60s for in 5 = 216"));
+    EXPECT_TRUE(master.does("wait 60s for in 1 = 183"));
     EXPECT_TRUE(master.does("expect in 3 = 0")) << "exception 2";
     EXPECT_TRUE(gateway->word_becomes(3, "state", "invalid_tag"));
     EXPECT_EQ(gateway->word(4).at("state"), "good");
     instrument->send_line("set 5 300");
-    EXPECT_TRUE(master.does("wait 30s for in 5 = 300"));
+    EXPECT_TRUE(master.does("wait 60s for in 5 = 300"));
     EXPECT_TRUE(master.does("demand read 3"));
     EXPECT_TRUE(master.does("expect demand reject 0"));
 }
@@ -86,7 +87,7 @@ TEST_F(Pymodbus, HasATagMissingInTheMiddleAndTheOthersGoOn)
 TEST_F(Pymodbus, IsRestartedInTheMiddleAndGetsWhatTheMasterWanted)
 {
     Master master{*gateway, with("1,24w")};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(master.does("out 1 = 605"));
     EXPECT_TRUE(instrument->says("24 = 605"));
     EXPECT_EQ(instrument->end(), 0);
@@ -97,7 +98,7 @@ TEST_F(Pymodbus, IsRestartedInTheMiddleAndGetsWhatTheMasterWanted)
     start_instrument();
     EXPECT_TRUE(gateway->daemon().says("the drive answers"));
     EXPECT_TRUE(instrument->says("24 = 700"));
-    EXPECT_TRUE(master.does("wait 30s for in 1 = 183"));
+    EXPECT_TRUE(master.does("wait 60s for in 1 = 183"));
     EXPECT_TRUE(master.leaves());
 }
 

@@ -16,7 +16,7 @@ TEST(Dpctl, ReportsWithItsExitCodeWhetherDataIsExchanged)
     EXPECT_TRUE(gateway.exchange_ends_with(1));
     {
         Master master{gateway, {"--tags", "55"}};
-        ASSERT_TRUE(master.does("start 30s"));
+        ASSERT_TRUE(master.does("start 60s"));
         EXPECT_TRUE(gateway.exchange_ends_with(0));
         EXPECT_TRUE(gateway.exchange_ends_with(0, "unwinder"));
         EXPECT_TRUE(gateway.exchange_ends_with(0, "5"));
@@ -44,7 +44,7 @@ TEST(Dpctl, AnswersEachQuestionInWordsAndInJson)
 {
     Gateway gateway;
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     for (const char* const question : {"status", "show", "io", "diag", "counters", "version"}) {
         SCOPED_TRACE(question);
         const Outcome words = gateway.dpctl({question}), json = gateway.dpctl({"--json", question});
@@ -94,7 +94,7 @@ TEST(Dpctl, IsRefusedAValueOutsideTheLimitsForWrites)
     EXPECT_EQ(gateway.dpctl({"write", "56", "-12.5"}).status, 0) << "a tag without limits";
 
     Master master{gateway, {"--tags", "62w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(master.does("out 1 = 1200"));
     EXPECT_TRUE(gateway.drive().says("tag 62 written 120.0")) << "the master is not limited";
 }
@@ -120,8 +120,8 @@ TEST(Dpctl, EachWriteIsALineOfTheLogWithTheUserAndTheValueBefore)
     EXPECT_TRUE(gateway.daemon().ever_said(", before not known: done")) << "no master has chosen it";
 
     Master master{gateway, {"--tags", "62,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
-    EXPECT_TRUE(master.does("wait 30s for in 1 = 955"));
+    ASSERT_TRUE(master.does("start 60s"));
+    EXPECT_TRUE(master.does("wait 60s for in 1 = 955"));
     EXPECT_TRUE(gateway.word_becomes(62, "raw", 955));
     EXPECT_EQ(gateway.dpctl({"write", "62", "80.0"}).status, 0);
     EXPECT_TRUE(gateway.daemon().says("set to 80.0" + by));
@@ -139,7 +139,7 @@ TEST(Dpctl, FollowShowsChangesAsTheyCome)
     Process watch{gateway.dpctl_command({"io", "--follow", "--json"})};
     EXPECT_TRUE(watch.says("Wait_Prm"));
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(watch.says("Data_Exch"));
     gateway.drive().send_line("set 55 12.34");
     EXPECT_TRUE(watch.says("12.34"));
@@ -153,7 +153,7 @@ TEST(Dpctl, FollowOfStatusShowsWhatTheMasterOrders)
     Process following{gateway.dpctl_command({"status", "--follow"})};
     EXPECT_TRUE(following.says("state Wait_Prm"));
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(following.says("state Data_Exch (was"));
     ASSERT_TRUE(master.does("sync"));
     EXPECT_TRUE(following.says("state Data_Exch, Sync (was Data_Exch)"));
@@ -176,12 +176,12 @@ TEST(Dpctl, ShowsAnAddressThatWasChangedInTheFileAsPending)
     EXPECT_THAT(gateway.dpctl({"show"}).out, HasSubstr("5 active, 7 pending"));
     {
         Master master{gateway, {"--tags", "55"}, 5};
-        EXPECT_TRUE(master.does("start 30s")) << "until the restart the old one counts";
+        EXPECT_TRUE(master.does("start 60s")) << "until the restart the old one counts";
     }
     EXPECT_EQ(gateway.daemon().end(), 0);
     gateway.start_daemon();
     Master master{gateway, {"--tags", "55"}, 7};
-    EXPECT_TRUE(master.does("start 30s"));
+    EXPECT_TRUE(master.does("start 60s"));
 }
 
 class Lamps : public ::testing::Test {
@@ -217,7 +217,7 @@ TEST_F(Lamps, SpeakTheLanguageOfTheOptionBoard)
     EXPECT_EQ(pattern("green"), "flashing 1 Hz");
 
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(shows(red, "0")) << "data exchange";
     EXPECT_TRUE(flashes(green));
     EXPECT_EQ(pattern("red"), "off");

@@ -19,7 +19,7 @@
 namespace dpslave::test {
 
 /// How long something may take that normally takes a moment: the machine may be slow and loaded.
-inline constexpr std::chrono::seconds kLimit{30};
+inline constexpr std::chrono::seconds kLimit{60};
 
 /// The output of a program, line by line; written by one thread, awaited by another.
 class Transcript {

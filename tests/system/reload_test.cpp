@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A new configuration for a daemon that serves: by dpctl reload and by SIGHUP.
 #include "gateway.hpp"
+#include "support/paths.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -50,7 +51,7 @@ protected:
     void rewinder_exchanges()
     {
         Master master{gateway, {"--tags", "55,56w", "--no-watchdog"}, 6};
-        ASSERT_TRUE(master.does("start 30s"));
+        ASSERT_TRUE(master.does("start 60s"));
         EXPECT_TRUE(master.does("out 1 = 500"));
         EXPECT_TRUE(gateway.drive().says("unit 01: tag 56 written 5.00"));
         EXPECT_TRUE(master.does("stop"));
@@ -107,8 +108,8 @@ protected:
     {
         gateway.drive().send_line("unit 00");
         gateway.drive().send_line("set 55 12.50");
-        EXPECT_TRUE(master.does("start 30s"));
-        EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
+        EXPECT_TRUE(master.does("start 60s"));
+        EXPECT_TRUE(master.does("wait 60s for in 1 = 1250"));
         EXPECT_TRUE(master.does("follow on"));
         EXPECT_TRUE(master.does("out 1 = 700"));
         EXPECT_TRUE(gateway.drive().says("unit 00: tag 56 written 7.00"));
@@ -118,15 +119,15 @@ protected:
     /// misses: that also depends on what else the machine has to do.
     void unwinder_noticed_nothing()
     {
-        EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
+        EXPECT_TRUE(master.does("wait 60s for in 1 = 1250"));
         EXPECT_FALSE(master.ever_said("in 1 is 0")) << "each change was shown since the start";
-        EXPECT_TRUE(master.does("wait 30s for state data-exchange"));
+        EXPECT_TRUE(master.does("wait 60s for state data-exchange"));
         EXPECT_EQ(gateway.station(0).at("name"), "unwinder");
         EXPECT_EQ(gateway.station(0).at("left_count"), 0);
         EXPECT_EQ(gateway.drive().how_often("unit 00: tag 56 written 0.00"), 0U);
         gateway.drive().send_line("unit 00");
         gateway.drive().send_line("set 55 13.00");
-        EXPECT_TRUE(master.does("wait 30s for in 1 = 1300")) << "and its drive is served";
+        EXPECT_TRUE(master.does("wait 60s for in 1 = 1300")) << "and its drive is served";
         EXPECT_TRUE(master.does("out 1 = 800"));
         EXPECT_TRUE(gateway.drive().says("unit 00: tag 56 written 8.00"));
     }
@@ -150,7 +151,7 @@ TEST_F(Reload, ZeroesTheOutputsOfAStationThatIsRemoved)
 TEST_F(Reload, CarefullyRefusesToTakeAStationOutOfItsExchangeButTheUnitDoesIt)
 {
     Master master{gateway, {"--tags", "55"}, 6};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     write_file(gateway.config(), without_rewinder());
 
     const Outcome careful = gateway.dpctl({"reload", "--careful"});
@@ -158,7 +159,7 @@ TEST_F(Reload, CarefullyRefusesToTakeAStationOutOfItsExchangeButTheUnitDoesIt)
     EXPECT_THAT(careful.err, HasSubstr("a master exchanges data with rewinder, which would leave the bus"));
     EXPECT_EQ(gateway.json({"status"}).at("stations").size(), 2U);
 
-    const std::string unit = content(DPSLAVE_SOURCE_DIR "/systemd/dpslaved.service.in");
+    const std::string unit = content(source_path("systemd/dpslaved.service.in"));
     EXPECT_THAT(unit, HasSubstr("\nExecReload=!@BIN@/dpctl --socket @SOCKET@ reload\n"));
     EXPECT_EQ(gateway.dpctl({"reload"}).status, 0);
     EXPECT_EQ(gateway.json({"status"}).at("stations").size(), 1U);
@@ -174,7 +175,7 @@ TEST_F(Reload, RemovesTheRightStationAlsoAfterTheirOrderWasAnother)
     EXPECT_EQ(changes_in(reload(without_rewinder())), "station rewinder removed\n");
     EXPECT_EQ(gateway.station().at("name"), "unwinder");
     Master master{gateway, {"--tags", "55"}};
-    EXPECT_TRUE(master.does("start 30s"));
+    EXPECT_TRUE(master.does("start 60s"));
 }
 
 TEST_F(Reload, ZeroesTheOutputsOfAStationThatIsChangedAndStartsItAnew)
@@ -188,7 +189,7 @@ TEST_F(Reload, ZeroesTheOutputsOfAStationThatIsChangedAndStartsItAnew)
               "Demand Data or other abilities)\n");
     EXPECT_TRUE(gateway.drive().says("unit 01: tag 56 written 0.00"));
     Master master{gateway, {"--tags", "55,56w"}, 6};
-    EXPECT_TRUE(master.does("start 30s"));
+    EXPECT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(master.does("out 1 = 300"));
     EXPECT_TRUE(gateway.drive().says("unit 01: tag 56 written 3.00"));
     EXPECT_EQ(gateway.drive().how_often("unit 01: tag 56 written 0.00"), 0U)
@@ -207,12 +208,12 @@ TEST_F(ReloadInService, OfOtherStationsOnTheSameLineIsNotNoticed)
 
 TEST_F(ReloadInService, ThatAddsAndRemovesALineIsNotNoticed)
 {
-    Process line{{DPSIM_PROGRAM, "line", "--baud", "38400", "--bits", "10", "--a",
+    Process line{{program_path("dpsim"), "line", "--baud", "38400", "--bits", "10", "--a",
                   gateway.folder("other-drive"), "--b", gateway.folder("other-gateway")}};
     ASSERT_TRUE(line.says("ready"));
-    Process drive{{DPSIM_PROGRAM, "drive", "--profile", "590", "--port", gateway.folder("other-drive"),
-                   "--baud", "38400", "--log", "--table",
-                   std::string{DPSLAVE_SOURCE_DIR} + "/config/tags/example.csv", "--unit", "00"}};
+    Process drive{{program_path("dpsim"), "drive", "--profile", "590", "--port",
+                   gateway.folder("other-drive"), "--baud", "38400", "--log", "--table",
+                   source_path("config/tags/example.csv"), "--unit", "00"}};
     ASSERT_TRUE(drive.says("ready"));
 
     std::string more = text;
@@ -220,7 +221,7 @@ TEST_F(ReloadInService, ThatAddsAndRemovesALineIsNotNoticed)
         "[[line]]\nname = \"p4\"\nport = \"{}\"\nprotocol = \"ei-ascii\"\nbaud = 38400\n"
         "[[station]]\nname = \"dancer\"\naddress = 7\nprofile = \"590\"\nline = \"p4\"\nunit = \"00\"\n"
         "tags = \"{}/config/tags/example.csv\"\n",
-        gateway.folder("other-gateway").string(), DPSLAVE_SOURCE_DIR);
+        gateway.folder("other-gateway").string(), source_path());
     const Outcome added = reload(more);
     EXPECT_EQ(added.status, 0) << added.err;
     EXPECT_THAT(added.out, HasSubstr("line p4 added"));
@@ -296,7 +297,7 @@ TEST_F(ReloadInService, OfAnotherAddressOfAnOptionBoardIsPendingUntilTheNextStar
     const Json info = gateway.json({"show", "unwinder"}).at("stations").at(0).at("info");
     EXPECT_EQ(info.at("address_active"), 5);
     EXPECT_EQ(info.at("address_pending"), 7);
-    EXPECT_TRUE(master.does("wait 30s for state data-exchange"));
+    EXPECT_TRUE(master.does("wait 60s for state data-exchange"));
     EXPECT_EQ(gateway.station(0).at("left_count"), 0);
 
     EXPECT_EQ(changes_in(reload(text)), "Nothing has changed.\n") << "taken back";
@@ -472,8 +473,8 @@ protected:
     ReloadOfPorts() : Reload{{.units = {"00"}}}
     {
         gateway.drive().send_line("set 55 12.50");
-        EXPECT_TRUE(master.does("start 30s"));
-        EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
+        EXPECT_TRUE(master.does("start 60s"));
+        EXPECT_TRUE(master.does("wait 60s for in 1 = 1250"));
         EXPECT_TRUE(master.does("out 1 = 700"));
         EXPECT_TRUE(gateway.drive().says("tag 56 written 7.00"));
         gateway.drive().skip();
@@ -490,12 +491,12 @@ protected:
     }
 
     Master master{gateway, {"--tags", "55,56w"}, 5};
-    Process line{{DPSIM_PROGRAM, "line", "--baud", "38400", "--bits", "10", "--a",
+    Process line{{program_path("dpsim"), "line", "--baud", "38400", "--bits", "10", "--a",
                   gateway.folder("other-drive"), "--b", gateway.folder("other-gateway")}};
     bool is_joined = line.says("ready"); ///< before the drive opens its end
-    Process drive{{DPSIM_PROGRAM, "drive", "--profile", "590", "--port", gateway.folder("other-drive"),
-                   "--baud", "38400", "--log", "--table",
-                   std::string{DPSLAVE_SOURCE_DIR} + "/config/tags/example.csv", "--unit", "00"}};
+    Process drive{{program_path("dpsim"), "drive", "--profile", "590", "--port",
+                   gateway.folder("other-drive"), "--baud", "38400", "--log", "--table",
+                   source_path("config/tags/example.csv"), "--unit", "00"}};
 };
 
 TEST_F(ReloadOfPorts, WritesStandingOutputsAtTheNewOneAndLeavesTheOldDriveSafe)
@@ -505,7 +506,7 @@ TEST_F(ReloadOfPorts, WritesStandingOutputsAtTheNewOneAndLeavesTheOldDriveSafe)
     EXPECT_THAT(outcome.out, HasSubstr("line p3 moves from"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 0.00"));
     EXPECT_TRUE(drive.says("tag 56 written 7.00"));
-    EXPECT_TRUE(master.does("wait 30s for in 1 = 3300"));
+    EXPECT_TRUE(master.does("wait 60s for in 1 = 3300"));
     EXPECT_EQ(gateway.station(0).at("left_count"), 0);
     EXPECT_EQ(drive.how_often("tag 56 written 0.00"), 0U);
     no_fault_was_logged();
@@ -535,7 +536,7 @@ TEST_F(ReloadOfPorts, OfTwoLinesThatSwapThemIsWithoutAFault)
         "[[line]]\nname = \"p4\"\nport = \"{}\"\nprotocol = \"ei-ascii\"\nbaud = 38400\n"
         "[[station]]\nname = \"dancer\"\naddress = 7\nprofile = \"590\"\nline = \"p4\"\nunit = \"00\"\n"
         "tags = \"{}/config/tags/example.csv\"\n",
-        port("other-gateway"), DPSLAVE_SOURCE_DIR);
+        port("other-gateway"), source_path());
     ASSERT_EQ(reload(both).status, 0);
     const auto dancer_answers = [&] { return gateway.station(1).at("drive").at("link") == "answers"; };
     EXPECT_TRUE(eventually(dancer_answers));
@@ -545,7 +546,7 @@ TEST_F(ReloadOfPorts, OfTwoLinesThatSwapThemIsWithoutAFault)
     const Outcome outcome = reload(changed(swapped, "[[line]]", "SWAP", port("other-gateway")));
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_TRUE(drive.says("tag 56 written 7.00"));
-    EXPECT_TRUE(master.does("wait 30s for in 1 = 3300"));
+    EXPECT_TRUE(master.does("wait 60s for in 1 = 3300"));
     EXPECT_TRUE(eventually(dancer_answers));
     EXPECT_EQ(drive.how_often("tag 56 written 0.00"), 0U);
     EXPECT_EQ(gateway.drive().how_often("tag 56 written 0.00"), 0U);

@@ -62,8 +62,8 @@ TEST_F(UnknownScale, OfAnInputHoldsTheStartUntilAReloadBringsItsRow)
 
     table("tag,type,decimals\n55,INT,2\n56,INT,2\n");
     EXPECT_EQ(gateway.dpctl({"reload"}).status, 0);
-    EXPECT_TRUE(master.does("start 30s"));
-    EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
+    EXPECT_TRUE(master.does("start 60s"));
+    EXPECT_TRUE(master.does("wait 60s for in 1 = 1250"));
     EXPECT_TRUE(gateway.exchange_ends_with(0));
     EXPECT_TRUE(master.does("out 1 = 700"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 7.00"));
@@ -88,8 +88,8 @@ TEST_F(UnknownScale, WithOneScaleForAllUnlistedTagsTheExchangeBegins)
     gateway.drive().send_line("set 55 12.50");
     Master master{gateway, {"--tags", "55,56w"}};
 
-    EXPECT_TRUE(master.does("start 30s"));
-    EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
+    EXPECT_TRUE(master.does("start 60s"));
+    EXPECT_TRUE(master.does("wait 60s for in 1 = 1250"));
     EXPECT_TRUE(master.leaves());
 }
 

@@ -2,6 +2,7 @@
 // Tests how the daemon starts, does not start, and ends; what it reports to the service manager.
 #include "gateway.hpp"
 #include "service_manager.hpp"
+#include "support/paths.hpp"
 
 #include <gmock/gmock.h>
 
@@ -16,17 +17,17 @@ TEST(End, BySigtermZeroesTheOutputsRemovesTheSocketAndIsASuccess)
 {
     Gateway gateway;
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(master.does("out 1 = 500"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 5.00"));
 
     EXPECT_EQ(gateway.daemon().end(), 0);
     EXPECT_TRUE(gateway.drive().says("tag 56 written 0.00"));
     EXPECT_FALSE(std::filesystem::exists(gateway.socket()));
-    EXPECT_TRUE(master.does("wait 30s for state not data-exchange"));
+    EXPECT_TRUE(master.does("wait 60s for state not data-exchange"));
 
     gateway.start_daemon();
-    EXPECT_TRUE(master.does("wait 30s for state data-exchange")) << "and it can be started again at once";
+    EXPECT_TRUE(master.does("wait 60s for state data-exchange")) << "and it can be started again at once";
     EXPECT_TRUE(gateway.drive().says("tag 56 written 5.00"));
 }
 
@@ -38,7 +39,7 @@ TEST(Notify, ReportsReadinessStatesTheWatchdogAndTheEnd)
     EXPECT_TRUE(manager.hears("READY=1"));
     EXPECT_TRUE(manager.hears("STATUS=0 of 1 in Data_Exch; unwinder: Wait_Prm"));
     Master master{gateway, {"--tags", "55"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(manager.hears("STATUS=1 of 1 in Data_Exch; unwinder: Data_Exch with master 2"));
     for (int i = 0; i < 5; ++i) EXPECT_TRUE(manager.hears("WATCHDOG=1"));
     gateway.drive().send_line("silence");
@@ -120,8 +121,8 @@ TEST(BadStart, ByWrongUsageEndsWithTwo)
     const Gateway gateway{{.started = false}};
     EXPECT_EQ(gateway.run_daemon({"--no-such-option"}).status, 2);
     EXPECT_EQ(gateway.run_daemon({"something"}).status, 2);
-    EXPECT_EQ(run({DPSLAVED_PROGRAM, "--help"}).status, 0);
-    EXPECT_EQ(run({DPSLAVED_PROGRAM, "--version"}).status, 0);
+    EXPECT_EQ(run({program_path("dpslaved"), "--help"}).status, 0);
+    EXPECT_EQ(run({program_path("dpslaved"), "--version"}).status, 0);
 }
 
 TEST(BadStart, WithoutTheBusPortEndsWithThreeAndLeavesNothingBehind)
@@ -156,7 +157,7 @@ TEST(StartWithoutADrivePort, CostsItsOwnStationsOnlyUntilThePortAppears)
     gateway.drive().send_line("set 55 12.50");
     Master master{gateway, {"--tags", "55,56w"}};
     ASSERT_TRUE(master.does("start 60s"));
-    EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
+    EXPECT_TRUE(master.does("wait 60s for in 1 = 1250"));
     EXPECT_TRUE(gateway.station().at("drive").at("port_open"));
 }
 
@@ -164,7 +165,7 @@ TEST(BadStart, NextToARunningDaemonEndsWithThreeAndDoesNotDisturbIt)
 {
     Gateway running;
     Master master{running, {"--tags", "55"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
 
     const Outcome same_port = running.run_daemon();
     EXPECT_EQ(same_port.status, 3);

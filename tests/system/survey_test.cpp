@@ -84,7 +84,7 @@ TEST_F(BareDrive, IsSurveyedInterruptedResumedConfirmedAndExchanged)
     EXPECT_THAT(checked.out + checked.err, HasSubstr("confirmation")) << "the other rows still wait";
     EXPECT_EQ(gateway.dpctl({"reload"}).status, 0);
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(master.does("wait 10s for in 1 = 1234"));
     EXPECT_TRUE(master.does("out 1 = 4200"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 42.00"));

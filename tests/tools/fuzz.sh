@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # usage: fuzz.sh SOURCE
-# tools/fuzz fails with a crash, a timeout, a leak and a target that did not run. It adds up what ran, and goes on until the
+# tools/run fuzz fails with a crash, a timeout, a leak and a target that did not run. It adds up what ran, and goes on until the
 # goal. Programs stand for the targets that end as libFuzzer does.
 set -u
 dir=$(mktemp -d)
@@ -26,8 +26,8 @@ target() {
 ran() { # EXECUTIONS
     printf 'echo "#9 NEW    cov: 42 ft: 7 corp: 3/9b"\necho "Done %s runs in 2 second(s)"\necho "stat::number_of_executed_units: %s"' "$1" "$1"
 }
-fuzz() { # WORD...: what tools/fuzz prints, without colours; its status
-    "$source/tools/fuzz" --folder "$dir" --tally "$dir/tally" "$@" 2>&1 | sed 's/\x1b\[[0-9]*m//g'
+fuzz() { # WORD...: what tools/run fuzz prints, without colours; its status
+    "$source/tests/fuzz/run" --folder "$dir" --tally "$dir/tally" "$@" 2>&1 | sed 's/\x1b\[[0-9]*m//g'
     return "${PIPESTATUS[0]}"
 }
 source=$1

@@ -1,11 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 # One static library for each folder of src/. 
 
-add_library(dpslave_flags INTERFACE)
-target_compile_options(dpslave_flags INTERFACE
+add_library(dpslave_warnings INTERFACE)
+target_compile_options(dpslave_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wcast-align
   -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion -Wformat=2 -Wimplicit-fallthrough
   $<$<BOOL:${DPSLAVE_WARNINGS_AS_ERRORS}>:-Werror>)
+include(Hardening)
+target_link_libraries(dpslave_warnings INTERFACE dpslave_hardening)
+
+add_library(dpslave_flags INTERFACE)
+target_link_libraries(dpslave_flags INTERFACE dpslave_warnings)
 if(DPSLAVE_SANITIZE)
   target_compile_options(dpslave_flags INTERFACE
     -fsanitize=${DPSLAVE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
@@ -14,9 +19,6 @@ if(DPSLAVE_SANITIZE)
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -fno-sanitize=null,vptr,alignment,object-size>)
   target_link_options(dpslave_flags INTERFACE -fsanitize=${DPSLAVE_SANITIZE})
 endif()
-
-include(Hardening)
-target_link_libraries(dpslave_flags INTERFACE dpslave_hardening)
 
 # CMAKE_UNITY_BUILD compiles several files of a library at once, which more than halves the time. ALONE names those that
 # cannot stand beside a neighbour, each with its reason.
@@ -60,7 +62,7 @@ if(NOT CMAKE_BUILD_TYPE STREQUAL "Debug" AND NOT CMAKE_CXX_FLAGS MATCHES "-O0")
 endif()
 
 # dpslave_library(NAME [FAST] SOURCES ... ALONE ...) makes dpslave_NAME, which links what the table lets it open.
-# FAST: a telegram or a drive waits for its code. It is made for speed, in the compiler's own order (M1 of tools/bench).
+# FAST: a telegram or a drive waits for its code. It is made for speed, in the compiler's own order (M1 of tools/run bench).
 function(dpslave_library name)
   cmake_parse_arguments(arg "FAST" "" "SOURCES;ALONE" ${ARGN})
   dpslave_alone(${arg_ALONE})
@@ -84,39 +86,54 @@ function(dpslave_program name)
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
 
-# The headers that every test includes, compiled once. Only beside CMAKE_UNITY_BUILD: without it each file proves that it
-# includes what it uses.
-function(dpslave_test_headers target)
-  if(NOT CMAKE_UNITY_BUILD)
-    return()
-  endif()
-  if(NOT TARGET dpslave_test_headers)
-    file(WRITE ${PROJECT_BINARY_DIR}/test_headers.cpp "")
-    add_library(dpslave_test_headers OBJECT ${PROJECT_BINARY_DIR}/test_headers.cpp)
-    target_link_libraries(dpslave_test_headers PRIVATE dpslave_flags GTest::gmock)
-    target_compile_options(dpslave_test_headers PRIVATE -O0 -g1)
-    target_precompile_headers(dpslave_test_headers PRIVATE <gmock/gmock.h> <gtest/gtest.h>
-      <array> <chrono> <filesystem> <functional> <map> <random> <span> <sstream>)
-  endif()
-  target_precompile_headers(${target} REUSE_FROM dpslave_test_headers)
+# The libraries of a list and all that they open.
+function(dpslave_closure result)
+  set(found)
+  while(ARGN)
+    list(POP_FRONT ARGN library)
+    string(REGEX REPLACE "^dpslave_" "" name "${library}")
+    if(name IN_LIST DPSLAVE_LIBRARIES AND NOT library IN_LIST found)
+      list(APPEND found ${library})
+      list(APPEND ARGN ${dpslave_${name}_opens})
+    endif()
+  endwhile()
+  set(${result} ${found} PARENT_SCOPE)
 endfunction()
 
-# dpslave_test(NAME SOURCES ... LINKS ... ALONE ... [OPTIMISED]) makes the program test_<name> and its ctest entries.
+# With AddressSanitizer it is the libraries that are judged. A test is compiled without, which saves a quarter of the build; so that
+# templates and inline functions that both have are those of the library, the libraries stand first when the test is linked.
+# INSTRUMENTED: what is judged is in the headers.
+function(dpslave_test_is_judge target)
+  cmake_parse_arguments(arg "INSTRUMENTED" "" "LINKS" ${ARGN})
+  if(NOT DPSLAVE_SANITIZE MATCHES "address" OR arg_INSTRUMENTED)
+    target_link_libraries(${target} PRIVATE dpslave_flags)
+    return()
+  endif()
+  dpslave_closure(judged ${arg_LINKS})
+  list(TRANSFORM judged REPLACE "(.+)" "$<TARGET_FILE:\\1>")
+  target_link_libraries(${target} PRIVATE dpslave_warnings)
+  target_compile_definitions(${target} PRIVATE __SANITIZE_ADDRESS__=1) # as the compiler says it where it instruments
+  target_link_options(${target} PRIVATE -fsanitize=${DPSLAVE_SANITIZE} LINKER:--whole-archive ${judged} LINKER:--no-whole-archive)
+endfunction()
+
+# dpslave_test(NAME SOURCES ... LINKS ... ALONE ... [OPTIMISED] [INSTRUMENTED]) makes the program test_<name> and its ctest entries.
 # What is judged is optimised. Its judge is only if it says so: that mostly costs more time than it saves.
 function(dpslave_test name)
-  cmake_parse_arguments(arg "OPTIMISED" "" "SOURCES;LINKS;ALONE" ${ARGN})
+  cmake_parse_arguments(arg "OPTIMISED;INSTRUMENTED" "" "SOURCES;LINKS;ALONE" ${ARGN})
   dpslave_alone(${arg_ALONE})
   add_executable(test_${name} ${arg_SOURCES})
   target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests ${PROJECT_SOURCE_DIR}/src)
-  target_link_libraries(test_${name} PRIVATE dpslave_flags ${arg_LINKS} GTest::gmock GTest::gtest_main)
+  target_link_libraries(test_${name} PRIVATE ${arg_LINKS} dpslave_test_paths GTest::gmock GTest::gtest_main)
+  if(arg_INSTRUMENTED)
+    set(instrumented INSTRUMENTED)
+  endif()
+  dpslave_test_is_judge(test_${name} LINKS ${arg_LINKS} ${instrumented})
   set_target_properties(test_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
   if(arg_OPTIMISED)
     target_compile_options(test_${name} PRIVATE -O2)
   else()
     target_compile_options(test_${name} PRIVATE -O0 -g1)
-    dpslave_test_headers(test_${name})
   endif()
-  target_compile_definitions(test_${name} PRIVATE DPSLAVE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   dpslave_ctest(${name})
 endfunction()
 

@@ -51,16 +51,16 @@ TEST_F(TraceOfTheBus, SaysThatAReplyWasNotTakenByThePort)
 {
     start({}, {station(kStation)});
     uart::refuse_edges(true);
-    EXPECT_EQ(master.ask(fdl_status(kStation), 1), std::nullopt);
+    ASSERT_TRUE(asked_until(fdl_status(kStation), [this] { return snapshot().unsent != 0; }));
     stop();
 
     const auto all = records();
     EXPECT_TRUE(
         std::none_of(all.begin(), all.end(), [](const Record& one) { return one.head.kind == Kind::sent; }));
-    ASSERT_FALSE(all.empty());
-    EXPECT_EQ(all.back().head.kind, Kind::unanswered);
-    EXPECT_EQ(static_cast<fdl::Unanswered::Why>(all.back().head.detail), fdl::Unanswered::Why::unsent);
-    EXPECT_EQ(all.back().head.address, kStation);
+    EXPECT_TRUE(std::any_of(all.begin(), all.end(), [](const Record& one) {
+        return one.head.kind == Kind::unanswered && one.head.address == kStation &&
+               static_cast<fdl::Unanswered::Why>(one.head.detail) == fdl::Unanswered::Why::unsent;
+    }));
 }
 
 TEST_F(TraceOfTheBus, SaysWhenWhatWasUnfinishedWasGivenUp)
@@ -81,7 +81,7 @@ TEST_F(TraceOfTheBus, SaysWhenWhatWasUnfinishedWasGivenUp)
 TEST_F(TraceOfTheBus, NamesTheRateThatASearchGoesOnAt)
 {
     start({.baud = std::nullopt}, {station(kStation)});
-    ASSERT_TRUE(eventually([this] { return snapshot().baud == Baud::k500; }, std::chrono::seconds{30}));
+    ASSERT_TRUE(eventually([this] { return snapshot().baud == Baud::k500; }));
     stop();
 
     const auto all = records();

@@ -16,7 +16,7 @@ protected:
         EXPECT_TRUE(eventually([&] { return (old = link.stations.collect()) != nullptr; }));
         return old;
     }
-    bool answers(std::uint8_t address, int tries = 20)
+    bool answers(std::uint8_t address, int tries = 200)
     {
         return master.ask(fdl_status(address), tries).has_value();
     }

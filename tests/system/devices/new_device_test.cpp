@@ -106,12 +106,12 @@ TEST_F(NewDevice, NeedsAProfileATagTableAndAGsdOnly)
     Master master{gateway,
                   {"--family", "technology-box", "--ident", "0x0C0D", "--tags", "301,302w", "--no-demand",
                    "--no-sync-freeze"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     gateway.drive().send_line("set 301 12.5");
-    EXPECT_TRUE(master.does("wait 30s for in 1 = 125"));
+    EXPECT_TRUE(master.does("wait 60s for in 1 = 125"));
     EXPECT_TRUE(master.does("out 1 = -300"));
     EXPECT_TRUE(gateway.drive().says("tag 302 written -30.0"));
-    EXPECT_TRUE(master.does("wait 30s for diag ext 04000000"));
+    EXPECT_TRUE(master.does("wait 60s for diag ext 04000000"));
     EXPECT_TRUE(gateway.word_becomes(301, "name", "Tension"));
     EXPECT_EQ(gateway.station().at("device"), "Winder of the works of Miller and sons");
     EXPECT_EQ(gateway.tec("FAULT"), 0);

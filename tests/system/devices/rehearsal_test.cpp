@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A rehearsal before the plant: the gateway, and a master that has the plant's own GSD and its modules.
+#include "support/paths.hpp"
 #include "system/gateway.hpp"
 
 #include <gmock/gmock.h>
@@ -9,7 +10,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::string kGsd = DPSLAVE_SOURCE_DIR "/gsd/590/590_0533.GSD";
+const std::string kGsd = source_path("gsd/590/590_0533.GSD");
 const std::string kModules = "Demand-Data,Process-Data-Input,process-data-output";
 
 TEST(Rehearsal, WithTheGsdOfThePlantAndItsTagsExchangesThem)
@@ -19,16 +20,16 @@ TEST(Rehearsal, WithTheGsdOfThePlantAndItsTagsExchangesThem)
     ASSERT_TRUE(master.says("10 input and 10 output octets"));
     ASSERT_TRUE(master.says("octets 0 to 3 of User_Prm_Data are 00 37 00 38"));
 
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     gateway.drive().send_line("set 55 12.50");
-    EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
+    EXPECT_TRUE(master.does("wait 60s for in 1 = 1250"));
     EXPECT_TRUE(master.does("out 1 = 500"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 5.00"));
     EXPECT_TRUE(master.leaves());
 }
 
 /// A plant's file: one octet before the tags, and three words in one identifier.
-const std::string kPlantGsd = DPSLAVE_SOURCE_DIR "/tests/gsd/cases/LEAD2408.GSD";
+const std::string kPlantGsd = source_path("tests/gsd/cases/LEAD2408.GSD");
 const Arguments kPlantMaster{"--gsd",    kPlantGsd,    "--modules", "map",
                              "--family", "controller", "--master",  "36"};
 
@@ -45,16 +46,16 @@ Wiring plant(const std::string& keys)
 Outcome check(const Gateway& gateway)
 {
     return gateway.dpctl(
-        {"gsd", "check", kPlantGsd, "--station", "5", "--profiles", DPSLAVE_SOURCE_DIR "/config/profiles"});
+        {"gsd", "check", kPlantGsd, "--station", "5", "--profiles", source_path("config/profiles")});
 }
 
 TEST(Rehearsal, WithAPlantsFileThatDiffersFromTheProfileExchangesByTheKeysOfTheStation)
 {
     Gateway gateway{plant("tags_at = 1\nidentifiers = [\"52\", \"60\"]\n")};
     Master master{gateway, kPlantMaster};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     gateway.drive().send_line("set 1 999.9");
-    EXPECT_TRUE(master.does("wait 30s for in 1 = 9999"));
+    EXPECT_TRUE(master.does("wait 60s for in 1 = 9999"));
     EXPECT_TRUE(master.does("out 1 = 605"));
     EXPECT_TRUE(gateway.drive().says("tag 24 written 60.5"));
     EXPECT_TRUE(master.leaves());
@@ -84,8 +85,8 @@ TEST(Rehearsal, WithAPlantsFileIsRefusedWithoutTheKeysAsTheCheckOfTheFileSays)
 TEST(Rehearsal, WithTheListingOfTheManualIsDoneWithDemandDataAlone)
 {
     Gateway gateway;
-    Master master{gateway, {"--gsd", DPSLAVE_SOURCE_DIR "/gsd/manual/584s-590/EURO0533.GSD", "--modules=#1"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    Master master{gateway, {"--gsd", source_path("gsd/manual/584s-590/EURO0533.GSD"), "--modules=#1"}};
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(master.does("demand read 55"));
     EXPECT_TRUE(master.leaves());
 }
@@ -109,7 +110,8 @@ TEST(Rehearsal, WithTheIdentOfAnotherDeviceIsRefusedAndTheMasterSaysSo)
 /// dpsim master with these options; it ends before it opens the port.
 Outcome master_with(const Arguments& options)
 {
-    Arguments command{DPSIM_PROGRAM, "master", "--port", "/dev/null", "--baud", "187500", "--slave", "5"};
+    Arguments command{
+        program_path("dpsim"), "master", "--port", "/dev/null", "--baud", "187500", "--slave", "5"};
     command.insert(command.end(), options.begin(), options.end());
     return run(command);
 }

@@ -56,13 +56,13 @@ TEST(TechnologyBox, ReportsTripAndExtDiagnosticInTheGoldenDiagnosisTelegram)
 {
     Gateway gateway{box()};
     Master master{gateway, for_box({"--tags", "55,56w"})};
-    ASSERT_TRUE(master.does("start 30s"));
-    EXPECT_TRUE(master.does("wait 30s for diag 000C0001164904000000")) << "the block is always sent";
+    ASSERT_TRUE(master.does("start 60s"));
+    EXPECT_TRUE(master.does("wait 60s for diag 000C0001164904000000")) << "the block is always sent";
 
     gateway.drive().send_line("set 4 0001");
-    EXPECT_TRUE(master.does("wait 30s for diag 000C0001164904010000")) << "a change is an event of its own";
+    EXPECT_TRUE(master.does("wait 60s for diag 000C0001164904010000")) << "a change is an event of its own";
     EXPECT_EQ(gateway.dpctl({"tec", "set", "EXT DIAGNOSTIC", "0x6AB5"}).status, 0);
-    EXPECT_TRUE(master.does("wait 30s for diag 000C00011649 04016AB5"));
+    EXPECT_TRUE(master.does("wait 60s for diag 000C00011649 04016AB5"));
     EXPECT_TRUE(master.does("expect state data-exchange"));
 
     EXPECT_TRUE(eventually([&] { return gateway.diagnosis().at("hex") == "00 0C 00 01 16 49 04 01 6A B5"; }));
@@ -71,7 +71,7 @@ TEST(TechnologyBox, ReportsTripAndExtDiagnosticInTheGoldenDiagnosisTelegram)
     EXPECT_TRUE(gateway.daemon().says("trip of the drive: 1: LINK OVERVOLTS"));
 
     gateway.drive().send_line("set 4 0000");
-    EXPECT_TRUE(master.does("wait 30s for diag 000C0001164904006AB5"));
+    EXPECT_TRUE(master.does("wait 60s for diag 000C0001164904006AB5"));
     EXPECT_TRUE(gateway.daemon().says("trip of the drive: none any more"));
     EXPECT_TRUE(master.leaves());
 }
@@ -85,7 +85,7 @@ TEST(TechnologyBox, ReportsTheFirstDiagnosisOfAStartUpWithTheTripThatStands)
     EXPECT_TRUE(eventually([&] { return gateway.diagnosis().at("hex") == "0A 05 00 FF 16 49 04 14 12 34"; }))
         << gateway.diagnosis().at("hex");
     Master master{gateway, for_box({"--tags", "55,56w"})};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(master.does("diag"));
     EXPECT_TRUE(master.does("expect diag ext-diag"));
     EXPECT_TRUE(master.does("expect diag ext 04141234"));
@@ -98,9 +98,9 @@ TEST(TechnologyBox, Of590PlusReportsThatItHasTrippedButNotWhy)
     wiring.profile = "590plus";
     Gateway gateway{wiring};
     Master master{gateway, {"--family", "technology-box", "--ident", "0x0B0B", "--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     gateway.drive().send_line("set 4 0005");
-    EXPECT_TRUE(master.does("wait 30s for diag ext 041F0000"));
+    EXPECT_TRUE(master.does("wait 60s for diag ext 041F0000"));
 }
 
 TEST(TechnologyBox, Of590PlusIsTrippedWhileItSaysThatItIsNotHealthy)
@@ -112,26 +112,26 @@ TEST(TechnologyBox, Of590PlusIsTrippedWhileItSaysThatItIsNotHealthy)
         "55,Speed feedback,INT,2,-300.00,300.00,ro,,,0.00\n";
     Gateway gateway{wiring};
     Master master{gateway, {"--family", "technology-box", "--ident", "0x0B0B", "--tags", "55"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(
         eventually([&] { return gateway.dpctl({"show"}).out.find("trip 0: NO TRIP") != std::string::npos; }));
-    EXPECT_TRUE(master.does("wait 30s for diag ext 04000000")) << "a healthy drive has not tripped";
+    EXPECT_TRUE(master.does("wait 60s for diag ext 04000000")) << "a healthy drive has not tripped";
 
     gateway.drive().send_line("set 12 0");
-    EXPECT_TRUE(master.does("wait 30s for diag ext 041F0000"));
+    EXPECT_TRUE(master.does("wait 60s for diag ext 041F0000"));
     EXPECT_TRUE(gateway.daemon().says("trip of the drive: 31: TRIPPED"));
     gateway.drive().send_line("set 12 1");
-    EXPECT_TRUE(master.does("wait 30s for diag ext 04000000"));
+    EXPECT_TRUE(master.does("wait 60s for diag ext 04000000"));
 }
 
 TEST(TechnologyBox, ThatReadsAndWritesOneParameterHasItInBothDirections)
 {
     Gateway gateway{box()};
     Master master{gateway, for_box({"--tags", "56rw,55"})};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(master.does("out 1 = 500"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 5.00"));
-    EXPECT_TRUE(master.does("wait 30s for in 1 = 500"));
+    EXPECT_TRUE(master.does("wait 60s for in 1 = 500"));
 
     EXPECT_TRUE(
         eventually([&] { return gateway.json({"io"}).at("stations").at(0).at("words").size() == 3; }));
@@ -151,8 +151,8 @@ TEST(TechnologyBox, WhoseTripTagTheDriveDoesNotHaveDoesNotKnowTheTrip)
         return gateway.dpctl({"show"}).out.find("trip unknown: tag 999 was never read") != std::string::npos;
     }));
     Master master{gateway, for_box({"--tags", "55,56w"})};
-    ASSERT_TRUE(master.does("start 30s"));
-    EXPECT_TRUE(master.does("wait 30s for diag ext 04000000")) << "what is not known is no trip";
+    ASSERT_TRUE(master.does("start 60s"));
+    EXPECT_TRUE(master.does("wait 60s for diag ext 04000000")) << "what is not known is no trip";
     EXPECT_TRUE(gateway.json({"show"}).at("stations").at(0).at("tec").at("tripped").is_null());
     EXPECT_THAT(gateway.dpctl({"show"}).out, HasSubstr("trip unknown"));
 }
@@ -179,7 +179,7 @@ TEST_F(FunctionBlock, FollowsTheBusWithItsNetworkState)
             [&] { return master.does("send 10 05 01 49 4F 16") && gateway.tec(kNetwork) == state; });
     };
     EXPECT_TRUE(becomes_while_asked(kWaitParam));
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(becomes(gateway, kNetwork, kDataExchange));
     EXPECT_EQ(gateway.tec(kFault), 0);
     EXPECT_EQ(gateway.tec("VERSION"), 0x0300);
@@ -199,10 +199,10 @@ TEST_F(FunctionBlock, FollowsTheBusWithItsNetworkState)
 TEST_F(FunctionBlock, ShowsWithIntDiagSelectWhatTheMasterHasConfigured)
 {
     Master master{gateway, for_box({"--tags", "55,56w"})};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(master.does("out 1 = 0x1234"));
     gateway.drive().send_line("set 55 12.50");
-    EXPECT_TRUE(master.does("wait 30s for in 1 = 1250"));
+    EXPECT_TRUE(master.does("wait 60s for in 1 = 1250"));
     for (const auto& [select, shown] : {std::pair{"100", 55},
                                         {"101", 56},
                                         {"102", 0},
@@ -230,7 +230,7 @@ TEST(FunctionBlockOfADriveThatRuns, ShowsAccessErrors3And4)
                    "61,Control mode,INT,0,0,3,rw,configuration\n";
     Gateway gateway{wiring};
     Master master{gateway, for_box({"--tags", "55,56w,60w,61w"})};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     gateway.drive().send_line("nak 05C8"); // it runs
     EXPECT_TRUE(master.does("out 1 = 100"));
     EXPECT_TRUE(master.does("out 2 = 1500"));
@@ -258,14 +258,14 @@ TEST_F(FunctionBlock, KeepsWhyTheLastStartUpWasRefusedUntilOneIsAccepted)
         EXPECT_TRUE(becomes(gateway, "INT DIAGNOSTIC", 0x0023)) << "an identifier that is none";
     }
     Master master{gateway, for_box({"--tags", "55,56w"})};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(becomes(gateway, "INT DIAGNOSTIC", 0));
 }
 
 TEST_F(FunctionBlock, WithAnotherTypeIsSilentOnTheBusAndSaysSo)
 {
     Master master{gateway, for_box({"--tags", "55,56w"})};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(master.does("out 1 = 500"));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 5.00"));
 
@@ -274,7 +274,7 @@ TEST_F(FunctionBlock, WithAnotherTypeIsSilentOnTheBusAndSaysSo)
     EXPECT_EQ(off.status, 0);
     EXPECT_THAT(off.out, AllOf(HasSubstr("TYPE MISMATCH"), HasSubstr("set TYPE to 2")));
     EXPECT_TRUE(gateway.drive().says("tag 56 written 0.00")) << "the connection to the master is lost";
-    EXPECT_TRUE(master.does("wait 30s for state not data-exchange"));
+    EXPECT_TRUE(master.does("wait 60s for state not data-exchange"));
     EXPECT_EQ(gateway.tec(kFault), 2);
     EXPECT_EQ(gateway.tec(kNetwork), kDisabled);
     const std::string before = gateway.spoken_on_the_bus();
@@ -282,7 +282,7 @@ TEST_F(FunctionBlock, WithAnotherTypeIsSilentOnTheBusAndSaysSo)
     EXPECT_EQ(gateway.spoken_on_the_bus(), before) << "not one octet";
 
     EXPECT_EQ(set("TYPE", "PROFIBUS DP").status, 0);
-    EXPECT_TRUE(master.does("start 30s"));
+    EXPECT_TRUE(master.does("start 60s"));
     EXPECT_EQ(gateway.tec(kFault), 0);
 }
 
@@ -309,14 +309,14 @@ TEST_F(FunctionBlock, ChangesTheAddressWhileTheProgramRuns)
 {
     {
         Master master{gateway, for_box({"--tags", "55,56w"})};
-        ASSERT_TRUE(master.does("start 30s"));
+        ASSERT_TRUE(master.does("start 60s"));
         EXPECT_THAT(set("ADDRESS", "2").out, HasSubstr("usually reserved for PROFIBUS masters"));
         EXPECT_EQ(gateway.station().at("address"), 2) << "at once";
-        EXPECT_TRUE(master.does("wait 30s for state not data-exchange"));
+        EXPECT_TRUE(master.does("wait 60s for state not data-exchange"));
     }
     EXPECT_EQ(set("ADDRESS", "9").status, 0);
     Master master{gateway, for_box({"--tags", "55,56w"}), 9};
-    EXPECT_TRUE(master.does("start 30s"));
+    EXPECT_TRUE(master.does("start 60s"));
     const Json info = gateway.json({"show"}).at("stations").at(0).at("info");
     EXPECT_EQ(info.at("address_active"), 9);
     EXPECT_EQ(info.at("address_pending"), 5) << "what the file brings with the next start";
@@ -338,7 +338,7 @@ TEST(FunctionBlocks, OfTwoStationsNeverHaveOneAddress)
     for (const auto& [station, address] : {std::pair{"unwinder", "7"}, {"rewinder", "5"}, {"unwinder", "6"}})
         EXPECT_EQ(gateway.dpctl({"tec", "set", "ADDRESS", address, "--station", station}).status, 0);
     Master first{gateway, for_box({"--tags", "55,56w"}), 6};
-    ASSERT_TRUE(first.does("start 30s"));
+    ASSERT_TRUE(first.does("start 60s"));
     EXPECT_TRUE(first.does("out 1 = 500"));
     EXPECT_TRUE(gateway.drive().says("unit 00: tag 56 written 5.00"));
 }
@@ -358,7 +358,7 @@ protected:
     {
         gateway.emplace(box("ride_through = " + seconds + "\n"));
         Master master{*gateway, for_box({"--tags", "55,56w,57w", "--watchdog", "500ms"})};
-        ASSERT_TRUE(master.does("start 30s"));
+        ASSERT_TRUE(master.does("start 60s"));
         ASSERT_TRUE(master.does("out 1 = 500"));
         ASSERT_TRUE(gateway->drive().says("tag 56 written 5.00"));
         ASSERT_TRUE(master.does("out 2 = 700"));
@@ -446,7 +446,7 @@ TEST_F(BoxLamps, SayOnIsGoodAndOffIsBad)
     EXPECT_TRUE(shows(run, "1"));
     EXPECT_TRUE(eventually([&] { return pattern("network") == "off"; })) << "nothing was heard yet";
     Master master{gateway, for_box({"--tags", "55,56w"})};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(eventually([&] { return pattern("network") == "on"; }));
     EXPECT_TRUE(shows(network, "1"));
 

@@ -3,6 +3,7 @@
 // makes the telegrams; tests/gsd judges many more of such files with a slave in one process.
 #include "gsd/changed_files.hpp"
 #include "gsd/second_hand.hpp"
+#include "support/paths.hpp"
 #include "system/gateway.hpp"
 
 #include <fmt/format.h>
@@ -55,7 +56,7 @@ std::vector<Json> verdicts_of(const Gateway& gateway, const std::string& profile
 {
     Arguments command{"gsd",       "check",      "--json",
                       "--profile", profile,      "--ident",
-                      ident,       "--profiles", DPSLAVE_SOURCE_DIR "/config/profiles"};
+                      ident,       "--profiles", source_path("config/profiles")};
     command.insert(command.end(), files.begin(), files.end());
     std::istringstream lines{gateway.dpctl(command).out};
     std::vector<Json> verdicts;

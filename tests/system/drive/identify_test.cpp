@@ -2,6 +2,7 @@
 // dpctl identify with the simulated drives, over a line with the timing of its rate, or over a bare pty.
 #include "gateway.hpp"
 #include "support/gpio_stand_in/chip.hpp"
+#include "support/paths.hpp"
 
 #include "dpslave/config/config.hpp"
 
@@ -24,14 +25,14 @@ class Laptop : public ::testing::Test {
 protected:
     void line(unsigned baud, unsigned bits = 10)
     {
-        line_.emplace(Arguments{DPSIM_PROGRAM, "line", "--baud", std::to_string(baud), "--bits",
+        line_.emplace(Arguments{program_path("dpsim"), "line", "--baud", std::to_string(baud), "--bits",
                                 std::to_string(bits), "--a", port(), "--b", far_end()});
         ASSERT_TRUE(line_->says("ready"));
         baud_ = std::to_string(baud);
     }
     void drive(Arguments more)
     {
-        Arguments command{DPSIM_PROGRAM, "drive", "--port", far_end(), "--baud", baud_};
+        Arguments command{program_path("dpsim"), "drive", "--port", far_end(), "--baud", baud_};
         command.insert(command.end(), more.begin(), more.end());
         drive_.emplace(command);
         ASSERT_TRUE(drive_->says("ready"));
@@ -41,7 +42,8 @@ protected:
 
     Arguments command(Arguments more) const
     {
-        Arguments all{DPCTL_PROGRAM, "identify", port(), "--profiles", DPSLAVE_SOURCE_DIR "/config/profiles"};
+        Arguments all{program_path("dpctl"), "identify", port(), "--profiles",
+                      source_path("config/profiles")};
         all.insert(all.end(), more.begin(), more.end());
         return all;
     }
@@ -64,7 +66,7 @@ protected:
         write_file(folder_ / "dpslaved.toml", "[bus]\nport = \"/dev/null-bus\"\ndirection = "
                                               "\"none\"\n\n[control]\noperator_group = \"root\"\n\n" +
                                                   said.at("config").get<std::string>());
-        auto config = config::load_config(folder_ / "dpslaved.toml", DPSLAVE_SOURCE_DIR "/config/profiles");
+        auto config = config::load_config(folder_ / "dpslaved.toml", source_path("config/profiles"));
         if (config) return *std::move(config);
         for (const auto& fault : config.error()) ADD_FAILURE() << to_string(fault);
         return {};
@@ -219,7 +221,7 @@ TEST_F(Laptop, SwitchesTheDriverForEachQuestionAndReleasesItAtTheEnd)
     const Arguments transceiver{"--direction", "gpio", "--gpio-chip", chip.path(),
                                 "--gpio-line", "5",    "--timeout",   "0.05"};
 
-    Process searching{command(transceiver), {{"LD_LIBRARY_PATH", GPIO_STAND_IN_FOLDER}}};
+    Process searching{command(transceiver), {{"LD_LIBRARY_PATH", built_path("tests/gpio_stand_in")}}};
     ASSERT_TRUE(searching.says("Ctrl-C ends it"));
     EXPECT_TRUE(eventually([&] { return chip.rises(kLine) >= 3; })) << "once for each question";
     EXPECT_EQ(searching.end(SIGINT), 1);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What surrounds an incident is on the disk, and nothing suffers when it cannot be.
+#include "support/paths.hpp"
 #include "system/gateway.hpp"
 
 #include "dpslave/pcapng/pcapng.hpp"
@@ -53,7 +54,7 @@ protected:
     static void release(Gateway& gateway, const char* after = "wait 1s")
     {
         Master master{gateway, {"--tags", "55,56w"}};
-        ASSERT_TRUE(master.does("start 30s"));
+        ASSERT_TRUE(master.does("start 60s"));
         ASSERT_TRUE(master.does(after));
         ASSERT_TRUE(master.does("unlock"));
         ASSERT_TRUE(lists(gateway, 1));
@@ -127,10 +128,10 @@ TEST_F(Incidents, AreDecodedWithTheLayoutOfTheirHead)
     Gateway gateway{wiring()};
     release(gateway);
     Master other{gateway, {"--tags", "62w"}}; // the layout that is in force when the incident is read
-    ASSERT_TRUE(other.does("start 30s"));
+    ASSERT_TRUE(other.does("start 60s"));
     ASSERT_GT(lines_of(gateway, "1").size(), 5U);
 
-    const std::string profiles = std::string{DPSLAVE_SOURCE_DIR} + "/config/profiles";
+    const std::string profiles = source_path("config/profiles");
     const std::string said =
         gateway.dpctl({"trace", "--incident", "1", "--decode", "--profiles", profiles}).out;
     EXPECT_EQ(said.find("incident 1,"), said.rfind("incident 1,")) << "its head, once: " << said;
@@ -214,8 +215,9 @@ TEST_F(Incidents, AreReplayedToAnotherDaemonWithoutADifference)
         ASSERT_TRUE(record(exchange, path) || record(exchange, path) || record(exchange, path));
 
         const Gateway other{{.bus_baud = slow.bus_baud}};
-        const Outcome outcome = run({DPSIM_PROGRAM, "replay", path, "--port", other.bus_end().string(),
-                                     "--baud", std::to_string(other.bus_baud()), "--slot", "200ms"});
+        const Outcome outcome =
+            run({program_path("dpsim"), "replay", path, "--port", other.bus_end().string(), "--baud",
+                 std::to_string(other.bus_baud()), "--slot", "200ms"});
         EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
         EXPECT_THAT(outcome.out, HasSubstr(": no difference"));
     }
@@ -230,7 +232,7 @@ TEST_F(Incidents, ThatCannotBeWrittenAreSaidOnceAndHinderNothing)
 
     Master master{gateway, {"--tags", "55,56w"}};
     for (int i = 0; i < 3; ++i) {
-        ASSERT_TRUE(master.does("start 30s"));
+        ASSERT_TRUE(master.does("start 60s"));
         ASSERT_TRUE(master.does("unlock"));
         ASSERT_TRUE(eventually([&] { return list(gateway).at("failures") >= i + 1; }));
     }
@@ -239,7 +241,7 @@ TEST_F(Incidents, ThatCannotBeWrittenAreSaidOnceAndHinderNothing)
     EXPECT_TRUE(list(gateway).at("incidents").empty());
 
     std::filesystem::remove(incidents());
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     ASSERT_TRUE(master.does("unlock"));
     EXPECT_TRUE(lists(gateway, 1));
     EXPECT_TRUE(gateway.daemon().says("incidents are kept again"));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A trace of a bus without a pause at 1.5 Mbit/s has what the simulated line counted, octet for octet. In
 // ctest the traffic of 20 seconds; DPSLAVE_TRACE_SECONDS=600 makes it ten minutes (docs/internals/trace.md).
+#include "support/paths.hpp"
 #include "system/gateway.hpp"
 
 #include "dpslave/pcapng/pcapng.hpp"
@@ -172,7 +173,7 @@ void expect_nothing_malformed(const Gateway& gateway, const std::filesystem::pat
 {
     if (!std::filesystem::exists(kTshark)) return; // the tests of the captures say that it is missing
     const std::filesystem::path shown = gateway.folder("malformed");
-    const std::string scripts = "lua_script:" DPSLAVE_SOURCE_DIR "/config/wireshark/";
+    const std::string scripts = "lua_script:" + source_path("config/wireshark/");
     Process tshark{
         {"/bin/sh", "-c", R"(exec "$@" >"$0")", shown, kTshark, "-r", capture, "-X",
          scripts + "dpslaved_profibus.lua", "-X", scripts + "dpslaved_drive.lua", "-Y",
@@ -204,7 +205,7 @@ TEST_F(TraceAtSaturation, HasEachOctetThatTheLineCountedAndNoMore)
 
     const auto began = std::chrono::steady_clock::now();
     const auto master = start_master();
-    ASSERT_TRUE(master->does("start 30s"));
+    ASSERT_TRUE(master->does("start 60s"));
     ASSERT_TRUE(traffic_goes_on(*master, seconds_of_traffic() * kOctetsInASecond));
     ASSERT_TRUE(leaves(*master));
     const auto took = std::chrono::steady_clock::now() - began;
@@ -241,7 +242,7 @@ protected:
     void stall(const std::vector<Process*>& followers, Follow follow)
     {
         const auto master = start_master();
-        ASSERT_TRUE(master->does("start 30s"));
+        ASSERT_TRUE(master->does("start 60s"));
         ASSERT_TRUE(eventually([&] { return master->does("get-cfg") && follow(); }));
         ASSERT_TRUE(traffic_goes_on(*master, kTraffic));
         for (Process* const one : followers) one->send(SIGSTOP);

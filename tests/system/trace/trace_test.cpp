@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What dpctl trace shows is what was on the wire.
+#include "support/paths.hpp"
 #include "system/gateway.hpp"
 
 #include "dpslave/pcapng/pcapng.hpp"
@@ -37,7 +38,7 @@ TEST(Trace, ShowsTheStartUpOfAStationWithItsReplies)
 {
     Gateway gateway;
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
 
     const std::vector<Json> entries = entries_of(gateway);
 
@@ -61,7 +62,7 @@ TEST(Trace, CountsTheRepliesThatTheDaemonCounts)
 {
     Gateway gateway;
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     ASSERT_TRUE(master.leaves());
 
     EXPECT_TRUE(eventually([&] { // what is counted may be a moment old
@@ -74,7 +75,7 @@ TEST(Trace, NamesWhatIsNoTelegramAndFiltersByAddressAndService)
 {
     Gateway gateway;
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     master.send_line("send 10 05 02 49 51 16");
 
     EXPECT_TRUE(eventually([&] {
@@ -95,7 +96,7 @@ TEST(Trace, FollowsFromNowOnUntilCtrlC)
 {
     Gateway gateway;
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
 
     Process follower{gateway.dpctl_command({"trace", "--follow"})};
     EXPECT_TRUE(follower.says("  2 > 5   Data_Exchange  ["));
@@ -111,7 +112,7 @@ TEST(Trace, WritesACaptureWithTheDirectionOfEachTelegram)
 {
     Gateway gateway;
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     ASSERT_TRUE(master.leaves());
     const std::string path = gateway.folder("bus.pcapng").string();
 
@@ -138,7 +139,7 @@ TEST(Trace, ThatStopsOnATelegramEndsItsCaptureWithIt)
 {
     Gateway gateway;
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     const std::string path = gateway.folder("stopped.pcapng").string();
 
     const Outcome outcome = gateway.dpctl({"trace", "--output", path, "--stop-on", "service=set_prm,to=5"});
@@ -157,11 +158,10 @@ TEST(Trace, DecodesTheDataOfOurStationByTheLayoutThatTheMasterHasChosen)
 {
     Gateway gateway;
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     gateway.drive().send_line("set 55 12.50");
     ASSERT_TRUE(master.does("wait 10s for in 1 = 1250"));
-    const Arguments decode{"trace", "--decode", "--profiles",
-                           std::string{DPSLAVE_SOURCE_DIR} + "/config/profiles"};
+    const Arguments decode{"trace", "--decode", "--profiles", source_path("config/profiles")};
 
     const Outcome whole = gateway.dpctl(decode);
     EXPECT_EQ(whole.status, 0) << whole.err;
@@ -177,7 +177,7 @@ TEST(Trace, OfADriveLineShowsQuestionsAnswersAndWaitsWithTheirJudgement)
 {
     Gateway gateway{{.units = {"00", "01"}, .present = {"00"}}};
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
 
     EXPECT_TRUE(eventually([&] {
         const auto entries = entries_of(gateway, {"--line", "p3"});
@@ -202,7 +202,7 @@ TEST(Trace, OfADriveLineFollowsUntilCtrlC)
     Gateway gateway{
         {.profile = "2408f", .units = {"1"}, .protocol = "modbus-rtu", .keys = "ident = 0x0A0B\n"}};
     Master master{gateway, {"--family", "controller", "--ident", "0x0A0B", "--tags", "1"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
 
     Process follower{gateway.dpctl_command({"trace", "--line", "p3", "--follow"})};
     EXPECT_TRUE(follower.says("> 1   read register"));
@@ -216,7 +216,7 @@ TEST(Trace, WritesTheBusAndTheDriveLinesIntoOneCaptureByTheirTimes)
 {
     Gateway gateway;
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     const std::string path = gateway.folder("all.pcapng").string();
 
     ASSERT_EQ(gateway.dpctl({"trace", "--output", path}).status, 0);

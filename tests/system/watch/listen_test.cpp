@@ -2,6 +2,7 @@
 // listen = true: a daemon that only listens, on a segment with a master and the slave of another daemon.
 #include "gateway.hpp"
 #include "io/pty.hpp"
+#include "support/paths.hpp"
 
 #include "dpslave/io/tty.hpp"
 
@@ -25,7 +26,8 @@ constexpr std::uint32_t kBaud = 187'500;
 
 Arguments line_command(const std::filesystem::path& a, const std::filesystem::path& b)
 {
-    return {DPSIM_PROGRAM, "line", "--baud", std::to_string(kBaud), "--bits", "11", "--a", a, "--b", b};
+    return {
+        program_path("dpsim"), "line", "--baud", std::to_string(kBaud), "--bits", "11", "--a", a, "--b", b};
 }
 
 /// The simulated lines of two members, opened at their near ends, and a pty: what one sends, the others hear.
@@ -86,8 +88,8 @@ protected:
                                        "[control]\nsocket = \"{}\"\noperator_group = \"{}\"\n",
                                        (folder / "listener").string(), (folder / "listen.sock").string(),
                                        own != nullptr ? own->gr_name : "root"));
-        listener.emplace(Arguments{DPSLAVED_PROGRAM, "--config", config, "--profiles",
-                                   std::string{DPSLAVE_SOURCE_DIR} + "/config/profiles"});
+        listener.emplace(Arguments{program_path("dpslaved"), "--config", config, "--profiles",
+                                   source_path("config/profiles")});
         ASSERT_TRUE(listener->says("only listens on " + (folder / "listener").string()));
     }
     void TearDown() override
@@ -102,7 +104,8 @@ protected:
 
     Outcome ask(Arguments arguments) const
     {
-        Arguments command{"/usr/bin/env", "COLUMNS=1000", DPCTL_PROGRAM, "--socket", folder / "listen.sock"};
+        Arguments command{"/usr/bin/env", "COLUMNS=1000", program_path("dpctl"), "--socket",
+                          folder / "listen.sock"};
         command.insert(command.end(), arguments.begin(), arguments.end());
         return run(std::move(command));
     }

@@ -41,7 +41,7 @@ TEST(DpctlPlot, HasTheValuesOfTheDriveAndWhatWasHeld)
 {
     Gateway gateway;
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     gateway.drive().send_line("set 55 12.50");
     ASSERT_TRUE(master.does("wait 10s for in 1 = 1250"));
     gateway.drive().send_line("silence");
@@ -72,12 +72,12 @@ TEST(DpctlPlot, EndsTheLineWhereTheMasterChoosesOtherTags)
     Gateway gateway;
     {
         Master master{gateway, {"--tags", "55,56w"}};
-        ASSERT_TRUE(master.does("start 30s"));
+        ASSERT_TRUE(master.does("start 60s"));
         gateway.drive().send_line("set 55 12.50");
         ASSERT_TRUE(master.does("wait 10s for in 1 = 1250"));
     }
     Master master{gateway, {"--tags", "90"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     gateway.drive().send_line("set 90 7");
     ASSERT_TRUE(master.does("wait 10s for in 1 = 7"));
 
@@ -96,7 +96,7 @@ TEST(DpctlPlot, EscapesANameOfTheTagTable)
     Gateway gateway{
         {.table = "tag,name,type,decimals\n55,\"<script>\"\"a\"\"&'b</script>\",REAL,2\n56,x,REAL,2\n"}};
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
 
     const Outcome read = parsed(gateway, gateway.dpctl({"plot", "55", "--output", "-"}).out);
     EXPECT_EQ(read.status, 0) << read.err;

@@ -17,7 +17,7 @@ TEST(DpctlEvents, HaveMasterDriveAndWritesInTheirOrder)
     Gateway gateway;
     Process follow{gateway.dpctl_command({"events", "--follow"})};
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     EXPECT_TRUE(follow.says("Data_Exch"));
     EXPECT_EQ(gateway.dpctl({"write", "62", "95.5"}).status, 0);
     EXPECT_TRUE(follow.says("set to 95.5 by uid " + std::to_string(::geteuid())));
@@ -70,7 +70,7 @@ TEST(DpctlTop, HasTheRatesAndTheValuesOfARunningBus)
 {
     Gateway gateway;
     Master master{gateway, {"--tags", "55,56w"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     gateway.drive().send_line("set 55 12.50");
     ASSERT_TRUE(master.does("wait 10s for in 1 = 1250"));
 
@@ -99,7 +99,7 @@ TEST(DpctlRead, AgainAndAgainDoesNotDisturbTheExchange)
 {
     Gateway gateway;
     Master master{gateway, {"--tags", "55"}};
-    ASSERT_TRUE(master.does("start 30s"));
+    ASSERT_TRUE(master.does("start 60s"));
     Process reading{gateway.dpctl_command({"read", "--every", "100ms", "62", "55"})};
     for (int i = 0; i < 5; ++i) EXPECT_TRUE(reading.says("tag 62"));
 
