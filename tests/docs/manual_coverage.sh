@@ -47,9 +47,8 @@ for source in tests/page/test_*.py; do
     sed -nE -e 's/^class ([A-Za-z0-9_]+)\(.*/\1/p' -e 's/^    def (test_[A-Za-z0-9_]+)\(.*/.\1/p' "$source" |
         awk '/^\./ {print "page " class $0; next} {class = $0}'
 done >> "$scratch/tests"
-# tests/purity and tests/bench name theirs in a loop.
+# tests/purity names its own in a loop.
 for room in fdl dp base led; do echo "purity.symbols_of_$room"; done >> "$scratch/tests"
-for direction in none gpio; do echo "bench.turnaround_quick_$direction"; done >> "$scratch/tests"
 
 # unknown: of the lines "ROW NAME" those whose name, as in fdl.Instance/Suite.Test/Case or dp.Suite.Test, is no test.
 unknown() {

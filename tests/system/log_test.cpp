@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The log of the real daemon: who has set what, and that no trouble floods it.
+// The log of the real daemon: who has set what.
 #include "gateway.hpp"
 
 #include <fmt/format.h>
@@ -55,47 +55,6 @@ TEST(TheLog, NamesTheOldValueOfATagThatIsReadForTheDiagnosis)
     const Outcome written = gateway.dpctl({"write", "31", "0x0005"});
     ASSERT_EQ(written.status, 0) << written.err;
     EXPECT_THAT(line_with(gateway, "tag 31 Reason set to"), ContainsRegex("before [>x0]*1234: done$"));
-}
-
-TEST(TheLog, HasOneLineForADriveThatComesAndGoes)
-{
-    Gateway gateway;
-    const auto link_becomes = [&](const char* link) {
-        return eventually([&] { return gateway.station().at("drive").at("link") == link; });
-    };
-    for (int i = 0; i < 3; ++i) {
-        ASSERT_TRUE(link_becomes("answers"));
-        gateway.drive().send_line("silence");
-        ASSERT_TRUE(link_becomes("silent"));
-        gateway.drive().send_line("ok");
-    }
-    EXPECT_TRUE(gateway.daemon().says("unwinder: the drive does not answer"));
-    EXPECT_TRUE(gateway.daemon().says("unwinder: the drive does not answer"));
-    EXPECT_TRUE(gateway.daemon().ever_said("more time")) << "what came within 10 s is counted";
-}
-
-TEST(TheLog, HasOneLineForAModbusPortThatComesAndGoes)
-{
-    Wiring wiring;
-    wiring.profile = "2408f";
-    wiring.protocol = "modbus-rtu";
-    wiring.units = {"1"};
-    wiring.keys = "ident = 0x0A0B\n";
-    Gateway gateway{wiring};
-    const auto port_is = [&](bool open) {
-        return eventually([&] { return gateway.station().at("drive").at("port_open") == open; });
-    };
-    for (int i = 0; i < 2; ++i) {
-        ASSERT_TRUE(port_is(true));
-        gateway.unplug_drive();
-        ASSERT_TRUE(port_is(false));
-        gateway.plug_drive();
-    }
-    ASSERT_TRUE(port_is(true));
-    EXPECT_TRUE(gateway.daemon().says("drive-gateway is missing; it is opened again"));
-    EXPECT_TRUE(gateway.daemon().says("drive-gateway is missing; it is opened again"));
-    EXPECT_TRUE(gateway.daemon().ever_said("more time")) << "what came within 10 s is counted";
-    EXPECT_LT(gateway.daemon().how_often("drive-gateway is missing"), 2U);
 }
 
 } // namespace
