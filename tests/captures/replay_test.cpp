@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // dpsim replay gives a capture to the real daemon. The drive frames of the capture are the drive.
+// Only here: recorded octets through the tty of the daemon.
 #include "scenario.hpp"
 #include "support/paths.hpp"
 #include "system/gateway.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Wireshark reads the captures of the real programs with config/wireshark, and calls each telegram as dpctl
 // trace does. tests/wireshark has the dissector with packets written by hand.
+// Only here: a file of the daemon in a program of others.
 #include "support/paths.hpp"
 #include "system/gateway.hpp"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Faults of a drive and of its cable.
+// Only here: the threads of the daemon during the fault.
 #include "fault_row.hpp"
 
 #include <gmock/gmock.h>

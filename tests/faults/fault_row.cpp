@@ -60,7 +60,7 @@ void FaultRow::master_leaves_the_bus()
 
 void FaultRow::installs(Wiring wiring)
 {
-    wiring.environment.emplace("LD_PRELOAD", built_path("tests/libreply_watch.so"));
+    wiring.environment.emplace("LD_PRELOAD", built_path("tests/libreply_watch_library.so"));
     wiring.environment.emplace(reply_watch::kVariable, folder / "replies");
     const bool started = std::exchange(wiring.started, false);
     gateway.emplace(std::move(wiring));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A machine that is busy, full or not listened to, and many stations.
+// Only here: a machine that has no time, and a log that takes nothing.
 #include "fault_row.hpp"
 
 #include <fcntl.h>

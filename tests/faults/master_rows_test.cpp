@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Faults of the masters and of other stations on the bus.
+// Only here: two masters in processes of their own on one line.
 #include "fault_row.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bit errors on the lines of the real programs: what the operator is told. That no damaged telegram counts is
 // judged bit by bit on the simulated clock (tests/dp/bus, tests/drive_line).
+// Only here: counters that a running daemon has made, in the words of the doctor.
 #include "fault_row.hpp"
 
 #include <fcntl.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Serial adapters that are pulled and come back, also under another name.
+// Only here: a tty that hangs up under a thread that waits for it.
 #include "fault_row.hpp"
 
 #include <fcntl.h>

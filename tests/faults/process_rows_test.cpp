@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The daemon dies, or one of its threads stands still; the driver enable fails.
+// Only here: a process that dies, and a thread that stands still.
 #include "fault_row.hpp"
 #include "service_manager.hpp"
 #include "stopped_thread.hpp"

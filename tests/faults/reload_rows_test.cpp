@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A configuration with a fault in it.
+// Only here: a file that is wrong beside a running exchange.
 #include "fault_row.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The control socket under attack by a user without rights.
+// Only here: a thousand descriptors of other processes.
 #include "fault_row.hpp"
 #include "service_manager.hpp"
 #include "support/paths.hpp"

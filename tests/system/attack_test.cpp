@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests what any user of the machine may do to the control socket, and what the bus and the operators notice
 // of it.
+// Only here: a hostile process beside the bus thread, and the rights of its user.
 #include "gateway.hpp"
 #include "service_manager.hpp"
 #include "support/paths.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rate of the bus, found by listening to a real master on a line where another rate is garbage.
+// Only here: the rate of a tty that is switched while a program waits for it.
 #include "gateway.hpp"
 #include "support/paths.hpp"
 

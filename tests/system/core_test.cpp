@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The core is enough for a slave: what a project needs that wants base, fdl and dp without the daemon.
+// Only here: a program that is linked with the public libraries alone.
 #include "gateway.hpp"
 #include "support/paths.hpp"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The line that switches the RS-485 driver: the real daemon over a stand-in of libgpiod whose chip is a file,
 // and keeps the level of a line whose owner has died, as many chips do.
+// Only here: a process that is killed while its line is high.
 #include "gateway.hpp"
 #include "support/gpio_stand_in/chip.hpp"
 #include "support/paths.hpp"

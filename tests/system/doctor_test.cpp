@@ -2,6 +2,7 @@
 // Set-ups that are broken on purpose: the first cause that the doctor names is the true one. One of each
 // family, and the search. Every rule is judged in tests/dpctl/doctor_test.cpp, those of the fault matrix in
 // tests/faults too.
+// Only here: what the daemon has counted by itself is what the rules of the doctor ask for.
 #include "gateway.hpp"
 
 #include <fmt/format.h>

@@ -2,6 +2,7 @@
 // Late answers and an echo on the lines of the real daemon, one line of each kind: the rules themselves are
 // judged on the simulated clock (tests/drive_line). Each tag holds a word of its own, so every word that the
 // master sees shows its tag.
+// Only here: the clients on a tty, with the daemon's threads around them.
 #include "gateway.hpp"
 
 #include <fmt/format.h>

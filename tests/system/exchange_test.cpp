@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests what the gateway is for: a master reads and writes parameters of a drive by their tags.
+// Only here: all libraries and threads of the daemon between a tty and a tty.
 #include "gateway.hpp"
 
 namespace dpslave::test {

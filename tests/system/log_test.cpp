@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The log of the real daemon: who has set what.
+// Only here: the user and the process that a call came from.
 #include "gateway.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Who may parameterise the slave, and what it says when it does not like the parameters.
+// Only here: what a master did is what dpctl says of it.
 #include "gateway.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests how much memory the daemon has. It is locked: no other process can use it.
+// Only here: pages of a process that the kernel has locked.
 #include "gateway.hpp"
 #include "support/paths.hpp"
 

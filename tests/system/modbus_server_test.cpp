@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A Modbus server of another project (pymodbus) as the instrument: register = tag.
+// Only here: a server of another hand on a tty.
 #include "gateway.hpp"
 #include "support/paths.hpp"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The operation of the gateway: dpctl, its exit codes, and the two lamps.
+// Only here: a program with its exit status, a socket, and the files of the lamps.
 #include "gateway.hpp"
 
 #include <gmock/gmock.h>

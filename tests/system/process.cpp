@@ -19,6 +19,8 @@
 namespace dpslave::test {
 namespace {
 
+/// Lines of each transcript that are shown when a test has failed.
+constexpr std::size_t kShownOfAFailure = 200;
 /// Lines of a transcript that are shown when something was not said in time.
 constexpr std::size_t kShown = 25;
 
@@ -181,7 +183,10 @@ Process::~Process()
     if (listener_.joinable()) listener_.join();
     if (!::testing::Test::HasFailure() && std::uncaught_exceptions() == 0) return;
     std::cout << "---- " << name_ << '\n';
-    for (const std::string& line : transcript_.lines()) std::cout << "   | " << line << '\n';
+    const auto lines = transcript_.lines();
+    const std::size_t first = lines.size() > kShownOfAFailure ? lines.size() - kShownOfAFailure : 0;
+    if (first != 0) std::cout << "   (" << first << " lines before these)\n";
+    for (std::size_t i = first; i < lines.size(); ++i) std::cout << "   | " << lines[i] << '\n';
 }
 
 void Process::listen(int out, int err)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A new configuration for a daemon that serves: by dpctl reload and by SIGHUP.
+// Only here: a set of stations that is changed under a running bus thread, by a signal or a call.
 #include "gateway.hpp"
 #include "support/paths.hpp"
 

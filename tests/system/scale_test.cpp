@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // X-49 on the real programs: a number whose scale is in no table holds the start, until a reload brings its
 // row.
+// Only here: a held start that ends by a reload.
 #include "gateway.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests how the daemon starts, does not start, and ends; what it reports to the service manager.
+// Only here: processes that start and end, their sockets, ports and messages to systemd.
 #include "gateway.hpp"
 #include "service_manager.hpp"
 #include "support/paths.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // From a bare drive to a confirmed table, with the real programs: survey, Ctrl-C, resume,
 // confirm, check, exchange.
+// Only here: the files that one command leaves and the next one reads, with a signal between them.
 #include "gateway.hpp"
 
 #include <gmock/gmock.h>

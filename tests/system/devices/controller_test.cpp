@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The controllers 2408f and 2404f on Modbus RTU: both worked examples of the handbook's chapter 7, the status
 // word in the diagnosis, the front panel, and the two resolutions.
+// Only here: the shipped profile and table in a running daemon.
 #include "system/gateway.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A master that knows nothing but the GSD that `dpctl gsd make` wrote: the gateway takes exactly this.
+// Only here: a file that goes from one program to another.
 #include "support/paths.hpp"
 #include "system/gateway.hpp"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A device type that is not shipped: a profile, a tag table and a GSD in a folder of the site. No
 // line of C++ is written for it, and no program is built.
+// Only here: a folder of a site, read by the programs as they are built.
 #include "system/gateway.hpp"
 
 #include <gmock/gmock.h>

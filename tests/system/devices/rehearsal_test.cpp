@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A rehearsal before the plant: the gateway, and a master that has the plant's own GSD and its modules.
+// Only here: a master of its own process that has the plant's file.
 #include "support/paths.hpp"
 #include "system/gateway.hpp"
 

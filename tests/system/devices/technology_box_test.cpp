@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The technology box (6053/6055): extended diagnosis, the TEC OPTION function block, RIDE THROUGH, lamps.
+// Only here: commands that change the function block of a running daemon.
 #include "system/gateway.hpp"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `dpctl gsd check` says of a file is what the daemon says to a master that has it. The reader of dpsim
 // makes the telegrams; tests/gsd judges many more of such files with a slave in one process.
+// Only here: the verdict of one program against the telegrams of another one.
 #include "gsd/changed_files.hpp"
 #include "gsd/second_hand.hpp"
 #include "support/paths.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests what the master sees of a drive that is gone, for each value of when_drive_lost.
+// Only here: a station that a drive thread takes off the bus of another thread.
 #include "gateway.hpp"
 #include "support/paths.hpp"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // dpctl identify with the simulated drives, over a line with the timing of its rate, or over a bare pty.
+// Only here: a search that opens and sets a tty again and again, and Ctrl-C.
 #include "gateway.hpp"
 #include "support/gpio_stand_in/chip.hpp"
 #include "support/paths.hpp"

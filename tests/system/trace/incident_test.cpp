@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What surrounds an incident is on the disk, and nothing suffers when it cannot be.
+// Only here: files that are written beside a running bus, on a disk that is full or slow.
 #include "support/paths.hpp"
 #include "system/gateway.hpp"
 

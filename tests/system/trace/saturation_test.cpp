@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A trace of a bus without a pause at 1.5 Mbit/s has what the simulated line counted, octet for octet. In
 // ctest the traffic of 20 seconds; DPSLAVE_TRACE_SECONDS=600 makes it ten minutes (docs/internals/trace.md).
+// Only here: a ring that a reader follows as fast as a tty can bring octets.
 #include "support/paths.hpp"
 #include "system/gateway.hpp"
 

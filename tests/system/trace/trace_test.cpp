@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What dpctl trace shows is what was on the wire.
+// Only here: the ring of one process in the terminal of another one.
 #include "support/paths.hpp"
 #include "system/gateway.hpp"
 

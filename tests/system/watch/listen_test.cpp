@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // listen = true: a daemon that only listens, on a segment with a master and the slave of another daemon.
+// Only here: a port that is opened for reading only.
 #include "gateway.hpp"
 #include "io/pty.hpp"
 #include "support/paths.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // dpctl plot of a real daemon: what the drive had, what was held, another layout, hostile names.
+// Only here: samples of a drive thread in the chart of another process.
 #include "gateway.hpp"
 
 #include <gmock/gmock.h>

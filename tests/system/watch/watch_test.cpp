@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests what the commands that watch say of a real daemon: events, one screen, reads by name, the level of
 // the log.
+// Only here: calls that stay open while the daemon works.
 #include "gateway.hpp"
 
 #include <gmock/gmock.h>
