@@ -98,6 +98,8 @@ TEST(DpctlPlot, EscapesANameOfTheTagTable)
         {.table = "tag,name,type,decimals\n55,\"<script>\"\"a\"\"&'b</script>\",REAL,2\n56,x,REAL,2\n"}};
     Master master{gateway, {"--tags", "55,56w"}};
     ASSERT_TRUE(master.does("start 60s"));
+    gateway.drive().send_line("set 55 12.50");
+    ASSERT_TRUE(master.does("wait 60s for in 1 = 1250")); // so there is a value to show
 
     const Outcome read = parsed(gateway, gateway.dpctl({"plot", "55", "--output", "-"}).out);
     EXPECT_EQ(read.status, 0) << read.err;
