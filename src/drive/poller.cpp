@@ -204,6 +204,11 @@ void Poller::not_asked(Instant now)
     for (const auto& unit : units_) unit->not_asked(now);
 }
 
+void Poller::not_asked(std::size_t unit, Instant now)
+{
+    units_[unit]->not_asked(now);
+}
+
 void Poller::leave_port()
 {
     for (const auto& unit : units_) unit->leave_port();

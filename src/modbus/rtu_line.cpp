@@ -4,6 +4,7 @@
 #include "pdu.hpp"
 
 #include "dpslave/io/clock.hpp"
+#include "dpslave/io/thread_sign.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -191,6 +192,7 @@ ModbusPort::Heard RtuLine::take_heard()
 bool RtuLine::fetch(Instant until)
 {
     if (!port_.tty().wait_readable(std::max<std::chrono::nanoseconds>(until - now(), 0ns))) return false;
+    const io::InCall read{io::PortCall::read};
     const auto chunk = port_.tty().read(buffer_);
     if (!chunk) {
         lose();

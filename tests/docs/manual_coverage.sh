@@ -19,7 +19,7 @@ span() { # LETTER FIRST LAST
     span B 1 14; span B 20 29; echo B-029a; span B 30 35; span B 40 55; span B 60 73; span B 80 94
     span C 1 26; span C 30 48; span C 60 71; span C 100 129
     span D 1 10
-    seq -f 'X-%02g' 1 56; echo X-12a; echo X-12b
+    seq -f 'X-%02g' 1 56; echo X-58; echo X-12a; echo X-12b
 } | LC_ALL=C sort > "$scratch/ids"
 
 # Tests by the names of ctest. gtest: "program Suite.Test" of TEST and TEST_F, "program Suite.Test P" of TEST_P,

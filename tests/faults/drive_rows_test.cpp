@@ -2,6 +2,7 @@
 // Faults of a drive and of its cable.
 // Only here: the threads of the daemon during the fault.
 #include "fault_row.hpp"
+#include "stopped_thread.hpp"
 
 #include <gmock/gmock.h>
 
@@ -133,6 +134,33 @@ TEST_P(RowOfALostDrive, F01_WhoseCableIsPulledForLongIsNoValuesForTheMasterUntil
     EXPECT_TRUE(drive_takes(3));
     recovered();
     EXPECT_EQ(gateway->station().at("drive").at("link"), "answers");
+    EXPECT_TRUE(never_an_older_one(seen()));
+}
+
+TEST_P(RowOfALostDrive, F37_WhoseLineStandsStillIsNoValuesForTheMasterUntilTheyAreReadAgain)
+{
+    const auto& [protocol, when_lost] = GetParam();
+    Wiring wiring = wiring_of(protocol);
+    wiring.when_drive_lost = when_lost;
+    begins(std::move(wiring), master_of(protocol));
+    {
+        const StoppedThread line{thread_of(gateway->daemon().pid(), "drive")};
+        if (is_silent()) {
+            EXPECT_TRUE(master->does("wait 30s for state not data-exchange"));
+            EXPECT_TRUE(eventually([&] { return state() == "Power_On"; }));
+        } else {
+            EXPECT_TRUE(master->does("wait 30s for diag stat-diag"));
+            EXPECT_EQ(state(), "Data_Exch");
+        }
+        drive_shows(2);
+        EXPECT_TRUE(master->does("try wait 1s for in 1 = 2"));
+    }
+    fault_ends();
+    EXPECT_TRUE(exchange_is_back(is_silent()));
+    EXPECT_TRUE(master_sees(2));
+    EXPECT_TRUE(master_wants(3));
+    EXPECT_TRUE(drive_takes(3));
+    recovered();
     EXPECT_TRUE(never_an_older_one(seen()));
 }
 

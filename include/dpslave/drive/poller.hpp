@@ -255,6 +255,8 @@ public:
     /// Nothing is asked of the drives until next(), for longer than a station may wait: those by whose loss
     /// something follows (LossRule) are gone at once. Precondition: no transaction is under way.
     void not_asked(Instant now);
+    /// The same of one drive.
+    void not_asked(std::size_t unit, Instant now);
 
     /// The port is about to be another one, and no line has the present one any more: what was written goes
     /// to the safe state here, and nothing else is written until port_changed(). A drive that is lost, or

@@ -60,13 +60,15 @@ public:
 
     /// Writes like Tty::write(). If the program switches the transceiver it returns when the driver is
     /// inactive again. A driver enable that fails closes the port: is_open(), take_trouble(). An error of
-    /// resource_unavailable_try_again: the guard is at work, and nothing was sent.
+    /// resource_unavailable_try_again: the guard is at work, and nothing was sent. timed_out also where the
+    /// thread has stalled meanwhile (io/thread_sign.hpp): what has left is not known.
     /// Precondition: is_open().
     std::error_code write(Bytes octets);
 
 private:
     SwitchedPort(Port port, DriverEnable driver, const TransceiverSettings& settings);
     std::optional<std::string> join();
+    std::error_code write_switched(Bytes octets);
     void wait_until_gone(std::size_t octets);
     void release(bool is_sent);
     void refuse(const std::error_code& why);

@@ -6,7 +6,12 @@
 namespace dpslave::app {
 
 BusStation::BusStation(const config::StationConfig& config, std::shared_ptr<StationLink> link)
-    : link_(std::move(link)), personality_(config.personality), slave_(*personality_, config.address)
+    : link_(std::move(link)),
+      personality_(config.personality),
+      slave_(*personality_, config.address),
+      line_(config.loss.after),
+      leaves_when_lost_(config.loss.when == drive::WhenLost::silent),
+      is_diagnosed_when_lost_(config.loss.when == drive::WhenLost::diagnosis)
 {
     orders_.address = config.address;
     take_departure();
@@ -14,15 +19,39 @@ BusStation::BusStation(const config::StationConfig& config, std::shared_ptr<Stat
 
 void BusStation::fetch()
 {
-    if (link_->inputs.fresh()) slave_.set_inputs(link_->inputs.latest());
+    if (link_->inputs.fresh()) take_inputs();
     if (link_->demand_answer.fresh()) slave_.set_demand_answer(link_->demand_answer.latest());
     take_orders();
+}
+
+void BusStation::take_inputs()
+{
+    if (!is_diagnosed_when_lost_ || !line_.is_stalled()) {
+        slave_.set_inputs(link_->inputs.latest());
+        return;
+    }
+    InputImage image = link_->inputs.latest();
+    image.drive_gone = true;
+    image.every_input_tried = false;
+    slave_.set_inputs(image);
+}
+
+/// The stall is known to the line before the station is judged by what the line says.
+void BusStation::judge_line(Instant now)
+{
+    if (!link_->line_sign) return;
+    const std::uint32_t noted = link_->stalls_noted.load(std::memory_order_acquire);
+    if (!line_.look(link_->line_sign->last(), noted, now)) return;
+    link_->stalls.store(line_.stalls(), std::memory_order_release);
+    static_cast<void>(link_->inputs.fresh());
+    take_inputs();
 }
 
 bool BusStation::take_orders()
 {
     if (!link_->bus_orders.fresh()) return false;
     orders_ = link_->bus_orders.latest();
+    line_.set_after(orders_.drive_lost_after);
     slave_.set_ext_diag(orders_.ext_diag, orders_.ext_diag_fault);
     return true;
 }

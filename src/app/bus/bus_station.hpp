@@ -4,6 +4,7 @@
 #pragma once
 
 #include "app/links/links.hpp"
+#include "stalled_line.hpp"
 
 #include "dpslave/config/config.hpp"
 #include "dpslave/dp/slave.hpp"
@@ -34,9 +35,14 @@ public:
     bool take_orders();
     const BusOrders& orders() const { return orders_; }
     /// As the main thread orders, and its drive is not gone.
-    bool is_wanted() const { return orders_.enabled && departures_ % 2 == 0; }
+    bool is_wanted() const
+    {
+        return orders_.enabled && departures_ % 2 == 0 && !(leaves_when_lost_ && line_.is_stalled());
+    }
     /// True: the drive was gone since the last call. Then the station leaves the bus, even if it comes back.
     bool take_departure();
+    /// Judges the line of its drive. Call it at least every Silence::kLongestLook.
+    void judge_line(Instant now);
 
     /// Passes outputs, orders and events on. False: a full ring has refused an order; call again.
     bool forward();
@@ -45,13 +51,16 @@ public:
 
 private:
     void fetch();
+    void take_inputs();
 
     std::shared_ptr<StationLink> link_;
     std::shared_ptr<const dp::Personality> personality_; // the slave refers to it
     dp::Slave slave_;
-    BusOrders orders_;                         ///< as taken last
-    std::uint32_t departures_ = 0;             ///< StationLink::departures, as taken last
-    std::optional<DemandOrder> waiting_order_; ///< refused by a full ring: late, not lost
+    BusOrders orders_;             ///< as taken last
+    std::uint32_t departures_ = 0; ///< StationLink::departures, as taken last
+    StalledLine line_;
+    bool leaves_when_lost_, is_diagnosed_when_lost_; ///< when_drive_lost
+    std::optional<DemandOrder> waiting_order_;       ///< refused by a full ring: late, not lost
 };
 
 } // namespace dpslave::app

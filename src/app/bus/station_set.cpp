@@ -74,11 +74,13 @@ void StationSet::add_stations()
 
 void StationSet::apply_orders()
 {
+    const Instant now = io::monotonic_now();
     for (std::size_t i = 0; i < kSlots; ++i) {
         const Slot& slot = slots_[i];
         if (slot.station == nullptr) continue;
         if (slot.station->take_orders())
             turns_.changed(i); // a new diagnosis is published although no master asks for it
+        slot.station->judge_line(now);
         const bool drive_was_gone = slot.station->take_departure();
         const bool is_elsewhere = slot.address && *slot.address != slot.station->orders().address;
         if (slot.address && (drive_was_gone || !slot.station->is_wanted() || is_elsewhere)) detach(i);

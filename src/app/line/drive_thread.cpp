@@ -4,6 +4,7 @@
 #include "probe_run.hpp"
 
 #include "dpslave/io/clock.hpp"
+#include "dpslave/io/thread_sign.hpp"
 #include "dpslave/report/words.hpp"
 
 #include <fmt/format.h>
@@ -70,10 +71,14 @@ DriveThread::DriveThread(config::LineConfig line, FirstPort port, const std::vec
 
 void DriveThread::run(const std::stop_token& stop, io::EventFd& wake)
 {
+    io::set_sign_of_this_thread(link_.sign.get());
     while (!stop.stop_requested()) {
+        io::give_sign();
+        if (link_.sign->has_stalled()) recover();
         take_change();
         if (const auto order = link_.probes.pop()) probe(*order, stop);
         fetch();
+        note_stalls();
         const bool waits = port_.is_awaited(io::monotonic_now()) && !port_.open(line_);
         note_heard(); // an answer that came between two questions
         const auto transaction = waits ? std::nullopt : poller_.next(io::monotonic_now());
@@ -86,6 +91,7 @@ void DriveThread::run(const std::stop_token& stop, io::EventFd& wake)
             wake.clear(); // a change and stop are looked at right after this
         }
     }
+    io::set_sign_of_this_thread(nullptr);
     write_safe_state();
     link_.ended.store(true, std::memory_order_release);
 }
@@ -186,6 +192,36 @@ void DriveThread::note_heard()
         const Instant at = port_.backend()->backend().counts(units_[i].config->unit).valid_at;
         if (at != Instant{}) poller_.heard(i, at);
     }
+}
+
+/// A call of the port has come back that was given up by all who wait for this line. What it has not
+/// sent goes with the port, and each tag gets what it owes now. Signs come again only when all that follows
+/// for the stations is published.
+void DriveThread::recover()
+{
+    const io::ThreadSign::Stall stood = *link_.sign->stall();
+    if (stood.call != io::PortCall::none) {
+        port_.close();
+        link_.happenings.tell(
+            Severity::error, 0,
+            fmt::format(
+                "line {}: the port stalled for {:.1f} s ({}): what had not left is thrown away, and the port is opened again. Look at its adapter and its cable",
+                line_.name, std::chrono::duration<double>(stood.length).count(), io::name(stood.call)),
+            LineHappenings::Kind::port_missing);
+    }
+    note_stalls();
+    link_.sign->resume(io::monotonic_now());
+}
+
+/// The bus does so where no sign has come for too long. It goes by what is published here when it is noted.
+void DriveThread::note_stalls()
+{
+    bool is_new = false;
+    for (std::size_t i = 0; i < units_.size(); ++i)
+        if (units_[i].note_stall(poller_, i, io::monotonic_now())) is_new = true;
+    if (!is_new) return;
+    publish();
+    for (LineUnit& unit : units_) unit.show_stall();
 }
 
 /// The line does nothing else meanwhile; its own port is closed for it and opened again like one that was not

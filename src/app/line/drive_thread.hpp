@@ -44,6 +44,8 @@ private:
     drive::Outcome exchange_with(const LineUnit& unit, const drive::Transaction& transaction);
     void publish();
     void note_heard();
+    void recover();
+    void note_stalls();
     void probe(const ProbeOrder& order, const std::stop_token& stop);
     void rest(int wake, std::chrono::nanoseconds wait);
     std::chrono::nanoseconds rest_time(Instant now) const;

@@ -72,6 +72,19 @@ void LineUnit::fetch(drive::Poller& poller, std::size_t index)
     while (const auto order = link->demand_orders.pop()) poller.set_demand(index, *order);
 }
 
+bool LineUnit::note_stall(drive::Poller& poller, std::size_t index, Instant now)
+{
+    const std::uint32_t all = link->stalls.load(std::memory_order_acquire);
+    if (std::exchange(stalls_, all) == all) return false;
+    poller.not_asked(index, now);
+    return true;
+}
+
+void LineUnit::show_stall()
+{
+    link->stalls_noted.store(stalls_, std::memory_order_release);
+}
+
 void LineUnit::publish(drive::Poller& poller, std::size_t index,
                        const std::optional<drive::AnswerCounts>& heard)
 {

@@ -26,6 +26,11 @@ public:
 
     /// From the links to the poller, where the drive is unit `index`.
     void fetch(drive::Poller& poller, std::size_t index);
+    /// The bus has judged that the line stalled for too long: the drive is gone until it has answered
+    /// again. Behind fetch(). True: that is new.
+    bool note_stall(drive::Poller& poller, std::size_t index, Instant now);
+    /// What followed from that is published.
+    void show_stall();
     /// From the poller to the links. `heard`: of the back-end, if there is one.
     void publish(drive::Poller& poller, std::size_t index, const std::optional<drive::AnswerCounts>& heard);
     /// Into the ring of the line, if there is something new.
@@ -46,6 +51,7 @@ private:
     std::int64_t zero_after_ms_ = 0; ///< as the poller has it
     bool is_away_;                   ///< the station is not on the bus, as StationLink::departures says
     Generation ended_ = 0;           ///< as the poller has it
+    std::uint32_t stalls_ = 0;       ///< as the poller has them
     Generation layout_ = 0;
     Sampler sampler_;
     bool was_known_ = false, answered_ = false; ///< as told last

@@ -2,6 +2,7 @@
 #include "tty_line.hpp"
 
 #include "dpslave/io/clock.hpp"
+#include "dpslave/io/thread_sign.hpp"
 
 namespace dpslave::app {
 
@@ -58,6 +59,7 @@ bool TtyLine::write(Bytes octets)
 std::size_t TtyLine::read(std::span<std::uint8_t> into, std::chrono::nanoseconds timeout)
 {
     if (!port_.is_open() || !port_.tty().wait_readable(timeout)) return 0;
+    const io::InCall read{io::PortCall::read};
     const auto chunk = port_.tty().read(into);
     if (!chunk) {
         lose();

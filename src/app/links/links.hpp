@@ -20,6 +20,7 @@
 #include "dpslave/drive/poller.hpp"
 #include "dpslave/fdl/layer2.hpp"
 #include "dpslave/io/switched_port.hpp"
+#include "dpslave/io/thread_sign.hpp"
 #include "dpslave/trace/samples.hpp"
 
 #include <array>
@@ -29,6 +30,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dpslave::app {
@@ -39,6 +41,8 @@ struct BusOrders {
     std::uint8_t address = 0;
     ByteBuffer<8> ext_diag;      ///< the block of the extended diagnosis; empty = the device has none
     bool ext_diag_fault = false; ///< it reports a fault, and the Ext_Diag bit shall say so
+    /// How long the line of its drive may stall (drive_lost_after_s).
+    std::chrono::nanoseconds drive_lost_after = std::chrono::seconds{2};
     friend bool operator==(const BusOrders&, const BusOrders&) = default;
 };
 
@@ -56,6 +60,11 @@ constexpr drive::ZeroAfter from_ms(std::int64_t after)
 
 /// One station between its bus, its drive line and the main thread.
 struct StationLink {
+    /// `sign`: of the line of its drive; null: nothing judges it.
+    explicit StationLink(std::shared_ptr<const io::ThreadSign> sign = {}) : line_sign(std::move(sign)) {}
+
+    /// When the line of its drive went round last.
+    const std::shared_ptr<const io::ThreadSign> line_sign;
     // drive -> bus
     /// Counts how often the station has left for a drive that is gone, and has come back: odd while it
     /// is away. A bus thread that missed both still leaves once.
@@ -63,7 +72,12 @@ struct StationLink {
     Mailbox<InputImage> inputs;
     /// Newest wins: an answer to an order that no longer stands is dropped anyway.
     Mailbox<DemandAnswer> demand_answer;
+    /// The stalls of its line that this one has taken note of: what follows from them for this station
+    /// was published before.
+    std::atomic<std::uint32_t> stalls_noted{0};
     // bus -> drive
+    /// How often the drive counted as gone because its line stalled.
+    std::atomic<std::uint32_t> stalls{0};
     /// Every layout up to this generation has ended. Stored before the outputs of the next layout are
     /// published, read after them: a thread that sees a new layout also sees the end of the old one. It only
     /// grows, so no end is overwritten.
@@ -223,6 +237,8 @@ struct LineLink {
     Handover<LineChange> change;                // main -> drive
     std::atomic<std::uint32_t> changes_done{0}; ///< drive -> main: how many of them were carried out
     std::atomic<bool> ended{false};             ///< drive -> main: the thread has ended
+    const std::shared_ptr<io::ThreadSign> sign =
+        std::make_shared<io::ThreadSign>(); ///< drive -> whoever judges
     /// Its frames, drive -> whoever looks, who may keep it longer than the line is there.
     const std::shared_ptr<LineTrace> trace;
 };

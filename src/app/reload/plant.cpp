@@ -86,7 +86,7 @@ Station Plant::new_station(const config::StationConfig& config, const std::share
     Station station;
     station.number = ++last_number_;
     station.config = std::make_shared<const config::StationConfig>(config);
-    station.link = std::make_shared<StationLink>();
+    station.link = std::make_shared<StationLink>(line->link.sign);
     const bool waits = config.loss.when == drive::WhenLost::silent; // for the first answer of its drive
     station.link->departures.store(waits ? 1 : 0, std::memory_order_relaxed);
     station.bus_station = std::make_shared<BusStation>(*station.config, station.link);

@@ -68,6 +68,7 @@ BusOrders EmulatedDevice::bus_orders() const
     BusOrders orders;
     orders.enabled = self_test_passed_ && (!tec_ || tec_->fault_with_power() == OptionFault::none);
     orders.address = address_;
+    orders.drive_lost_after = config_->loss.after;
     switch (config_->profile->diagnosis) {
         case DiagForm::none: return orders;
         case DiagForm::trip_code:

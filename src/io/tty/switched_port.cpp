@@ -5,6 +5,7 @@
 
 #include "dpslave/io/clock.hpp"
 #include "dpslave/io/realtime.hpp"
+#include "dpslave/io/thread_sign.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -93,6 +94,14 @@ void SwitchedPort::lose(Instant now)
 
 std::error_code SwitchedPort::write(Bytes octets)
 {
+    const std::error_code error = write_switched(octets);
+    // The call came back long after it was made: nobody knows what has left and when.
+    return this_thread_stalled() ? std::make_error_code(std::errc::timed_out) : error;
+}
+
+std::error_code SwitchedPort::write_switched(Bytes octets)
+{
+    const InCall write{PortCall::write};
     if (!driver_.by_hand()) return port_.tty().write(octets);
     const RaisedPriority raised{settings_.priority};
     if (const auto error = driver_.set(true, monotonic_now())) {
@@ -117,7 +126,10 @@ void SwitchedPort::wait_until_gone(std::size_t octets)
     transmission_.begin(static_cast<std::int64_t>(octets) * times_.character, monotonic_now(), times_);
     std::optional<bool> empty;
     do {
-        sleep_until(transmission_.ends_at() - kSpin);
+        while (monotonic_now() < transmission_.ends_at() - kSpin) {
+            sleep_until(std::min(transmission_.ends_at() - kSpin, monotonic_now() + ThreadSign::kSlice));
+            give_sign();
+        }
         while (monotonic_now() < transmission_.ends_at()) {
         }
         empty = transmission_.guarded() < kTrusted ? port_.tty().transmitter_empty() : std::nullopt;

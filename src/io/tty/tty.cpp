@@ -7,6 +7,7 @@
 #include "uart.hpp"
 
 #include "dpslave/io/clock.hpp"
+#include "dpslave/io/thread_sign.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -28,12 +29,20 @@ std::error_code last_error()
     return {errno, std::system_category()};
 }
 
-/// Waits for `events` or a hang-up.
+/// Waits for `events` or a hang-up. False too where the thread has stalled.
 bool wait_for(int fd, short events, std::chrono::nanoseconds timeout)
 {
-    const timespec limit = to_timespec(timeout);
+    constexpr std::chrono::hours kLongest{24 * 365};
+    const Instant end = monotonic_now() + std::min<std::chrono::nanoseconds>(timeout, kLongest);
     pollfd waiting{.fd = fd, .events = events, .revents = 0};
-    return ::ppoll(&waiting, 1, &limit, nullptr) > 0;
+    for (;;) {
+        const timespec limit = to_timespec(std::clamp<std::chrono::nanoseconds>(
+            end - monotonic_now(), std::chrono::nanoseconds{0}, ThreadSign::kSlice));
+        const bool is_ready = ::ppoll(&waiting, 1, &limit, nullptr) > 0;
+        give_sign();
+        if (this_thread_stalled()) return false;
+        if (is_ready || monotonic_now() >= end) return is_ready;
+    }
 }
 
 std::string why_not_opened(const std::string& path, int error)
@@ -111,11 +120,17 @@ Tty::Tty(Fd fd, const TtySettings& settings, std::unique_ptr<Uart> uart)
 
 Tty::Tty(Tty&&) noexcept = default;
 Tty& Tty::operator=(Tty&&) noexcept = default;
-Tty::~Tty() = default;
+Tty::~Tty()
+{
+    if (!fd_) return;
+    const InCall close{PortCall::close};
+    fd_.reset();
+}
 
 Result<Tty, std::string> Tty::open(const std::string& path, const TtySettings& settings,
                                    const std::filesystem::path& sysfs)
 {
+    const InCall open{PortCall::open};
     const int mode = settings.receive_only ? O_RDONLY : O_RDWR;
     Fd fd{::open(path.c_str(), mode | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)};
     if (!fd) return Failure{why_not_opened(path, errno)};
@@ -222,6 +237,7 @@ std::error_code Tty::write(Bytes octets)
         if (!give_up) give_up = now + limit;
         if (now >= *give_up) return std::make_error_code(std::errc::timed_out);
         wait_for(fd(), POLLOUT, *give_up - now);
+        if (this_thread_stalled()) return std::make_error_code(std::errc::timed_out);
     }
     return {};
 }
