@@ -69,6 +69,7 @@ private:
     SwitchedPort(Port port, DriverEnable driver, const TransceiverSettings& settings);
     std::optional<std::string> join();
     std::error_code write_switched(Bytes octets);
+    std::error_code switch_driver(bool active);
     void wait_until_gone(std::size_t octets);
     void release(bool is_sent);
     void refuse(const std::error_code& why);

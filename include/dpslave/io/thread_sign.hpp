@@ -20,22 +20,21 @@ std::string_view name(PortCall call);
 
 class ThreadSign {
 public:
-    /// Signs come at least every kSlice. A thread that gave none for kStall has stalled.
+    /// Signs come at least every kSlice. A call that takes kStall has stalled.
     static constexpr std::chrono::milliseconds kSlice{50}, kStall{400};
 
     // The thread's own.
-    /// It goes round. Once it has stalled nothing more is given until resume(): what follows from that
-    /// comes first.
-    void give(Instant now);
-    bool has_stalled() const { return stall_.has_value(); }
-    /// For how long, and in which call: `none` where it was not a call but the machine that had no time.
+    /// It goes round. A machine that had no time for it is no stall: those who judge the signs decide.
+    void give(Instant now) { sign_.give(now); }
+    void enter(PortCall call, Instant now);
+    void leave(Instant now); ///< the call has come back
     struct Stall {
         std::chrono::nanoseconds length{};
         PortCall call = PortCall::none;
     };
+    /// The first call that has stalled since clear_stall(). Until then the thread waits for nothing more.
     const std::optional<Stall>& stall() const { return stall_; }
-    void resume(Instant now);
-    void enter(PortCall call) { call_.store(call, std::memory_order_relaxed); }
+    void clear_stall() { stall_.reset(); }
 
     // Any thread's.
     Instant last() const { return sign_.last(); }
@@ -44,6 +43,7 @@ public:
 private:
     SignOfLife sign_;
     std::atomic<PortCall> call_{PortCall::none};
+    Instant entered_{};
     std::optional<Stall> stall_;
 };
 
@@ -52,7 +52,7 @@ private:
 void set_sign_of_this_thread(ThreadSign* sign);
 /// The calling thread goes round.
 void give_sign();
-/// It has stalled since its last ThreadSign::resume(): what it waited for is not waited for any longer.
+/// One of its calls has stalled: what it waited for is not waited for any longer.
 bool this_thread_stalled();
 
 /// The calling thread is in this call, while the object lives.

@@ -74,7 +74,7 @@ void DriveThread::run(const std::stop_token& stop, io::EventFd& wake)
     io::set_sign_of_this_thread(link_.sign.get());
     while (!stop.stop_requested()) {
         io::give_sign();
-        if (link_.sign->has_stalled()) recover();
+        if (link_.sign->stall()) recover();
         take_change();
         if (const auto order = link_.probes.pop()) probe(*order, stop);
         fetch();
@@ -195,22 +195,20 @@ void DriveThread::note_heard()
 }
 
 /// A call of the port has come back that was given up by all who wait for this line. What it has not
-/// sent goes with the port, and each tag gets what it owes now. Signs come again only when all that follows
-/// for the stations is published.
+/// sent goes with the port, and each tag gets what it owes now. A port that was only slow to open is a new
+/// one.
 void DriveThread::recover()
 {
-    const io::ThreadSign::Stall stood = *link_.sign->stall();
-    if (stood.call != io::PortCall::none) {
-        port_.close();
-        link_.happenings.tell(
-            Severity::error, 0,
-            fmt::format(
-                "line {}: the port stalled for {:.1f} s ({}): what had not left is thrown away, and the port is opened again. Look at its adapter and its cable",
-                line_.name, std::chrono::duration<double>(stood.length).count(), io::name(stood.call)),
-            LineHappenings::Kind::port_missing);
-    }
-    note_stalls();
-    link_.sign->resume(io::monotonic_now());
+    const io::ThreadSign::Stall stall = *link_.sign->stall();
+    link_.sign->clear_stall();
+    if (stall.call == io::PortCall::open || stall.call == io::PortCall::close) return;
+    port_.close();
+    link_.happenings.tell(
+        Severity::error, 0,
+        fmt::format(
+            "line {}: the port stalled for {:.1f} s ({}): what had not left is thrown away, and the port is opened again. Look at its adapter and its cable",
+            line_.name, std::chrono::duration<double>(stall.length).count(), io::name(stall.call)),
+        LineHappenings::Kind::port_missing);
 }
 
 /// The bus does so where no sign has come for too long. It goes by what is published here when it is noted.

@@ -47,7 +47,12 @@ ProbeReport run_probe(const ProbeOrder& order, const config::LineConfig& line, c
         is_ended = stop.stop_requested() || link.probe_ended.load(std::memory_order_relaxed) == order.number;
         if (is_ended || io::monotonic_now() >= ends) break;
         link.probe_tried.store(search.asked() + 1, std::memory_order_relaxed);
-        search.take(ask(line, *question, link));
+        drive::Sight sight = ask(line, *question, link);
+        if (link.sign->stall()) { // the silence of a call that stalled is none of the drive
+            link.sign->clear_stall();
+            sight = ask(line, *question, link);
+        }
+        search.take(sight);
     }
     if (is_ended)
         spdlog::info("{}: the search for the drive was ended", unit.config->name);

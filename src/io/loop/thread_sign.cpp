@@ -25,23 +25,24 @@ std::string_view name(PortCall call)
     return "";
 }
 
-void ThreadSign::give(Instant now)
+void ThreadSign::enter(PortCall call, Instant now)
 {
-    const Instant last = sign_.last();
-    if (!stall_ && last != Instant{} && now - last >= kStall) stall_ = Stall{now - last, call()};
-    if (!stall_) sign_.give(now);
+    entered_ = now;
+    call_.store(call, std::memory_order_relaxed);
+    give(now);
 }
 
-void ThreadSign::resume(Instant now)
+void ThreadSign::leave(Instant now)
 {
-    stall_.reset();
-    sign_.give(now);
+    if (!stall_ && now - entered_ >= kStall) stall_ = Stall{now - entered_, call()};
+    call_.store(PortCall::none, std::memory_order_relaxed);
+    give(now);
 }
 
 void set_sign_of_this_thread(ThreadSign* sign)
 {
     sign_of_this_thread = sign;
-    if (sign != nullptr) sign->resume(monotonic_now());
+    give_sign();
 }
 
 void give_sign()
@@ -51,20 +52,17 @@ void give_sign()
 
 bool this_thread_stalled()
 {
-    return sign_of_this_thread != nullptr && sign_of_this_thread->has_stalled();
+    return sign_of_this_thread != nullptr && sign_of_this_thread->stall().has_value();
 }
 
 InCall::InCall(PortCall call)
 {
-    give_sign();
-    if (sign_of_this_thread != nullptr) sign_of_this_thread->enter(call);
+    if (sign_of_this_thread != nullptr) sign_of_this_thread->enter(call, monotonic_now());
 }
 
-/// The sign comes while the call still has its name: one that stalled is known by it.
 InCall::~InCall()
 {
-    give_sign();
-    if (sign_of_this_thread != nullptr) sign_of_this_thread->enter(PortCall::none);
+    if (sign_of_this_thread != nullptr) sign_of_this_thread->leave(monotonic_now());
 }
 
 } // namespace dpslave::io

@@ -101,10 +101,9 @@ std::error_code SwitchedPort::write(Bytes octets)
 
 std::error_code SwitchedPort::write_switched(Bytes octets)
 {
-    const InCall write{PortCall::write};
     if (!driver_.by_hand()) return port_.tty().write(octets);
     const RaisedPriority raised{settings_.priority};
-    if (const auto error = driver_.set(true, monotonic_now())) {
+    if (const auto error = switch_driver(true)) {
         count(settings_.counts, &TransceiverCounts::errors);
         if (error != std::errc::resource_unavailable_try_again) refuse(error);
         return error;
@@ -117,6 +116,12 @@ std::error_code SwitchedPort::write_switched(Bytes octets)
         wait_until_gone(octets.size());
     release(!error);
     return error;
+}
+
+std::error_code SwitchedPort::switch_driver(bool active)
+{
+    const InCall edge{PortCall::driver_enable};
+    return driver_.set(active, monotonic_now());
 }
 
 /// Sleeps until the last stop bit should have gone, and then until the UART agrees or the guard time is over.
@@ -132,6 +137,7 @@ void SwitchedPort::wait_until_gone(std::size_t octets)
         }
         while (monotonic_now() < transmission_.ends_at()) {
         }
+        const InCall drain{PortCall::drain};
         empty = transmission_.guarded() < kTrusted ? port_.tty().transmitter_empty() : std::nullopt;
     } while (!transmission_.is_over(monotonic_now(), empty));
     if (transmission_.guarded() != guarded) count(settings_.counts, &TransceiverCounts::guarded);
@@ -140,7 +146,7 @@ void SwitchedPort::wait_until_gone(std::size_t octets)
 void SwitchedPort::release(bool is_sent)
 {
     transmission_.stop();
-    const std::error_code error = driver_.set(false, monotonic_now());
+    const std::error_code error = switch_driver(false);
     if (is_sent && monotonic_now() - transmission_.busy_until() > late_after())
         count(settings_.counts, &TransceiverCounts::late);
     if (!error) return;

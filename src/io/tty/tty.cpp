@@ -228,7 +228,10 @@ std::error_code Tty::write(Bytes octets)
     std::optional<Instant>
         give_up; // asked for only when the driver does not take all at once, which it nearly always does
     while (!octets.empty()) {
-        const ssize_t taken = ::write(fd(), octets.data(), octets.size());
+        const ssize_t taken = [&] {
+            const InCall write{PortCall::write};
+            return ::write(fd(), octets.data(), octets.size());
+        }();
         if (taken < 0 && errno != EAGAIN && errno != EINTR) return last_error();
         if (taken > 0) octets = octets.subspan(static_cast<std::size_t>(taken));
         if (octets.empty()) break;
