@@ -42,14 +42,19 @@ std::optional<Transaction> DriveOrders::next()
     const OperateQueue::Entry* const operate = operates_.front();
     if (operate == nullptr || !pacing_.may_operate()) return std::nullopt;
     pacing_.operation_sent();
-    return operate->writes_next() ? write_once(Purpose::operate, operate->row, operate->order.word)
+    Transaction transaction = operate->writes_next()
+                                  ? write_once(Purpose::operate, operate->row, operate->order.word)
                                   : read_of(Purpose::operate, operate->row);
+    transaction.order = operate->order.number;
+    return transaction;
 }
 
 std::optional<Transaction> DriveOrders::next_survey(Instant now) const
 {
     if (survey_.due() > now) return std::nullopt;
-    return read_of(Purpose::survey, survey_.row());
+    Transaction transaction = read_of(Purpose::survey, survey_.row());
+    transaction.order = survey_.number();
+    return transaction;
 }
 
 Transaction DriveOrders::write_once(Purpose purpose, const Tag* row, std::uint16_t word)

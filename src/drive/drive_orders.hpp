@@ -29,6 +29,13 @@ public:
     /// The layouts up to this one have ended, and their Demand Data with them.
     void end(Generation generation) { demand_.end(generation); }
     void drive_lost();
+    void drop_superseded() { demand_.drop_superseded(); }
+    /// Orders of dpctl up to this number are dropped without an answer.
+    void withdraw(std::uint32_t until)
+    {
+        operates_.withdraw(until);
+        survey_.withdraw(until);
+    }
     /// The row of each order is now the one that `row_of` makes of it.
     template <class RowOf>
     void exchange(RowOf row_of)

@@ -58,6 +58,11 @@ void Poller::cancel_ride_through(std::size_t unit)
     units_[unit]->cancel_ride_through();
 }
 
+void Poller::end_ride(std::size_t unit)
+{
+    units_[unit]->end_ride();
+}
+
 bool Poller::operate(const OperateOrder& order)
 {
     return order.unit < units_.size() && units_[order.unit]->operate(order);
@@ -67,6 +72,16 @@ bool Poller::survey(std::size_t unit, std::uint32_t number, std::uint16_t tag,
                     std::optional<MnemonicRule> rule)
 {
     return unit < units_.size() && units_[unit]->survey(number, tag, rule);
+}
+
+void Poller::withdraw(std::uint32_t until)
+{
+    for (const auto& unit : units_) unit->withdraw(until);
+}
+
+void Poller::drop_superseded(std::size_t unit)
+{
+    units_[unit]->drop_superseded();
 }
 
 /// One transaction a turn, the drives in a circle: what one of them costs, the others do not pay. Between two
@@ -192,6 +207,11 @@ bool Poller::safe_state_pending() const
 bool Poller::safe_state_pending(std::size_t unit) const
 {
     return units_[unit]->safe_state_pending();
+}
+
+std::vector<std::uint16_t> Poller::safe_state_left(std::size_t unit) const
+{
+    return units_[unit]->safe_state_left();
 }
 
 const DriveSnapshot& Poller::snapshot(std::size_t unit) const

@@ -122,6 +122,12 @@ bool Poller::Unit::survey(std::uint32_t number, std::uint16_t tag, std::optional
     return orders_.survey(number, *tags_.row(tag), rule, link().is_lost());
 }
 
+void Poller::Unit::drop_superseded()
+{
+    orders_.drop_superseded();
+    snapshot_.orders_dropped = orders_.dropped();
+}
+
 // ---- another port, other settings
 
 void Poller::Unit::leave_port()

@@ -24,10 +24,13 @@ public:
     void set_demand(const DemandOrder& order);
     bool operate(const OperateOrder& order);
     void not_asked(Instant now);
+    void withdraw(std::uint32_t until) { orders_.withdraw(until); }
+    void drop_superseded();
     bool survey(std::uint32_t number, std::uint16_t tag, std::optional<MnemonicRule> rule);
 
     void set_zero_after(ZeroAfter after) { safe_state_.set_zero_after(after); }
     void cancel_ride_through() { safe_state_.cancel_ride_through(); }
+    void end_ride() { safe_state_.end_ride(); }
     void leave_port();
     void port_changed();
     void go_on_as(std::size_t index, const DriveSettings& settings);
@@ -52,6 +55,7 @@ public:
     {
         return safe_state_.pending() && !(cyclic_.outputs().leaves_port() && link().is_lost());
     }
+    std::vector<std::uint16_t> safe_state_left() const { return safe_state_.pending_tags(); }
     const DriveSnapshot& snapshot() const { return snapshot_; }
 
 private:

@@ -36,7 +36,7 @@ void SafeState::set_now(Instant now)
 
 Instant SafeState::due_at(const Zero& zero) const
 {
-    if (is_at_once()) return zero.not_before;
+    if (is_at_once(zero)) return zero.not_before;
     if (!after_) return kNever;
     if (!zero.lost_at) return zero.not_before;
     return std::max(*zero.lost_at + *after_, zero.not_before);
@@ -147,7 +147,7 @@ std::optional<Instant> SafeState::ride_ends() const
     if (is_gone_) return std::nullopt;
     std::optional<Instant> ends;
     for (const Zero& zero : zeros_) {
-        if (is_at_once() || !zero.lost_at || zero.is_done) continue;
+        if (is_at_once(zero) || !zero.lost_at || zero.is_done) continue;
         const Instant end = after_ ? *zero.lost_at + *after_ : kNever;
         ends = std::max(end, ends.value_or(end));
     }
@@ -157,6 +157,15 @@ std::optional<Instant> SafeState::ride_ends() const
 bool SafeState::pending() const
 {
     return (after_ || zeroes_now_) && std::ranges::find(zeros_, false, &Zero::is_done) != zeros_.end();
+}
+
+std::vector<std::uint16_t> SafeState::pending_tags() const
+{
+    std::vector<std::uint16_t> tags;
+    if (!pending()) return tags;
+    for (const Zero& zero : zeros_)
+        if (!zero.is_done) tags.push_back(zero.row->number);
+    return tags;
 }
 
 } // namespace dpslave::drive

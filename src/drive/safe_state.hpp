@@ -20,6 +20,11 @@ public:
     void set_zero_after(ZeroAfter after) { after_ = after; }
     /// Outputs that would be zeroed later are zeroed now; those that never would be stay as they are.
     void cancel_ride_through() { rides_ = false; }
+    /// The same of those that are here now.
+    void end_ride()
+    {
+        for (Zero& zero : zeros_) zero.rides = false;
+    }
 
     /// The drive has gone, and its station with it: nothing rides. All outputs, also those added later, are
     /// zeroed each time the drive is back (`zeroes`; it may have been without power), even those that were 0
@@ -61,11 +66,14 @@ public:
     /// none rides, or all are zeroed at once.
     std::optional<Instant> ride_ends() const;
     bool pending() const; ///< one of them waits for its zero, now or after its ride
+    /// The tags of those; none: pending() is false.
+    std::vector<std::uint16_t> pending_tags() const;
 
 private:
     struct Zero {
         const Tag* row = nullptr;
         std::optional<Instant> lost_at; ///< none: until the next set_now()
+        bool rides = true;              ///< through the loss of the master
         Instant not_before = kAtOnce;
         bool is_done = false;    ///< it is 0, or was refused: of interest when the drive was gone
         bool is_refused = false; ///< the last one
@@ -74,6 +82,7 @@ private:
     };
 
     bool is_at_once() const { return zeroes_now_ || (after_ && (!rides_ || after_->count() == 0)); }
+    bool is_at_once(const Zero& zero) const { return is_at_once() || (after_ && !zero.rides); }
     Instant due_at(const Zero& zero) const;
     void again();
     const Tag* due(Instant now, bool acknowledged) const;

@@ -2,6 +2,8 @@
 /// Holds the survey read that a drive still has to do, and its result.
 #pragma once
 
+#include "generations.hpp"
+
 #include "dpslave/drive/poller.hpp"
 
 #include <chrono>
@@ -45,6 +47,13 @@ public:
         answer_ = answer;
         order_.reset();
     }
+
+    /// OperateQueue::withdraw().
+    void withdraw(std::uint32_t until)
+    {
+        if (order_ && !is_newer(*order_, until)) order_.reset();
+    }
+    std::uint32_t number() const { return order_.value_or(0); } ///< of the waiting order; 0: none
 
     std::optional<OperateAnswer> take() { return std::exchange(answer_, std::nullopt); }
 

@@ -125,6 +125,7 @@ struct Transaction {
     std::uint16_t count = 1;              ///< tags of a block
     std::span<const std::uint16_t> words; ///< of a write, `count` of them; valid until done()
     bool once = false;                    ///< of a write: Backend::write_once()
+    std::uint32_t order = 0;              ///< of operate and survey: the number of the order
 };
 
 /// The outcome of a transaction. `words` holds `count` words after a read without error.
@@ -222,6 +223,9 @@ public:
     void cancel_ride_through();
     /// The same of one drive, which is about to leave.
     void cancel_ride_through(std::size_t unit);
+    /// The master was lost in a way that is not ridden through: what left_data_exchange() has ended, and
+    /// would be zeroed later, is zeroed now.
+    void end_ride(std::size_t unit);
     /// False: too many wait already, or there is no such drive. A lost drive is answered for at once:
     /// no_answer. The limits of the tag table are not looked at: parse_value() has done it.
     bool operate(const OperateOrder& order);
@@ -231,6 +235,13 @@ public:
     /// `rule`: SurveySlot::set(); precondition: it gives the tag a mnemonic, or its row does.
     bool survey(std::size_t unit, std::uint32_t number, std::uint16_t tag,
                 std::optional<MnemonicRule> rule = std::nullopt);
+
+    /// Orders of operate() and survey() up to this number were answered by somebody else, of any drive:
+    /// those that wait are dropped without an answer. Numbers go round. Precondition: no transaction is under
+    /// way.
+    void withdraw(std::uint32_t until);
+    /// Orders of Demand Data that newer ones have taken the place of are dropped.
+    void drop_superseded(std::size_t unit);
 
     /// What to do now; nothing = wait until next_deadline() or until something new is set. Then also what can
     /// be seen may have changed: that a drive is gone is not shown behind one more question.
@@ -249,6 +260,8 @@ public:
     /// Does an output still wait to be written to its safe state, now or when a ride is over?
     bool safe_state_pending() const;
     bool safe_state_pending(std::size_t unit) const; ///< one of this drive
+    /// The tags of those, in the order of their layouts.
+    std::vector<std::uint16_t> safe_state_left(std::size_t unit) const;
 
     const DriveSnapshot& snapshot(std::size_t unit) const;
 

@@ -436,6 +436,38 @@ TEST_F(PollerOrders, ReportAfterTheRetriesThatTheDriveDidNotUnderstand)
     EXPECT_EQ(bench.writes_of(50), 3u);
 }
 
+TEST_F(PollerOrders, OfDpctlThatAreWithdrawnAreNeitherCarriedOutNorAnswered)
+{
+    for (std::uint32_t n = 1; n <= 3; ++n)
+        ASSERT_TRUE(bench.poller.operate({n, 0, true, static_cast<std::uint16_t>(20 + n), 5}));
+    bench.poller.survey(0, 4, 30);
+    bench.poller.withdraw(2);
+    bench.run(1s);
+
+    std::vector<std::uint32_t> answered;
+    while (const auto answer = bench.poller.take_operate_answer()) answered.push_back(answer->number);
+    EXPECT_EQ(answered, (std::vector<std::uint32_t>{3, 4}));
+    EXPECT_EQ(bench.drives[0].words[21], 1021);
+    EXPECT_EQ(bench.drives[0].words[22], 1022);
+    EXPECT_EQ(bench.drives[0].words[23], 5);
+
+    bench.poller.survey(0, 5, 30);
+    bench.poller.withdraw(5);
+    bench.run(1s);
+    EXPECT_FALSE(bench.poller.take_operate_answer());
+}
+
+TEST_F(PollerOrders, OfDemandDataThatNewerOnesHaveTakenThePlaceOfAreDroppedWhereNobodyWaitsForThem)
+{
+    order(Kind::write, 20, 5);
+    order(Kind::write, 21, 6);
+    bench.poller.drop_superseded(0);
+    bench.run(1s);
+    EXPECT_EQ(bench.drives[0].words[20], 1020);
+    EXPECT_EQ(bench.drives[0].words[21], 6);
+    EXPECT_EQ(bench.poller.snapshot(0).orders_dropped, 1u);
+}
+
 TEST_F(PollerOrders, DpctlCannotPileUpOrders)
 {
     int taken = 0;

@@ -225,6 +225,36 @@ TEST_F(PollerRide, TheEndOfTheProgramZeroesNow)
     EXPECT_EQ(drive().words[10], 0);
 }
 
+TEST_F(PollerRide, ALossThatIsNotRiddenThroughIsZeroedNowAndTheNextOneRidesAgain)
+{
+    Instant loss = bench.now;
+    bench.master_leaves(0);
+    bench.poller.end_ride(0);
+    bench.run(500ms);
+    EXPECT_EQ(zeros_of(10, loss).size(), 1u);
+    EXPECT_EQ(drive().words[10], 0);
+    EXPECT_EQ(bench.poller.snapshot(0).ride_ends, std::nullopt);
+
+    exchanges(2, {10, 11});
+    ASSERT_EQ(drive().words[10], 10);
+    loss = bench.now;
+    bench.master_leaves(0);
+    bench.run(9900ms);
+    EXPECT_EQ(drive().words[10], 10);
+    bench.run(200ms);
+    EXPECT_EQ(drive().words[10], 0);
+}
+
+TEST_F(PollerRide, NamesTheTagsThatWaitForTheirZero)
+{
+    EXPECT_TRUE(bench.poller.safe_state_left(0).empty());
+    drive().silent_tags = {10, 11};
+    bench.master_leaves(0);
+    bench.poller.cancel_ride_through();
+    bench.run(2s);
+    EXPECT_EQ(bench.poller.safe_state_left(0), (std::vector<std::uint16_t>{10, 11}));
+}
+
 TEST_F(PollerRide, AMasterThatIsLostAfterTheEndOfTheProgramBeganDoesNotRide)
 {
     bench.poller.cancel_ride_through();
