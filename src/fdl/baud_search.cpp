@@ -46,6 +46,17 @@ BaudSearch::BaudSearch(const BaudSearchSettings& settings, Baud begin_with)
     : settings_(settings), baud_(is_searched(settings, begin_with) ? begin_with : first_rate(settings))
 {}
 
+void BaudSearch::set_rates(const std::bitset<kBauds.size()>& rates)
+{
+    settings_.rates = rates;
+    if (is_searched(settings_, baud_)) return;
+    state_ = BaudState::baud_search;
+    in_doubt_ = false;
+    baud_ = next_rate();
+    begun_ = false; // the dwell begins with the first call that has the time
+    deadline_ = {};
+}
+
 void BaudSearch::on_characters(std::size_t good, std::size_t bad, Instant at)
 {
     begin_if_new(at);

@@ -75,6 +75,14 @@ void Layer2::detach(std::uint8_t address)
     if (pending_ && pending_->address == address) pending_.reset();
 }
 
+void Layer2::set_port(const std::bitset<kBauds.size()>& rates, std::chrono::nanoseconds start_up_latency)
+{
+    settings_.start_up_latency = start_up_latency;
+    if (!search_) return;
+    search_->set_rates(rates);
+    follow_search();
+}
+
 void Layer2::on_bytes(Bytes bytes, Instant read_at, bool more_follows)
 {
     if (bytes.empty()) return;

@@ -43,6 +43,9 @@ public:
     /// not searched stands for the highest. The first dwell begins with the first call that has the time.
     BaudSearch(const BaudSearchSettings& settings, Baud begin_with);
 
+    /// The UART is another one from now on. Precondition: as of the settings. A rate that is none of them is
+    /// left at once.
+    void set_rates(const std::bitset<kBauds.size()>& rates);
     /// `good` characters came without and `bad` ones with a parity or framing error.
     void on_characters(std::size_t good, std::size_t bad, Instant at);
     /// An error-free SD1, SD2 or SD3 from any station; `to_us`: its DA is one of our addresses. Never SD4 or

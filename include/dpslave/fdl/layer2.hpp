@@ -80,6 +80,11 @@ public:
     /// Call on_time() after it.
     void detach(std::uint8_t address);
 
+    /// The line is another port: `rates` are those that it can do, of which one is searched at least;
+    /// `start_up_latency` as in Layer2Settings. A search at a rate that it cannot do goes on with the next.
+    /// Call on_time() after it.
+    void set_port(const std::bitset<kBauds.size()>& rates, std::chrono::nanoseconds start_up_latency);
+
     /// Tells `listener` of each valid telegram heard, of any station; nullptr ends that. The listener
     /// outlives layer 2.
     void listen(TelegramListener* listener) { listener_ = listener; }

@@ -72,6 +72,33 @@ TEST(BaudSearch, StaysAtTheOnlyRateThatTheUartCanDo)
     EXPECT_EQ(rates_in(search, 2), (std::vector<Baud>{Baud::k19_2, Baud::k19_2, Baud::k19_2}));
 }
 
+TEST(BaudSearch, GoesOnAtItsRateWithAnotherUartThatCanDoIt)
+{
+    BaudSearch search{BaudSearchSettings{}, Baud::k1500};
+    search.on_time(kStart);
+    search.set_rates(among({Baud::k1500, Baud::k93_75}).rates);
+    search.on_time(kStart + seconds{1});
+
+    EXPECT_EQ(search.next_deadline(), kStart + seconds{2});
+    EXPECT_EQ(rates_in(search, 2), (std::vector<Baud>{Baud::k1500, Baud::k93_75, Baud::k1500}));
+}
+
+TEST(BaudSearch, LeavesARateThatAnotherUartCannotDoAtOnceAndHasAWholeDwellAtTheNext)
+{
+    BaudSearch search{BaudSearchSettings{}, Baud::k1500};
+    search.on_time(kStart);
+    search.on_telegram(true, kStart);
+    search.on_supervision(true, true, kStart);
+    ASSERT_EQ(search.state(), BaudState::dp_control);
+    search.set_rates(among({Baud::k500, Baud::k93_75}).rates);
+
+    EXPECT_EQ(search.baud(), Baud::k500);
+    EXPECT_EQ(search.state(), BaudState::baud_search);
+    EXPECT_EQ(search.next_deadline(), Instant{});
+    search.on_time(kStart + seconds{1});
+    EXPECT_EQ(search.next_deadline(), kStart + seconds{3});
+}
+
 TEST(BaudSearch, NeverListensAt45_45AlthoughTheUartCanDoIt)
 {
     BaudSearch search{among({Baud::k93_75, Baud::k45_45, Baud::k19_2}), Baud::k45_45};
