@@ -24,7 +24,7 @@ constexpr const char* kFooter =
     "  0  ended by SIGTERM or SIGINT; with --check: the configuration is good; with --is-configured: there is something to start; always with --release\n"
     "  1  the configuration was refused: one line per fault on standard error; with --is-configured: it is still empty\n"
     "  2  wrong usage\n"
-    "  3  a device or the control socket could not be opened";
+    "  3  the control socket could not be opened, or a thread failed or stalled";
 
 int status(ExitStatus status)
 {
@@ -104,6 +104,6 @@ int main(int argc, char** argv)
         return status(dpslave::app::run_daemon(*config, profiles));
     } catch (const std::exception& error) { // no descriptor, no thread or no memory left
         spdlog::critical("ended by a system error: {}", error.what());
-        return status(ExitStatus::device_not_opened);
+        return status(ExitStatus::not_served);
     }
 }

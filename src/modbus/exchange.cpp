@@ -179,7 +179,7 @@ bool ModbusClient::Exchange::wait(Bytes request, Instant until)
                 if (echo_due_) break;
                 return false;
             case ModbusPort::Heard::rest: note(drive::Judgement::no_frame); break;
-            case ModbusPort::Heard::silence: break; // the time is over
+            case ModbusPort::Heard::silence: notes_.no_answer(line_.now()); return false;
             case ModbusPort::Heard::gone: trouble_ = "the port has gone"; return false;
         }
     }

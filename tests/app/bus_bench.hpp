@@ -15,6 +15,7 @@
 
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <spdlog/spdlog.h>
 
 #include <thread>
 
@@ -119,7 +120,11 @@ protected:
         bool listen = false;
     };
 
-    OnABus() : master(pty) { uart::reset(); }
+    OnABus() : master(pty)
+    {
+        uart::reset();
+        spdlog::set_level(spdlog::level::warn);
+    }
     ~OnABus() override { stop(); }
 
     /// Sends the request until the bus thread has come to `condition`: one that stood still drops a request
@@ -137,14 +142,18 @@ protected:
     /// A station that promises nothing hasty: the machine may be busy.
     std::shared_ptr<app::BusStation> station(std::uint8_t address)
     {
+        links[address] = std::make_shared<app::StationLink>();
+        return std::make_shared<app::BusStation>(station_config(address), links[address]);
+    }
+    config::StationConfig station_config(std::uint8_t address)
+    {
         if (!config_) config_ = good(kGood);
         config::StationConfig one = config_->stations.front();
         one.address = address;
         auto patient = std::make_shared<dp::Personality>(*one.personality);
         patient->max_tsdr.fill(Tbit{1023});
         one.personality = patient;
-        links[address] = std::make_shared<app::StationLink>();
-        return std::make_shared<app::BusStation>(one, links[address]);
+        return one;
     }
 
     void start(const Options& options, app::BusStations stations)
@@ -154,16 +163,14 @@ protected:
         config.bus.echo = options.echo;
         config.bus.listen = options.listen;
         config.bus.driver_enable.direction = options.direction;
-        auto port = io::Port::open(port_path(), app::bus_tty_settings(config), std::chrono::milliseconds{1});
-        ASSERT_TRUE(port) << port.error();
-        auto driver = io::DriverEnable::open(config.bus.driver_enable);
-        ASSERT_TRUE(driver) << driver.error();
-        driver_.emplace(std::move(*driver));
-        ASSERT_EQ(driver_->attach(port->tty()), std::nullopt);
+        config.bus.port = port_path();
+        driver_.emplace(config.bus.driver_enable);
+        opener_.emplace(config, *driver_, link, std::chrono::milliseconds{1});
+        opener_->start();
+        ASSERT_TRUE(opener_->await_first_try(std::chrono::minutes{1}));
         when_opened();
-        bus_ =
-            std::make_unique<app::BusThread>(config.bus, *std::move(port), *driver_,
-                                             std::make_unique<app::BusStations>(std::move(stations)), link);
+        bus_ = std::make_unique<app::BusThread>(
+            config.bus, *opener_, *driver_, std::make_unique<app::BusStations>(std::move(stations)), link);
         thread_ = std::jthread([this](const std::stop_token& stop) {
             is_realtime = io::enter_realtime(50, -1).empty();
             tid = ::gettid();
@@ -178,6 +185,7 @@ protected:
         thread_.request_stop();
         wake_.ring();
         thread_.join();
+        ASSERT_TRUE(opener_->end(std::chrono::minutes{1}));
         bus_.reset();
     }
 
@@ -243,6 +251,7 @@ protected:
 private:
     std::optional<config::Config> config_;
     std::optional<io::DriverEnable> driver_;
+    std::optional<app::BusPortOpener> opener_;
     std::unique_ptr<app::BusThread> bus_;
     io::EventFd wake_;
     InputImage inputs_{};

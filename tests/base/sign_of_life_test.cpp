@@ -41,6 +41,12 @@ TEST(Silence, DoesNotCountWhatTheObserverItselfStoodStill)
     EXPECT_EQ(silence.look(kBegin, kBegin + 60s + 20ms), 120ms);
 }
 
+TEST(Silence, IsNothingWhileThereWasNoSign)
+{
+    Silence silence;
+    for (Instant now = kBegin; now < kBegin + 10s; now += 10ms) EXPECT_EQ(silence.look(Instant{}, now), 0s);
+}
+
 TEST(SignOfLife, HasNoneUntilTheFirstIsGiven)
 {
     SignOfLife sign;

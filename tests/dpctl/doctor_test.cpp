@@ -218,6 +218,26 @@ TEST_F(Doctor, DistinguishesADriveThatFellSilentFromOneThatWasNeverHeard)
     EXPECT_THAT(evidence("drive.silent"), HasSubstr("it does not answer since 1 min"));
 }
 
+TEST_F(Doctor, NamesALineThatStallsAndNotADriveThatCannotBeAsked)
+{
+    station().drive.link = "gone";
+    station().drive.stalled_ms = 12'000;
+    station().drive.stalled_in = "write";
+    set_count(1, "drive_losses", 1, 1, 12'000.0);
+
+    EXPECT_EQ(found().front(), "drive.stalled");
+    EXPECT_EQ(evidence("drive.stalled"), "line p3 has stalled in write for 12.0 s");
+    EXPECT_THAT(found(), Not(Contains("drive.silent")));
+}
+
+TEST_F(Doctor, SaysWhyTheBusPortCannotBeHad)
+{
+    bus().port_open = false;
+    bus().trouble = "/dev/ttyS1 is used by another program; it is tried again";
+    EXPECT_EQ(found().front(), "bus.gone");
+    EXPECT_EQ(evidence("bus.gone"), *bus().trouble);
+}
+
 TEST_F(Doctor, PutsAPortThatHasVanishedBeforeAllElse)
 {
     drive_was_never_heard();

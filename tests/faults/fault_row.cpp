@@ -71,6 +71,11 @@ void FaultRow::installs(Wiring wiring)
 void FaultRow::begins(Wiring wiring, const Arguments& settings)
 {
     installs(std::move(wiring));
+    exchanges(settings);
+}
+
+void FaultRow::exchanges(const Arguments& settings)
+{
     settings_ = settings;
     master.emplace(*gateway, settings);
     ASSERT_TRUE(master->does("start 30s"));

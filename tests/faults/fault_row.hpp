@@ -44,6 +44,8 @@ protected:
     }
     /// Only the installation, timed.
     void installs(Wiring wiring);
+    /// The rest of begins().
+    void exchanges(const Arguments& settings);
 
     /// The master says nothing more and frees the line: two of them on one pty would take each other's
     /// answers.

@@ -40,6 +40,19 @@ protected:
         recovered();
         EXPECT_THAT(taken(held), Each(7)) << "nothing but what the master wants is written";
     }
+    /// The drive has its safe state, and the next daemon goes on.
+    void ended_by_itself()
+    {
+        EXPECT_EQ(gateway->daemon().wait(), 3);
+        EXPECT_EQ(taken().back(), 0) << "before it ended";
+        fault_ends();
+        restarts = true;
+        gateway->start_daemon();
+        EXPECT_TRUE(master->does("wait 60s for state data-exchange"));
+        drive_shows(8);
+        EXPECT_TRUE(master_sees(8));
+        recovered();
+    }
 };
 
 TEST_F(RowOfTheProcess, F16_ThatIsKilledWritesNothingUntilTheMasterHasItAgain)
@@ -69,7 +82,7 @@ TEST_F(RowOfTheProcess, F18_WhoseBusThreadStandsStillSendsNoLateReplyAndIsReport
         const auto last = manager.last_sign_of_life();
         EXPECT_TRUE(master->does("wait 1s")); // ten times as long as between two signs of life
         EXPECT_EQ(manager.last_sign_of_life(), last);
-        EXPECT_EQ(taken().back(), 7);
+        EXPECT_TRUE(eventually([&] { return taken().back() == 0; })) << "nobody heard the master any more";
     }
     fault_ends();
     EXPECT_TRUE(master->does("wait 30s for state data-exchange"));
@@ -80,7 +93,51 @@ TEST_F(RowOfTheProcess, F18_WhoseBusThreadStandsStillSendsNoLateReplyAndIsReport
     EXPECT_TRUE(eventually([&] {
         return gateway->counter("bus", "late") + gateway->counter("bus", "overtaken") > missed;
     })) << "what it heard too late is counted";
-    EXPECT_TRUE(never_an_older_one(taken()));
+}
+
+/// Behind the drive's safe state the service manager ends the program.
+TEST_F(RowOfTheProcess, F38_WhoseMainThreadStallsLeavesTheBusAndTheDriveHasItsSafeState)
+{
+    ServiceManager manager{folder / "notify"};
+    Wiring wiring = wiring_of("ei-ascii");
+    wiring.environment = {{"NOTIFY_SOCKET", folder / "notify"}, {"WATCHDOG_USEC", "5000000"}};
+    begins(std::move(wiring), master_of("ei-ascii"));
+    ASSERT_TRUE(master_wants(7));
+    ASSERT_TRUE(drive_takes(7));
+    {
+        const StoppedThread main{gateway->daemon().pid(), true};
+        EXPECT_TRUE(master->does("wait 30s for state not data-exchange"));
+        EXPECT_TRUE(eventually([&] { return taken().back() == 0; }));
+    }
+    fault_ends();
+    EXPECT_TRUE(master->does("wait 30s for state data-exchange"));
+    drive_shows(8);
+    EXPECT_TRUE(master_sees(8));
+    recovered();
+}
+
+TEST_F(RowOfTheProcess, F38_WhoseMainThreadStallsEndsItselfWhereNoServiceManagerDoes)
+{
+    begins();
+    ASSERT_TRUE(master_wants(7));
+    ASSERT_TRUE(drive_takes(7));
+    {
+        const StoppedThread main{gateway->daemon().pid(), true};
+        EXPECT_TRUE(gateway->daemon().says("the main thread has stalled: the program ends"));
+    }
+    ended_by_itself();
+}
+
+TEST_F(RowOfTheProcess, F18_WhoseBusThreadStallsEndsItselfWhereNoServiceManagerDoes)
+{
+    begins();
+    ASSERT_TRUE(master_wants(7));
+    ASSERT_TRUE(drive_takes(7));
+    {
+        const StoppedThread bus{thread_of(gateway->daemon().pid(), "bus")};
+        EXPECT_TRUE(gateway->daemon().says("the program ends without it"));
+    }
+    ended_by_itself();
 }
 
 /// The transceiver hangs on a line of a chip that is a file.

@@ -30,19 +30,26 @@ inline pid_t thread_of(pid_t process, const std::string& name)
 /// It goes on when this object ends.
 class StoppedThread {
 public:
-    explicit StoppedThread(pid_t thread) : thread_(thread)
+    /// `is_process`: it is the first thread of its process, whose end is waited for elsewhere.
+    explicit StoppedThread(pid_t thread, bool is_process = false) : thread_(thread), is_process_(is_process)
     {
         if (::ptrace(PTRACE_SEIZE, thread_, nullptr, nullptr) != 0 ||
             ::ptrace(PTRACE_INTERRUPT, thread_, nullptr, nullptr) != 0 ||
             ::waitpid(thread_, nullptr, __WALL) != thread_)
             throw std::system_error{errno, std::system_category(), "ptrace"};
     }
-    ~StoppedThread() { ::ptrace(PTRACE_DETACH, thread_, nullptr, nullptr); }
+    ~StoppedThread()
+    {
+        // One that has died with its process keeps it until somebody has taken note.
+        if (::ptrace(PTRACE_DETACH, thread_, nullptr, nullptr) != 0 && !is_process_)
+            ::waitpid(thread_, nullptr, __WALL | WNOHANG);
+    }
     StoppedThread(const StoppedThread&) = delete;
     StoppedThread& operator=(const StoppedThread&) = delete;
 
 private:
     pid_t thread_;
+    bool is_process_;
 };
 
 } // namespace dpslave::test

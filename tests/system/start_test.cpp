@@ -126,18 +126,23 @@ TEST(BadStart, ByWrongUsageEndsWithTwo)
     EXPECT_EQ(run({program_path("dpslaved"), "--version"}).status, 0);
 }
 
-TEST(BadStart, WithoutTheBusPortEndsWithThreeAndLeavesNothingBehind)
+TEST(StartWithoutTheBusPort, IsSilentAndNamesItUntilThePortHasCome)
 {
-    Gateway gateway{{.started = false}};
-    std::string text = gateway.config_text();
-    const std::string port = "bus-gateway";
-    write_file(gateway.config(), text.replace(text.find(port), port.size(), "not-there"));
-    EXPECT_EQ(gateway.run_daemon({"--check"}).status, 0) << "the file itself is good";
-    const Outcome outcome = gateway.run_daemon();
-    EXPECT_EQ(outcome.status, 3);
-    EXPECT_THAT(outcome.err, HasSubstr("not-there is not there"));
-    EXPECT_FALSE(std::filesystem::exists(gateway.socket()));
-    EXPECT_EQ(gateway.spoken_on_the_bus(), "b to a: 0 octets");
+    Gateway gateway{{.profile = "590plus", .keys = "ident = 0x0A0C\n", .started = false}};
+    gateway.unplug_bus();
+    gateway.start_daemon();
+
+    EXPECT_TRUE(gateway.daemon().says("bus-gateway is not there"));
+    const auto is_open = [&] { return gateway.json({"status"}).at("bus").at("port_open").get<bool>(); };
+    EXPECT_TRUE(eventually([&] { return !is_open(); }));
+    constexpr int kHardware = 4;
+    EXPECT_TRUE(eventually([&] { return gateway.tec("FAULT") == kHardware; }));
+    EXPECT_THAT(gateway.dpctl({"doctor"}).out, HasSubstr("bus-gateway"));
+
+    gateway.plug_bus();
+    EXPECT_TRUE(eventually(is_open));
+    EXPECT_TRUE(eventually([&] { return gateway.tec("FAULT") == 0; }));
+    EXPECT_TRUE(eventually([&] { return gateway.station().at("state") == "Wait_Prm"; }));
 }
 
 TEST(StartWithoutADrivePort, CostsItsOwnStationsOnlyUntilThePortAppears)
@@ -146,9 +151,9 @@ TEST(StartWithoutADrivePort, CostsItsOwnStationsOnlyUntilThePortAppears)
     gateway.unplug_drive();
     gateway.start_daemon();
 
-    EXPECT_TRUE(gateway.daemon().ever_said("drive-gateway is not there"));
+    EXPECT_TRUE(gateway.daemon().says("drive-gateway is not there"));
     EXPECT_TRUE(gateway.daemon().ever_said("its drives count as silent until it can be opened"));
-    EXPECT_FALSE(gateway.station().at("drive").at("port_open"));
+    EXPECT_TRUE(eventually([&] { return !gateway.station().at("drive").at("port_open").get<bool>(); }));
     EXPECT_THAT(gateway.dpctl({"doctor"}).out, HasSubstr("of line p3 is not there, or cannot be opened"));
     EXPECT_THAT(gateway.dpctl({"events"}).out,
                 HasSubstr("its drives count as silent until it can be opened"));
@@ -168,21 +173,31 @@ TEST(BadStart, NextToARunningDaemonEndsWithThreeAndDoesNotDisturbIt)
     Master master{running, {"--tags", "55"}};
     ASSERT_TRUE(master.does("start 60s"));
 
-    const Outcome same_port = running.run_daemon();
-    EXPECT_EQ(same_port.status, 3);
-    EXPECT_THAT(same_port.err, HasSubstr("is used by another program"));
-
-    const Gateway second{{.started = false}}; // ports of its own, but the socket of the other one
-    std::string text = second.config_text();
-    text.replace(text.find(second.socket().string()), second.socket().string().size(),
-                 running.socket().string());
-    write_file(second.config(), text);
-    const Outcome same_socket = second.run_daemon();
+    const Outcome same_socket = running.run_daemon();
     EXPECT_EQ(same_socket.status, 3);
     EXPECT_THAT(same_socket.err, HasSubstr("another dpslaved is running"));
 
     EXPECT_TRUE(running.exchange_ends_with(0));
     EXPECT_EQ(running.station().at("left_count"), 0);
+}
+
+TEST(StartAtABusPortInUse, WaitsUntilTheOtherProgramHasEndedAndDoesNotDisturbIt)
+{
+    Gateway running;
+    Master master{running, {"--tags", "55"}};
+    ASSERT_TRUE(master.does("start 60s"));
+    Gateway second{{.started = false}};
+    std::string text = second.config_text();
+    const std::string own = second.folder("bus-gateway").string();
+    write_file(second.config(),
+               text.replace(text.find(own), own.size(), running.folder("bus-gateway").string()));
+    second.start_daemon();
+    EXPECT_TRUE(second.daemon().says("is used by another program"));
+    EXPECT_TRUE(running.exchange_ends_with(0));
+    EXPECT_EQ(running.station().at("left_count"), 0);
+
+    EXPECT_EQ(running.daemon().end(SIGTERM), 0);
+    EXPECT_TRUE(eventually([&] { return second.json({"status"}).at("bus").at("port_open").get<bool>(); }));
 }
 
 TEST(Start, AfterACrashTakesTheSocketThatWasLeftBehind)

@@ -13,12 +13,13 @@ enum class ExitStatus : int {
     ended_by_signal = 0,
     configuration_refused = 1,
     usage = 2,
-    device_not_opened = 3, ///< the bus port, its driver enable or the socket
+    not_served = 3, ///< the control socket could not be opened, or a thread failed or stalled
 };
 
-/// Opens the devices and the socket, serves until SIGTERM or SIGINT, leaves the bus and puts the outputs
-/// into their safe state. Either the bus is served, or nothing was started; a drive port that is missing is
-/// opened when it appears. Logs through spdlog's default logger.
+/// Opens the socket and the devices, serves until SIGTERM or SIGINT, leaves the bus and puts the outputs
+/// into their safe state. A device that is missing is opened when it appears; while that is the port of the
+/// bus or its driver enable, the stations are silent. Logs through spdlog's default logger. A thread that
+/// hangs in a system call at the end is left behind: then the process ends here.
 ExitStatus run_daemon(const config::Config& config, const std::filesystem::path& profiles);
 
 } // namespace dpslave::app

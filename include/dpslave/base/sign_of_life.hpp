@@ -29,10 +29,10 @@ public:
     /// count.
     static constexpr std::chrono::milliseconds kLongestLook{100};
 
-    /// Returns it, with `last` the newest sign. 0 at the first call.
+    /// Returns it, with `last` the newest sign. 0 at the first call, and while there was no sign yet.
     std::chrono::nanoseconds look(Instant last, Instant now)
     {
-        const bool is_new = !looks_ || last != last_;
+        const bool is_new = !looks_ || last != last_ || last == Instant{};
         length_ = is_new ? std::chrono::nanoseconds{}
                          : length_ + std::min<std::chrono::nanoseconds>(now - looked_at_, kLongestLook);
         looks_ = true;

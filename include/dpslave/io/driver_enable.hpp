@@ -45,7 +45,12 @@ struct DriverEnableSettings {
 
 class DriverEnable {
 public:
-    /// Takes the GPIO line, inactive, if there is one. The error is a sentence.
+    /// Takes nothing yet: with `gpio` it does not work until take().
+    explicit DriverEnable(const DriverEnableSettings& settings);
+    /// Takes the GPIO line, inactive, if there is one and it was not taken. The error is a sentence. It may
+    /// block as long as opening a GPIO chip does.
+    std::optional<std::string> take();
+    /// Both. The error is a sentence.
     static Result<DriverEnable, std::string> open(const DriverEnableSettings& settings);
     /// Makes the line inactive that a killed program may have left active, and closes it. Call it at any
     /// time. `port`: its tty. The error is a sentence, for example that a program has the line.
@@ -75,9 +80,9 @@ public:
 
     /// Returns false if an edge has failed; then nothing is sent until ready() says true. Any thread may ask.
     bool works() const noexcept;
-    /// Returns true if it works, like Port::ready(), for the thread that calls set(). Otherwise it tries to
-    /// get it back when the time for that has come: at once, then after 0.5, 1, 2, 4, 4 ... s. It may block
-    /// as long as opening a GPIO chip does, and allocates: not between a request and its reply.
+    /// Returns true if it works, like Port::ready(). Otherwise it tries to get it back when the time for that
+    /// has come: at once, then after 0.5, 1, 2, 4, 4 ... s. It may block as long as opening a GPIO chip does,
+    /// and allocates. Another thread than that of set() may call it.
     bool ready(Instant now);
     /// Returns when ready() will try again; kNever while it works. Only the thread that calls ready() may
     /// ask.
@@ -105,7 +110,6 @@ public:
 
 private:
     struct Held;
-    explicit DriverEnable(std::unique_ptr<Held> held);
     std::unique_ptr<Held> held_;
 };
 

@@ -6,6 +6,7 @@
 #include "dpslave/io/fd.hpp"
 
 #include <chrono>
+#include <cstdint>
 
 namespace dpslave::io {
 
@@ -15,8 +16,8 @@ public:
     explicit Ticker(std::chrono::nanoseconds period);
     int fd() const { return fd_.get(); } ///< readable after each period until clear()
 
-    /// Call it after each tick: the next one comes only then.
-    void clear() noexcept;
+    /// Call it after each tick: the next one comes only then. Returns how many there were.
+    std::uint64_t clear() noexcept;
 
 private:
     Fd fd_;

@@ -29,8 +29,11 @@ struct Drive {
     std::int64_t reads = 0, writes = 0, silences = 0, refusals = 0, losses = 0;
     std::optional<std::string> last_trouble{};
     std::optional<std::int64_t> not_zeroed{};
+    std::optional<double> stalled_ms{};      ///< the line; null: it goes round
+    std::optional<std::string> stalled_in{}; ///< the call of the port that it is in
     DPSLAVE_FIELDS(line, port, protocol, unit, link, port_open, ever_answered, baud, format, direction,
-                   timeout_ms, cycle_ms, reads, writes, silences, refusals, losses, last_trouble, not_zeroed)
+                   timeout_ms, cycle_ms, reads, writes, silences, refusals, losses, last_trouble, not_zeroed,
+                   stalled_ms, stalled_in)
 };
 struct Ride {
     std::optional<double> ends_in_ms{};
@@ -70,8 +73,9 @@ struct Bus {
     std::vector<Unanswered> unanswered{};
     std::int64_t stations = 0, exchanging = 0;
     std::optional<double> last_telegram_age_ms{};
+    std::optional<std::string> trouble{}; ///< why the port or its driver enable cannot be had, a sentence
     DPSLAVE_FIELDS(port, baud, baud_state, configured_baud, port_open, driver_works, listens, unanswered,
-                   stations, exchanging, last_telegram_age_ms)
+                   stations, exchanging, last_telegram_age_ms, trouble)
 };
 /// Of something that comes again and again.
 struct Spacing {

@@ -5,66 +5,41 @@
 
 #include <sys/epoll.h>
 
-#include <memory>
 #include <utility>
 
 namespace dpslave::app {
 
-io::TtySettings bus_tty_settings(const config::Config& config)
-{
-    constexpr Baud kEveryUart = Baud::k9_6;
-    io::TtySettings settings;
-    settings.baud = static_cast<std::uint32_t>(config.bus.baud.value_or(kEveryUart));
-    settings.mark_errors = true;
-    settings.prompt = true;
-    settings.receive_only = config.bus.listen;
-    const io::DriverEnableSettings& driver = config.bus.driver_enable;
-    settings.drop_rts_at_close = driver.direction != io::Direction::rts || !driver.active_low;
-    return settings;
-}
-
-BusPort::BusPort(const config::BusConfig& config, io::Port port, io::DriverEnable& driver, io::Epoll& epoll,
-                 std::uint64_t key, BusLink& link)
-    : port_(std::move(port)),
+BusPort::BusPort(const config::BusConfig& config, BusPortOpener& opener, io::DriverEnable& driver,
+                 io::Epoll& epoll, std::uint64_t key, BusLink& link)
+    : opener_(opener),
       driver_(driver),
       echo_(config.echo),
       epoll_(epoll),
       key_(key),
       link_(link),
       trace_(link.trace),
-      backlog_(port_.opened())
+      backlog_(io::monotonic_now())
 {
     if (!config.listen) sender_.emplace(driver);
 }
 
-BusPort::~BusPort()
+/// What it can do is known before anything is heard through it. Its octets are reported by their edges: each
+/// arrival once, and asking the port again whether something is left costs more than the reply.
+void BusPort::take(fdl::Layer2& layer2)
 {
-    driver_.detach(); // before the port is closed
-}
-
-fdl::Layer2Settings BusPort::layer2_settings(const config::BusConfig& config)
-{
-    fdl::Layer2Settings settings;
-    settings.start_up_latency = driver_.edge_time(); // the driver goes on before the first bit
-    if (config.baud) {
-        settings.baud = *config.baud;
-        return settings;
-    }
-    settings.baud = Baud::k1500; // if it can be done, else the next lower one
-    settings.search.emplace();
-    if (!port_.is_open()) return settings;
-    // A port that vanishes while it is asked can do nothing; all rates are tried when it is back.
-    if (const auto can = port_.tty().bauds().can; can.any()) settings.search->rates = can;
-    return settings;
-}
-
-/// By its edges: each arrival of octets is reported once, and asking the port again whether something is left
-/// costs more than the reply.
-void BusPort::watch()
-{
-    if (!port_.is_open()) return;
-    epoll_.add(port_.tty().fd(), EPOLLIN | EPOLLET, key_);
-    link_.hold_back_ns.store(port_.tty().hold_back().count(), std::memory_order_relaxed);
+    port_ = opener_.lent();
+    if (port_ == nullptr) return;
+    layer2.set_port(opener_.rates(), driver_.edge_time()); // the driver goes on before the first bit
+    if (!std::exchange(was_open_, true))
+        backlog_ = BacklogAge{port_->opened()};
+    else
+        report(PortEvent::back);
+    guard_reported_ = false;
+    static_cast<void>(layer2.take_baud_change()); // it is set here
+    if (port_->settings().baud != static_cast<std::uint32_t>(layer2.baud())) set_baud(layer2.baud());
+    if (!is_open()) return;
+    epoll_.add(port_->tty().fd(), EPOLLIN | EPOLLET, key_);
+    link_.hold_back_ns.store(port_->tty().hold_back().count(), std::memory_order_relaxed);
 }
 
 void BusPort::set_baud(Baud baud)
@@ -72,17 +47,19 @@ void BusPort::set_baud(Baud baud)
     if (sender_) sender_->abort();
     link_.baud.store(baud, std::memory_order_relaxed);
     trace_.rate(io::monotonic_now(), baud);
-    if (const auto trouble = port_.set_baud(static_cast<std::uint32_t>(baud))) {
+    if (!is_open()) return;
+    if (const auto trouble = port_->set_baud(static_cast<std::uint32_t>(baud))) {
         report(PortEvent::lost);
-        refuse(*trouble);
+        detach();
+        opener_.refuse(*trouble);
     }
 }
 
 void BusPort::read(fdl::Layer2& layer2)
 {
-    while (port_.is_open()) {
+    while (is_open()) {
         trace_.commit(); // what was noted lies in the buffer
-        const auto chunk = port_.tty().read(buffer_);
+        const auto chunk = port_->tty().read(buffer_);
         if (!chunk) return lose();
         const Instant read_at = io::monotonic_now();
         const bool more = chunk->more || chunk->bad_character;
@@ -132,13 +109,13 @@ void BusPort::commit_trace(fdl::Layer2& layer2)
 
 std::optional<Instant> BusPort::send(const Reply& reply)
 {
-    if (!sender_ || !port_.is_open()) {
+    if (!sender_ || !is_open()) {
         ++unsent_;
         note_unsent(reply, fdl::Unanswered::Why::unsent);
         return std::nullopt;
     }
     const auto written =
-        sender_->send(reply.octets, port_.tty(), reply.baud, reply.window_ended + driver_.edge_time());
+        sender_->send(reply.octets, port_->tty(), reply.baud, reply.window_ended + driver_.edge_time());
     if (!written) {
         const bool is_late = written.error() == BusSender::Unsent::too_late;
         ++(is_late ? late_ : unsent_);
@@ -161,8 +138,8 @@ std::optional<Instant> BusPort::send(const Reply& reply)
 /// time.
 void BusPort::discard_what_is_stuck()
 {
-    if (std::exchange(leaves_by_, kNever) == kNever || !port_.is_open()) return;
-    if (!port_.tty().discard_unsent()) return;
+    if (std::exchange(leaves_by_, kNever) == kNever || !is_open()) return;
+    if (!port_->tty().discard_unsent()) return;
     ++unsent_;
     ++stuck_;
     left_.begins = io::monotonic_now();
@@ -176,78 +153,46 @@ void BusPort::note_unsent(const Reply& reply, fdl::Unanswered::Why why)
 
 void BusPort::finish_sending()
 {
-    if (is_sending() && port_.is_open()) sender_->finish(port_.tty());
+    if (is_sending() && is_open()) sender_->finish(port_->tty());
 }
 
-void BusPort::check(Instant now)
+void BusPort::check(Instant now, fdl::Layer2& layer2)
 {
     if (now >= leaves_by_) discard_what_is_stuck();
-    if (!port_.is_open()) reopen(now);
-    if (sender_ && port_.is_open()) check_driver_enable(now);
-}
-
-/// Nothing is sent through a port whose driver enable does not work: it is treated as closed.
-void BusPort::reopen(Instant now)
-{
-    if (!port_.ready(now)) return report_trouble();
-    watch();
-    if (const auto trouble = driver_.attach(port_.tty())) return refuse(port_.path() + ": " + *trouble);
-    guard_reported_ = false;
-    report(PortEvent::back);
-    std::string warnings;
-    for (const std::string& one : port_.tty().warnings()) warnings += (warnings.empty() ? "" : ". ") + one;
-    if (!warnings.empty()) report({.is_warning = true, .text = port_.path() + ": " + warnings});
+    if (!is_open()) take(layer2);
+    if (sender_ && is_open()) check_driver_enable();
 }
 
 /// An edge of the driver enable that failed is reported once, and the way back is tried for. So is the first
 /// time that the guard was needed.
-void BusPort::check_driver_enable(Instant now)
+void BusPort::check_driver_enable()
 {
     if (sender_->driver_guarded() != guarded_ && !std::exchange(guard_reported_, true))
         report(PortEvent::driver_guarded);
     guarded_ = sender_->driver_guarded();
-    const bool works = driver_.works() || (!is_sending() && driver_.ready(now));
-    if (std::exchange(driver_worked_, works) != works)
-        report(works ? PortEvent::driver_back : PortEvent::driver_lost);
+    const bool works = driver_.works();
+    if (std::exchange(driver_worked_, works) == works) return;
+    report(works ? PortEvent::driver_back : PortEvent::driver_lost);
+    if (!works) opener_.wake();
 }
 
 void BusPort::lose()
 {
     detach();
-    port_.lose(io::monotonic_now());
     report(PortEvent::lost);
-}
-
-/// It can be opened, and is of no use.
-void BusPort::refuse(const std::string& why)
-{
-    detach();
-    port_.refuse(io::monotonic_now(), why);
-    report_trouble();
+    opener_.give_back();
 }
 
 void BusPort::detach()
 {
     if (sender_) sender_->abort();
-    epoll_.remove(port_.tty().fd());
-    driver_.detach();
-}
-
-void BusPort::report_trouble()
-{
-    if (const auto why = port_.take_trouble())
-        report({.is_warning = false, .text = *why + "; it is tried again"});
-}
-
-void BusPort::report(PortMessage message)
-{
-    auto reported = std::make_unique<PortMessage>(std::move(message));
-    static_cast<void>(link_.port_messages.offer(reported)); // not read yet: the older one is as true
+    epoll_.remove(port_->tty().fd());
+    port_ = nullptr;
 }
 
 void BusPort::write_state(BusSnapshot& snapshot) const
 {
-    snapshot.port_open = port_.is_open();
+    snapshot.port_open = is_open();
     snapshot.counters.late += late_;
     snapshot.counters.replies -= late_; // layer 2 had handed them over
     snapshot.unsent = unsent_;

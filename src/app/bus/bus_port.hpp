@@ -5,6 +5,7 @@
 
 #include "app/links/links.hpp"
 #include "backlog_age.hpp"
+#include "bus_port_opener.hpp"
 #include "bus_sender.hpp"
 #include "bus_trace.hpp"
 
@@ -21,27 +22,18 @@
 
 namespace dpslave::app {
 
-/// The PROFIBUS character format (8E1, bad characters marked, each octet at once) at the configured rate;
-/// where it is searched, at the lowest, which every UART can do.
-io::TtySettings bus_tty_settings(const config::Config& config);
-
 class BusPort {
 public:
-    /// `port` is open and `driver` attached to it, or it is closed. `epoll` reports `key` once for each
-    /// arrival of octets. With listen = true the object has no sender: nothing is written, and `driver` is
-    /// never made active. `driver`, `epoll` and `link` outlive the object.
-    BusPort(const config::BusConfig& config, io::Port port, io::DriverEnable& driver, io::Epoll& epoll,
-            std::uint64_t key, BusLink& link);
-    ~BusPort();
+    /// `opener` lends the port, with `driver` attached to it: check() looks for it. `epoll` reports `key`
+    /// once for each arrival of octets. With listen = true the object has no sender: nothing is written, and
+    /// `driver` is never made active. All outlive the object.
+    BusPort(const config::BusConfig& config, BusPortOpener& opener, io::DriverEnable& driver,
+            io::Epoll& epoll, std::uint64_t key, BusLink& link);
     BusPort(const BusPort&) = delete;
     BusPort& operator=(const BusPort&) = delete;
 
-    /// For layer 2 on this port. Where the rate is searched the port is asked which rates it can do.
-    fdl::Layer2Settings layer2_settings(const config::BusConfig& config);
-    /// From now on the epoll reports octets, if the port is open.
-    void watch();
-    bool is_open() const { return port_.is_open(); }
-    /// Another rate; what had come at the old one is lost.
+    bool is_open() const { return port_ != nullptr; }
+    /// Another rate; what had come at the old one is lost. Without a port: that of the next one.
     void set_baud(Baud baud);
 
     /// Reads all that has come; the echo of replies does not reach layer 2. A port that fails is closed.
@@ -70,9 +62,8 @@ public:
     Instant sending_ends() const { return sender_ ? sender_->next_deadline() : kNever; }
     void finish_sending();
 
-    /// Opens a port that has gone, and tries a driver enable that has failed, when their time has come. It
-    /// may block and allocate where one of them does not work.
-    void check(Instant now);
+    /// Looks for a port that was opened, which `layer2` is told, and after a driver enable that has failed.
+    void check(Instant now, fdl::Layer2& layer2);
     /// Its part of the snapshot.
     void write_state(BusSnapshot& snapshot) const;
 
@@ -81,19 +72,17 @@ private:
     void hear_withheld(Bytes octets, Instant read_at, fdl::Layer2& layer2);
     void note_unsent(const Reply& reply, fdl::Unanswered::Why why);
     void lose();
-    void refuse(const std::string& why);
     void detach();
-    void reopen(Instant now);
-    void check_driver_enable(Instant now);
+    void take(fdl::Layer2& layer2);
+    void check_driver_enable();
     void discard_what_is_stuck();
     void report(PortEvent event)
     {
         link_.port_events.push(event);
     } // full: the log is not worth a lost telegram
-    void report(PortMessage message);
-    void report_trouble();
 
-    io::Port port_;
+    BusPortOpener& opener_;
+    io::Port* port_ = nullptr; ///< lent, and open; null: there is none
     io::DriverEnable& driver_;
     std::optional<BusSender> sender_; ///< nothing: listen = true
     fdl::Echo echo_;
@@ -109,6 +98,7 @@ private:
     std::uint64_t unsent_ = 0;
     std::uint64_t stuck_ = 0; ///< of these, taken by the port and not sent
     std::uint64_t late_ = 0;
+    bool was_open_ = false;
     bool driver_worked_ = true;
     bool guard_reported_ = false;
     std::uint64_t guarded_ = 0; ///< as seen last

@@ -37,14 +37,16 @@ void BusStation::take_inputs()
 }
 
 /// The stall is known to the line before the station is judged by what the line says.
-void BusStation::judge_line(Instant now)
+bool BusStation::judge_line(Instant now)
 {
-    if (!link_->line_sign) return;
+    if (!link_->line_sign) return false;
     const std::uint32_t noted = link_->stalls_noted.load(std::memory_order_acquire);
-    if (!line_.look(link_->line_sign->last(), noted, now)) return;
+    if (!line_.look(link_->line_sign->last(), noted, now)) return false;
     link_->stalls.store(line_.stalls(), std::memory_order_release);
+    if (line_.is_stalled()) link_->line_sign->give_up();
     static_cast<void>(link_->inputs.fresh());
     take_inputs();
+    return true;
 }
 
 bool BusStation::take_orders()
@@ -86,14 +88,33 @@ bool BusStation::forward()
         link_->ended.store(left->generation, std::memory_order_release);
     if (const auto outputs = slave_.take_outputs()) link_->outputs.publish(*outputs);
 
-    if (!waiting_order_) waiting_order_ = slave_.take_demand_order();
-    while (waiting_order_ && link_->demand_orders.push(*waiting_order_))
-        waiting_order_ = slave_.take_demand_order();
-
+    const bool is_done = forward_orders();
     while (const auto event = slave_.take_event()) {
         link_->events.push(*event); // full: counted by the ring; the log is not worth a lost telegram
     }
+    return is_done;
+}
+
+bool BusStation::forward_orders()
+{
+    if (line_.is_stalled()) {
+        keep_newest_order();
+        return true; // judge_line() says when it goes on
+    }
+    if (!waiting_order_) waiting_order_ = slave_.take_demand_order();
+    while (waiting_order_ && link_->demand_orders.push(*waiting_order_))
+        waiting_order_ = slave_.take_demand_order();
     return !waiting_order_;
+}
+
+/// What the master has given up for a newer order is not carried out when the line goes round again.
+void BusStation::keep_newest_order()
+{
+    while (const auto order = slave_.take_demand_order()) {
+        if (waiting_order_ && waiting_order_->kind == DemandOrder::Kind::write)
+            link_->orders_dropped.fetch_add(1, std::memory_order_relaxed);
+        waiting_order_ = order;
+    }
 }
 
 } // namespace dpslave::app

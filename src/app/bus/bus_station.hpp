@@ -41,10 +41,12 @@ public:
     }
     /// True: the drive was gone since the last call. Then the station leaves the bus, even if it comes back.
     bool take_departure();
-    /// Judges the line of its drive. Call it at least every Silence::kLongestLook.
-    void judge_line(Instant now);
+    /// Judges the line of its drive. Call it at least every Silence::kLongestLook. True: something has
+    /// changed, and forward() is due.
+    bool judge_line(Instant now);
 
-    /// Passes outputs, orders and events on. False: a full ring has refused an order; call again.
+    /// Passes outputs, orders and events on. False: a full ring has refused an order; call again. While the
+    /// line stalls only the newest order is kept, as a drive that is lost keeps it.
     bool forward();
     /// For the main thread.
     void publish_snapshot() { link_->bus_snapshot.publish(slave_.snapshot()); }
@@ -52,6 +54,8 @@ public:
 private:
     void fetch();
     void take_inputs();
+    bool forward_orders();
+    void keep_newest_order();
 
     std::shared_ptr<StationLink> link_;
     std::shared_ptr<const dp::Personality> personality_; // the slave refers to it
@@ -60,7 +64,7 @@ private:
     std::uint32_t departures_ = 0; ///< StationLink::departures, as taken last
     StalledLine line_;
     bool leaves_when_lost_, is_diagnosed_when_lost_; ///< when_drive_lost
-    std::optional<DemandOrder> waiting_order_;       ///< refused by a full ring: late, not lost
+    std::optional<DemandOrder> waiting_order_;       ///< refused by a full ring, or by a line that stalls
 };
 
 } // namespace dpslave::app

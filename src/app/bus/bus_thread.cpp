@@ -12,11 +12,23 @@
 
 namespace dpslave::app {
 
-BusThread::BusThread(const config::BusConfig& config, io::Port port, io::DriverEnable& driver,
+namespace {
+
+fdl::Layer2Settings layer2_settings(const config::BusConfig& config)
+{
+    fdl::Layer2Settings settings;
+    settings.baud = config.baud.value_or(Baud::k1500); // if it can be done, else the next lower one
+    if (!config.baud) settings.search.emplace();
+    return settings;
+}
+
+} // namespace
+
+BusThread::BusThread(const config::BusConfig& config, BusPortOpener& opener, io::DriverEnable& driver,
                      std::unique_ptr<BusStations> stations, BusLink& link)
-    : port_(config, std::move(port), driver, epoll_, kPortKey, link),
-      layer2_(port_.layer2_settings(config)),
-      stations_(std::move(stations), link.stations, layer2_),
+    : port_(config, opener, driver, epoll_, kPortKey, link),
+      layer2_(layer2_settings(config)),
+      stations_(std::move(stations), link.stations, layer2_, link.signs.main),
       link_(link)
 {
     layer2_.listen(&monitor_);
@@ -28,15 +40,12 @@ void BusThread::run(const std::stop_token& stop, io::EventFd& wake)
     const io::ShallowIdle no_deep_sleep;
     epoll_.add(wake.fd(), EPOLLIN, kWakeKey);
     epoll_.add(ticker_.fd(), EPOLLIN, kTickKey);
-    port_.watch();
+    port_.check(io::monotonic_now(), layer2_);
     follow_rate(); // a search says where it begins
     follow_memory();
 
     while (!stop.stop_requested()) {
-        if (update_due_ && !port_.is_sending() && !layer2_.reply_waits()) {
-            update_due_ = false;
-            stations_.update();
-        }
+        if (update_due_ && !port_.is_sending() && !layer2_.reply_waits()) update();
         process(octets_before(next_wake()));
         if (layer2_.next_deadline() - io::monotonic_now() < kSpin) wait_for_window();
         send();
@@ -48,11 +57,18 @@ void BusThread::run(const std::stop_token& stop, io::EventFd& wake)
         follow_rate();
         const Instant now = io::monotonic_now();
         if (may_publish(now)) publish(now);
-        port_.check(now);
-        link_.heartbeat.fetch_add(1, std::memory_order_relaxed);
+        port_.check(now, layer2_);
+        link_.signs.bus.give(now);
     }
     epoll_.remove(wake.fd()); // it stays readable: nothing clears it any more
     leave_bus();
+}
+
+void BusThread::update()
+{
+    update_due_ = false;
+    stations_.update(io::monotonic_now());
+    if (stations_.main_silence() >= kProgramMayStall && link_.end_program != nullptr) link_.end_program();
 }
 
 /// The last reply goes out whole, then every slave leaves with all that leaving means.
@@ -62,7 +78,7 @@ void BusThread::leave_bus()
         octets_before(port_.sending_ends() - 2 * kSpin);
         port_.finish_sending();
     }
-    stations_.stop();
+    stations_.stop(io::monotonic_now());
 }
 
 Instant BusThread::next_wake() const
@@ -88,7 +104,9 @@ bool BusThread::octets_before(Instant when)
     for (const epoll_event& event : epoll_.wait(ready, wait)) {
         if (event.data.u64 == kPortKey) octets = true;
         if (event.data.u64 == kTickKey) {
-            ticker_.clear();
+            // This thread has stalled: the lines may have taken the master for lost. That comes before a
+            // telegram is answered.
+            if (ticker_.clear() >= kManyTicks) update();
             update_due_ = true;
         }
     }

@@ -23,17 +23,18 @@ namespace dpslave::app {
 
 class BusThread {
 public:
-    /// `port` is open, and `driver` attached to it. Where the rate is searched the port is asked which rates
-    /// it can do. More and other stations come through BusLink::stations.
-    BusThread(const config::BusConfig& config, io::Port port, io::DriverEnable& driver,
+    /// `opener` lends the port, with `driver` attached to it, now or later. Both outlive the object. More and
+    /// other stations come through BusLink::stations.
+    BusThread(const config::BusConfig& config, BusPortOpener& opener, io::DriverEnable& driver,
               std::unique_ptr<BusStations> stations, BusLink& link);
 
     /// Serves the bus until `stop`; then every slave leaves it, with all that leaving means.
     void run(const std::stop_token& stop, io::EventFd& wake);
 
 private:
-    /// The longest wait: also the heartbeat, and the resolution of every deadline that is further away.
+    /// The longest wait: so often a sign of life is given, and deadlines that are further away are looked at.
     static constexpr std::chrono::milliseconds kTick{10};
+    static constexpr std::uint64_t kManyTicks = kBusThreadMayStall / kTick / 2;
     static constexpr std::chrono::microseconds kSpin = BusSender::kSpin;
     static constexpr std::chrono::microseconds kLastLook{1};
     /// While a driver is to be switched off within this time nothing longer is begun.
@@ -54,6 +55,7 @@ private:
     void publish(Instant now);
     void follow_memory();
     void publish_bus(Instant now);
+    void update();
     void leave_bus();
 
     io::Epoll epoll_;

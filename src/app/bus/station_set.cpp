@@ -3,38 +3,36 @@
 
 #include "set_bits.hpp"
 
-#include "dpslave/io/clock.hpp"
-
 #include <algorithm>
 #include <utility>
 
 namespace dpslave::app {
 
 StationSet::StationSet(std::unique_ptr<BusStations> stations, Handover<BusStations>& next,
-                       fdl::Layer2& layer2)
-    : stations_(std::move(stations)), next_(next), layer2_(layer2)
+                       fdl::Layer2& layer2, const SignOfLife& main_thread)
+    : stations_(std::move(stations)), next_(next), layer2_(layer2), main_thread_(main_thread)
 {
     add_stations();
 }
 
-void StationSet::update()
+void StationSet::update(Instant now)
 {
-    exchange();
-    apply_orders();
+    exchange(now);
+    apply_orders(now);
 }
 
 /// What is given back with the present set may be destroyed at once: so those that are not in the next one
 /// pass on what they have first.
-void StationSet::exchange()
+void StationSet::exchange(Instant now)
 {
     const BusStations* const next = next_.offered();
-    if (next == nullptr || !remove_stations(*next)) return;
+    if (next == nullptr || !remove_stations(*next, now)) return;
     next_.take(stations_);
     add_stations();
 }
 
 /// False: the ring of a station is full of orders, and one of its own is still waiting.
-bool StationSet::remove_stations(const BusStations& next)
+bool StationSet::remove_stations(const BusStations& next, Instant now)
 {
     const auto stays = [&next](const BusStation* station) {
         return std::any_of(next.begin(), next.end(), [&](const auto& one) { return one.get() == station; });
@@ -44,7 +42,7 @@ bool StationSet::remove_stations(const BusStations& next)
         Slot& slot = slots_[i];
         if (slot.station == nullptr || stays(slot.station)) continue;
         slot.leaves = true;
-        if (slot.address) detach(i);
+        if (slot.address) detach(i, now);
         if (!slot.station->forward()) {
             all_gone = false;
             continue;
@@ -72,44 +70,47 @@ void StationSet::add_stations()
     }
 }
 
-void StationSet::apply_orders()
+void StationSet::apply_orders(Instant now)
 {
-    const Instant now = io::monotonic_now();
+    main_silence_ = main_.look(main_thread_.last(), now);
+    const auto is_wanted = [this](const Slot& slot) {
+        return main_silence_ < kMainThreadMayStall && slot.station->is_wanted();
+    };
     for (std::size_t i = 0; i < kSlots; ++i) {
         const Slot& slot = slots_[i];
         if (slot.station == nullptr) continue;
         if (slot.station->take_orders())
             turns_.changed(i); // a new diagnosis is published although no master asks for it
-        slot.station->judge_line(now);
-        const bool drive_was_gone = slot.station->take_departure();
+        if (slot.station->judge_line(now)) waiting_.set(i);
+        const bool was_gone = slot.station->take_departure();
         const bool is_elsewhere = slot.address && *slot.address != slot.station->orders().address;
-        if (slot.address && (drive_was_gone || !slot.station->is_wanted() || is_elsewhere)) detach(i);
+        if (slot.address && (was_gone || !is_wanted(slot) || is_elsewhere)) detach(i, now);
     }
     for (std::size_t i = 0; i < kSlots; ++i) { // an address that another one leaves is free by now
         const Slot& slot = slots_[i];
-        if (slot.station != nullptr && !slot.address && !slot.leaves && slot.station->is_wanted()) attach(i);
+        if (slot.station != nullptr && !slot.address && !slot.leaves && is_wanted(slot)) attach(i, now);
     }
 }
 
-void StationSet::attach(std::size_t slot)
+void StationSet::attach(std::size_t slot, Instant now)
 {
     BusStation& one = *slots_[slot].station;
     const std::uint8_t address = one.orders().address;
     if (slot_at_[address]) return; // another station still has it: with the next tick
     one.slave().set_address(address);
     if (!layer2_.attach(address, one, one.personality().max_tsdr)) return;
-    one.slave().start(io::monotonic_now());
+    one.slave().start(now);
     slot_at_[address] = static_cast<std::uint8_t>(slot);
     slots_[slot].address = address;
     waiting_.set(slot, !one.forward());
     turns_.changed(slot);
 }
 
-void StationSet::detach(std::size_t slot)
+void StationSet::detach(std::size_t slot, Instant now)
 {
     BusStation& one = *slots_[slot].station;
     const std::uint8_t address = *slots_[slot].address;
-    one.slave().stop(io::monotonic_now());
+    one.slave().stop(now);
     waiting_.set(slot, !one.forward());
     turns_.changed(slot);
     layer2_.detach(address);
@@ -134,11 +135,11 @@ void StationSet::publish(Instant now)
     if (const auto slot = turns_.take(now)) slots_[*slot].station->publish_snapshot();
 }
 
-void StationSet::stop()
+void StationSet::stop(Instant now)
 {
     for (const Slot& slot : slots_) {
         if (slot.station == nullptr) continue;
-        slot.station->slave().stop(io::monotonic_now());
+        slot.station->slave().stop(now);
         slot.station->forward();
         slot.station->publish_snapshot();
     }

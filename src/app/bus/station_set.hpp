@@ -20,13 +20,18 @@ namespace dpslave::app {
 
 class StationSet {
 public:
-    /// More and other stations come through `next`. Both references outlive the set.
-    StationSet(std::unique_ptr<BusStations> stations, Handover<BusStations>& next, fdl::Layer2& layer2);
+    /// More and other stations come through `next`. While `main_thread` gives no sign for
+    /// kMainThreadMayStall no station is on the bus. All references outlive the set.
+    StationSet(std::unique_ptr<BusStations> stations, Handover<BusStations>& next, fdl::Layer2& layer2,
+               const SignOfLife& main_thread);
 
     /// Takes the next set, if there is one and all that leave have passed on what they had; then puts
     /// stations on the bus, takes them off, and gives them another address. Between two telegrams and not
-    /// inside one: layer 2 may be in the middle of a call to the station.
-    void update();
+    /// inside one: layer 2 may be in the middle of a call to the station. At least every
+    /// Silence::kLongestLook.
+    void update(Instant now);
+    /// For how long the main thread has given no sign.
+    std::chrono::nanoseconds main_silence() const { return main_silence_; }
     /// Passes on outputs, orders and events of the stations that had a request.
     void forward();
     /// When publish() has something to do; kNever = nothing has changed.
@@ -34,7 +39,7 @@ public:
     /// Publishes the snapshot of one station, if one is due.
     void publish(Instant now);
     /// Every station leaves the bus, and passes on what it has.
-    void stop();
+    void stop(Instant now);
 
 private:
     static constexpr std::size_t kSlots = SnapshotSchedule::kSlots;
@@ -46,16 +51,19 @@ private:
         bool leaves = false; ///< not in the next set: it stays only until its last order was taken
     };
 
-    void exchange();
-    bool remove_stations(const BusStations& next);
+    void exchange(Instant now);
+    bool remove_stations(const BusStations& next, Instant now);
     void add_stations();
-    void apply_orders();
-    void attach(std::size_t slot);
-    void detach(std::size_t slot);
+    void apply_orders(Instant now);
+    void attach(std::size_t slot, Instant now);
+    void detach(std::size_t slot, Instant now);
 
     std::unique_ptr<BusStations> stations_;
     Handover<BusStations>& next_;
     fdl::Layer2& layer2_;
+    const SignOfLife& main_thread_;
+    Silence main_;
+    std::chrono::nanoseconds main_silence_{};
     std::array<Slot, kSlots> slots_{};
     std::array<std::optional<std::uint8_t>, kSlots> slot_at_{}; ///< by address
     std::bitset<kSlots> waiting_; ///< slots with an order that could not be passed on yet

@@ -128,6 +128,11 @@ bool PendingAccesses::has_place_for(const control::Caller& caller) const
 
 Reply PendingAccesses::order(const Station& station, Access access)
 {
+    if (station.line_stalled.count() != 0)
+        return Error{"DriveRefused",
+                     {{"tag", access.tag},
+                      {"reason", stall_words(*station.drive_line, station.line_stalled)},
+                      {"code", nullptr}}};
     const drive::OperateOrder order{.number = waiting_.next_number(),
                                     .unit = 0, // found by the drive thread
                                     .is_write = access.is_write,
@@ -304,9 +309,38 @@ void PendingAccesses::answer(Instant now)
             call->to.end(call->what.is_survey ? survey_reply(*call, *answer) : reply(*call, *answer));
         }
     }
-    waiting_.end_late(now, [this](std::uint32_t, const Waiting::Call& call) {
+    withdraw_from_stalled_lines();
+    waiting_.end_late(now, [this](std::uint32_t number, const Waiting::Call& call) {
+        if (const Station* const station = monitor_.find(call.station))
+            station->drive_line->link.withdrawn.store(number);
         refuse(call, fmt::format("{} within {} minutes", report::kLineDidNotServe, kLongestWait.count()),
                "not known: its drive line did not come to it");
+    });
+}
+
+void PendingAccesses::withdraw_from_stalled_lines()
+{
+    for (const Station& station : monitor_.view().stations)
+        if (station.line_stalled.count() != 0) withdraw(*station.drive_line);
+}
+
+/// Its orders are answered here, and it carries none of them out later. It writes nothing from give_up() on;
+/// what it had begun before, nobody knows.
+void PendingAccesses::withdraw(DriveLine& line)
+{
+    const auto is_of_line = [&](const Waiting::Call& call) {
+        const Station* const station = monitor_.find(call.station);
+        return station != nullptr && station->drive_line.get() == &line;
+    };
+    if (waiting_.count(is_of_line) == 0) return;
+    line.link.sign->give_up();
+    line.link.withdrawn.store(waiting_.next_number() - 1);
+    const std::uint32_t under_way = line.link.operating.load();
+    const std::string stall = stall_words(line, line.silent_for);
+    waiting_.end_where(is_of_line, [&](std::uint32_t number, const Waiting::Call& call) {
+        const std::string_view outcome =
+            number == under_way ? "not known whether it was done" : "it was not carried out";
+        refuse(call, fmt::format("{}: {}", stall, outcome), fmt::format("{}: {}", stall, outcome));
     });
 }
 

@@ -55,6 +55,8 @@ private:
     using Waiting = WaitingCalls<Access>;
     void refuse(const Waiting::Call& call, const std::string& reason, std::string_view outcome) const;
     control::Reply order(const Station& station, Access access);
+    void withdraw_from_stalled_lines();
+    void withdraw(DriveLine& line);
     bool has_place_for(const control::Caller& caller) const;
     control::LastReply reply(const Waiting::Call& call, const drive::OperateAnswer& answer) const;
     control::LastReply survey_reply(const Waiting::Call& call, const drive::OperateAnswer& answer) const;

@@ -69,6 +69,13 @@ public:
         end_if(has_left, end);
     }
 
+    /// The same for those of which `is(call)`.
+    template <class Is, class End>
+    void end_where(Is is, End end)
+    {
+        end_if(is, end);
+    }
+
 private:
     /// The newest first, so that a line is told last to end the order that it carries out.
     template <class Is, class End>

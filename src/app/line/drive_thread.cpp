@@ -8,6 +8,7 @@
 #include "dpslave/report/words.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <poll.h>
 #include <spdlog/spdlog.h>
 
@@ -24,6 +25,12 @@ namespace {
 bool is_refusal(AccessError error)
 {
     return error != AccessError::none && error != AccessError::no_answer && error != AccessError::deferred;
+}
+
+/// Numbers go round.
+bool is_withdrawn(std::uint32_t order, std::uint32_t until)
+{
+    return static_cast<std::int32_t>(order - until) <= 0;
 }
 
 /// At level debug each request to a drive is a line of the log.
@@ -55,23 +62,23 @@ auto find_unit(Units& units, std::uint32_t number)
 
 } // namespace
 
-DriveThread::DriveThread(config::LineConfig line, FirstPort port, const std::vector<DriveUnit>& units,
-                         LineLink& link)
+DriveThread::DriveThread(config::LineConfig line, bool port_is_held, const std::vector<DriveUnit>& units,
+                         LineLink& link, const ProgramSigns& signs)
     : line_(std::move(line)),
       link_(link),
-      port_(std::move(port), listeners_of(link)),
+      signs_(signs),
+      port_(port_is_held, listeners_of(link)),
       units_(units.begin(), units.end()),
       poller_(poller_settings(units, line_), LineBackend::block_rule(line_)),
       troubles_(link.happenings, link.troubles),
       words_(LineBackend::block_rule(line_).max_tags)
 {
     port_.set_units(units);
-    port_.log_driver(line_);
 }
 
 void DriveThread::run(const std::stop_token& stop, io::EventFd& wake)
 {
-    io::set_sign_of_this_thread(link_.sign.get());
+    io::set_sign_of_this_thread(link_.sign.get(), this);
     while (!stop.stop_requested()) {
         io::give_sign();
         if (link_.sign->stall()) recover();
@@ -79,6 +86,7 @@ void DriveThread::run(const std::stop_token& stop, io::EventFd& wake)
         if (const auto order = link_.probes.pop()) probe(*order, stop);
         fetch();
         note_stalls();
+        if (std::exchange(master_is_lost_, false)) lose_master();
         const bool waits = port_.is_awaited(io::monotonic_now()) && !port_.open(line_);
         note_heard(); // an answer that came between two questions
         const auto transaction = waits ? std::nullopt : poller_.next(io::monotonic_now());
@@ -91,9 +99,8 @@ void DriveThread::run(const std::stop_token& stop, io::EventFd& wake)
             wake.clear(); // a change and stop are looked at right after this
         }
     }
-    io::set_sign_of_this_thread(nullptr);
     write_safe_state();
-    link_.ended.store(true, std::memory_order_release);
+    io::set_sign_of_this_thread(nullptr);
 }
 
 /// An order for a drive that is about to come waits for it: the highest numbers are the newest.
@@ -101,6 +108,7 @@ void DriveThread::fetch()
 {
     for (std::size_t i = 0; i < units_.size(); ++i) units_[i].fetch(poller_, i);
     while (const auto order = link_.orders.pop()) {
+        if (is_withdrawn(order->order.number, link_.withdrawn.load())) continue;
         const bool is_early = std::all_of(units_.begin(), units_.end(),
                                           [&](const LineUnit& unit) { return unit.number < order->station; });
         if (is_early)
@@ -123,9 +131,11 @@ void DriveThread::apply(LineOrder order)
 void DriveThread::carry_out(const drive::Transaction& transaction)
 {
     const LineUnit& unit = units_[transaction.unit];
+    link_.operating.store(transaction.order); // before the port is asked whether this thread was given up
     const drive::Outcome outcome =
         port_.open(line_) ? exchange_with(unit, transaction)
                           : drive::Outcome{.error = AccessError::no_answer, .words = {}, .sent = false};
+    link_.operating.store(0);
     log_transaction(line_.name, unit, transaction, outcome);
     note_heard();
     poller_.done(outcome, io::monotonic_now());
@@ -202,7 +212,7 @@ void DriveThread::recover()
     const io::ThreadSign::Stall stall = *link_.sign->stall();
     link_.sign->clear_stall();
     if (stall.call == io::PortCall::open || stall.call == io::PortCall::close) return;
-    port_.close();
+    port_.give_up();
     link_.happenings.tell(
         Severity::error, 0,
         fmt::format(
@@ -211,15 +221,43 @@ void DriveThread::recover()
         LineHappenings::Kind::port_missing);
 }
 
-/// The bus does so where no sign has come for too long. It goes by what is published here when it is noted.
+/// The bus and the main thread have done without this line where no sign has come for too long. The bus goes
+/// by what is published here when it is noted.
 void DriveThread::note_stalls()
 {
+    link_.sign->clear_given_up();
+    poller_.withdraw(link_.withdrawn.load());
     bool is_new = false;
     for (std::size_t i = 0; i < units_.size(); ++i)
         if (units_[i].note_stall(poller_, i, io::monotonic_now())) is_new = true;
     if (!is_new) return;
     publish();
     for (LineUnit& unit : units_) unit.show_stall();
+}
+
+/// Also while this thread waits for an answer.
+void DriveThread::on_sign(Instant now)
+{
+    if (!others_.look(signs_.bus.last(), signs_.main.last(), now)) return;
+    master_is_lost_ = true;
+    link_.sign->end_waits(now + kLastAnswer);
+}
+
+/// Nobody will say that the master is lost. The layouts end here, and the bus is told for when it goes round
+/// again.
+void DriveThread::lose_master()
+{
+    link_.sign->end_waits(kNever);
+    for (std::size_t i = 0; i < units_.size(); ++i) {
+        poller_.left_data_exchange(i, {.generation = units_[i].layout()});
+        poller_.end_ride(i);
+        units_[i].lose_master();
+    }
+    link_.happenings.tell(
+        Severity::error, 0,
+        fmt::format(
+            "line {}: the {} has stalled: the master counts as lost, and the outputs go to their safe state",
+            line_.name, others_.which()));
 }
 
 /// The line does nothing else meanwhile; its own port is closed for it and opened again like one that was not
@@ -262,28 +300,45 @@ void DriveThread::rest(int wake, std::chrono::nanoseconds wait)
     if (fds[1].revents != 0) backend->backend().listen();
 }
 
-/// The bus has been left. A drive that does not answer at this moment is waited for as long as any.
+/// The bus has been left. Each drive has its share of the time: one that does not answer costs the others
+/// none.
 void DriveThread::write_safe_state()
 {
-    const Instant end = io::monotonic_now() + kSafeStateLimit;
+    const Instant end = link_.ends_by.load(std::memory_order_relaxed);
     fetch();
+    note_stalls();
     // Usually the bus has said so; one that hangs or has failed has not.
     for (std::size_t i = 0; i < units_.size(); ++i)
         poller_.left_data_exchange(i, {.generation = units_[i].layout()});
     poller_.cancel_ride_through(); // nothing could zero the outputs later
     while (poller_.safe_state_pending() && io::monotonic_now() < end) {
-        if (const auto transaction = poller_.next(io::monotonic_now()))
+        io::give_sign();
+        link_.sign->end_waits(end); // of what is opened
+        if (link_.sign->stall()) recover();
+        const Instant now = io::monotonic_now();
+        std::int64_t waiting = 0;
+        for (std::size_t i = 0; i < units_.size(); ++i) waiting += poller_.safe_state_pending(i) ? 1 : 0;
+        const auto share = std::max<std::chrono::nanoseconds>((end - now) / waiting, kLastAnswer);
+        link_.sign->end_waits(std::min(end, now + share));
+        if (const auto transaction = poller_.next(now))
             carry_out(*transaction);
         else
-            rest(-1, rest_time(io::monotonic_now()));
+            rest(-1, rest_time(now));
     }
     publish(); // the cause first
     for (std::size_t i = 0; i < units_.size(); ++i)
         if (poller_.safe_state_pending(i))
-            link_.happenings.tell(
-                Severity::error, units_[i].number,
-                units_[i].config->name +
-                    ": not every output could be put into its safe state: the drive does not answer");
+            link_.happenings.tell(Severity::error, units_[i].number,
+                                  fmt::format("{}: not every output could be put into its safe state: {}",
+                                              units_[i].config->name, not_written(i)));
+}
+
+std::string DriveThread::not_written(std::size_t unit) const
+{
+    return fmt::format("tag {} {} left; {}", fmt::join(poller_.safe_state_left(unit), ", "),
+                       poller_.safe_state_left(unit).size() == 1 ? "is" : "are",
+                       poller_.snapshot(unit).answers ? "there was no more time"
+                                                      : "the drive does not answer");
 }
 
 // ---- other drives, another port
@@ -315,10 +370,10 @@ bool DriveThread::leaving_is_over() const
         if (poller_.safe_state_pending(i) && (units_[i].leaves || next_->leaves_drives))
             link_.happenings.tell(
                 Severity::error, units_[i].number,
-                fmt::format(
-                    "{}: not every output could be put into its safe state before {}: the drive does not answer",
-                    units_[i].config->name,
-                    units_[i].leaves ? "the station was taken away" : line_.port + " was left"));
+                fmt::format("{}: not every output could be put into its safe state before {}: {}",
+                            units_[i].config->name,
+                            units_[i].leaves ? "the station was taken away" : line_.port + " was left",
+                            not_written(i)));
     return true;
 }
 
@@ -338,8 +393,7 @@ void DriveThread::apply_change()
         units.back().config = one.config;
     }
     if (next_->opens_port) {
-        port_.exchange(std::move(next_->port));
-        port_.log_driver(line_);
+        port_.exchange(next_->is_held);
         if (next_->is_other_port) poller_.port_changed();
     }
     const drive::BlockRule rule = LineBackend::block_rule(line_);

@@ -8,11 +8,13 @@
 #include "app/log/limited_log.hpp"
 #include "line_port.hpp"
 #include "line_unit.hpp"
+#include "other_threads.hpp"
 #include "trouble_log.hpp"
 
 #include "dpslave/config/config.hpp"
 #include "dpslave/drive/poller.hpp"
 #include "dpslave/io/event_fd.hpp"
+#include "dpslave/io/thread_sign.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -22,12 +24,20 @@
 
 namespace dpslave::app {
 
-class DriveThread {
+class DriveThread final : private io::SignListener {
 public:
-    /// More and other drives come through LineLink::change.
-    DriveThread(config::LineConfig line, FirstPort port, const std::vector<DriveUnit>& units, LineLink& link);
+    /// How long the safe state of drives that leave is tried.
+    static constexpr std::chrono::seconds kSafeStateLimit{2};
+    /// Any drive answers within this time. What is longer is not waited for when the outputs are to go to
+    /// their safe state.
+    static constexpr std::chrono::milliseconds kLastAnswer{500};
 
-    /// Serves the drives until `stop`; then the outputs go to their safe state, for kSafeStateLimit at most.
+    /// Opens nothing: run() does. `port_is_held`: LineChange::is_held. More and other drives come through
+    /// LineLink::change.
+    DriveThread(config::LineConfig line, bool port_is_held, const std::vector<DriveUnit>& units,
+                LineLink& link, const ProgramSigns& signs);
+
+    /// Serves the drives until `stop`; then the outputs go to their safe state, until LineLink::ends_by.
     void run(const std::stop_token& stop, io::EventFd& wake);
 
 private:
@@ -35,7 +45,6 @@ private:
         2}; ///< how soon an order of the master is noticed
     static constexpr std::chrono::milliseconds kTickIdle{20};
     static constexpr std::chrono::milliseconds kTickLost{100}; ///< no order can reach a drive of the line
-    static constexpr std::chrono::seconds kSafeStateLimit{2};
     static_assert(LinePort::kPatience > kSafeStateLimit, "a line that leaves a port writes there first");
 
     void fetch();
@@ -44,12 +53,15 @@ private:
     drive::Outcome exchange_with(const LineUnit& unit, const drive::Transaction& transaction);
     void publish();
     void note_heard();
+    void on_sign(Instant now) override;
     void recover();
     void note_stalls();
+    void lose_master();
     void probe(const ProbeOrder& order, const std::stop_token& stop);
     void rest(int wake, std::chrono::nanoseconds wait);
     std::chrono::nanoseconds rest_time(Instant now) const;
     void write_safe_state();
+    std::string not_written(std::size_t unit) const;
 
     void take_change();
     bool leaving_is_over() const;
@@ -57,6 +69,9 @@ private:
 
     config::LineConfig line_;
     LineLink& link_;
+    const ProgramSigns& signs_;
+    OtherThreads others_;
+    bool master_is_lost_ = false; ///< one of `others_` has stalled, and nothing was done about it yet
     LinePort port_;
     std::vector<LineUnit> units_;
     drive::Poller poller_;

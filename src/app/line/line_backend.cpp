@@ -23,8 +23,6 @@ modbus::RtuSettings rtu_settings(const config::LineConfig& line)
 
 } // namespace
 
-LineChange::~LineChange() = default;
-
 drive::BlockRule LineBackend::block_rule(const config::LineConfig& line)
 {
     return line.protocol == config::kModbusRtu ? modbus::ModbusRtu::block_rule(rtu_settings(line))

@@ -10,18 +10,17 @@
 
 namespace dpslave::app {
 
-LinePort::LinePort(FirstPort first, const LineBackend::Listeners& listeners) : listeners_(listeners)
+LinePort::LinePort(bool is_held, const LineBackend::Listeners& listeners) : listeners_(listeners)
 {
-    begin(std::move(first));
+    begin(is_held);
 }
 
-/// A port that another line still has is no fault; one that is missing was named already.
-void LinePort::begin(FirstPort first)
+/// A port that another line still has is no fault.
+void LinePort::begin(bool is_held)
 {
-    backend_ = std::move(first.backend);
-    awaited_until_ = first.is_missing ? Instant{} : io::monotonic_now() + kPatience;
-    failure_logged_ = first.is_missing;
-    listeners_.is_open.store(!first.is_missing, std::memory_order_relaxed);
+    awaited_until_ = is_held ? io::monotonic_now() + kPatience : Instant{};
+    failure_told_ = false;
+    listeners_.is_open.store(true, std::memory_order_relaxed);
 }
 
 void LinePort::set_units(std::vector<DriveUnit> units)
@@ -40,37 +39,47 @@ bool LinePort::open(const config::LineConfig& line)
     next_open_ = now + kOpenAgainAfter;
     if (!opened) {
         listeners_.is_open.store(false, std::memory_order_relaxed);
-        if (!std::exchange(failure_logged_, true))
+        if (!std::exchange(failure_told_, true))
             listeners_.happenings.tell(
-                Severity::error, 0, fmt::format("line {}: {}; it is tried again", line.name, opened.error()),
+                Severity::error, 0,
+                fmt::format("line {}: {}; its drives count as silent until it can be opened", line.name,
+                            opened.error()),
                 LineHappenings::Kind::port_missing);
         return false;
     }
     backend_ = std::move(*opened);
     listeners_.is_open.store(true, std::memory_order_relaxed);
     backend_->set_units(units_);
-    listeners_.happenings.tell(Severity::info, 0, fmt::format("line {}: {} is open", line.name, line.port));
+    if (std::exchange(failure_told_, false))
+        listeners_.happenings.tell(Severity::info, 0,
+                                   fmt::format("line {}: {} is open", line.name, line.port));
     log_driver(line);
     return true;
 }
 
+/// Who switches the transceiver, unless it does so by itself.
 void LinePort::log_driver(const config::LineConfig& line) const
 {
-    if (!backend_) return;
     if (const std::string driver = backend_->driver_in_words(); !driver.empty())
         spdlog::info("line {}: {}: {}", line.name, line.port, driver);
 }
 
-void LinePort::exchange(FirstPort next)
+void LinePort::exchange(bool is_held)
 {
     close(); // first: the next one may need the same port
-    begin(std::move(next));
+    begin(is_held);
 }
 
 void LinePort::close()
 {
     backend_.reset();
     next_open_ = {};
+}
+
+void LinePort::give_up()
+{
+    close();
+    failure_told_ = true;
 }
 
 } // namespace dpslave::app

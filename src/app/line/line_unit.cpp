@@ -77,12 +77,18 @@ bool LineUnit::note_stall(drive::Poller& poller, std::size_t index, Instant now)
     const std::uint32_t all = link->stalls.load(std::memory_order_acquire);
     if (std::exchange(stalls_, all) == all) return false;
     poller.not_asked(index, now);
+    poller.drop_superseded(index);
     return true;
 }
 
 void LineUnit::show_stall()
 {
     link->stalls_noted.store(stalls_, std::memory_order_release);
+}
+
+void LineUnit::lose_master()
+{
+    link->departures.fetch_add(2, std::memory_order_release);
 }
 
 void LineUnit::publish(drive::Poller& poller, std::size_t index,

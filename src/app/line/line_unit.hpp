@@ -31,6 +31,8 @@ public:
     bool note_stall(drive::Poller& poller, std::size_t index, Instant now);
     /// What followed from that is published.
     void show_stall();
+    /// The master was taken for lost here: its station leaves the bus once.
+    void lose_master();
     /// From the poller to the links. `heard`: of the back-end, if there is one.
     void publish(drive::Poller& poller, std::size_t index, const std::optional<drive::AnswerCounts>& heard);
     /// Into the ring of the line, if there is something new.

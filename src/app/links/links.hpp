@@ -58,16 +58,26 @@ constexpr drive::ZeroAfter from_ms(std::int64_t after)
     return std::chrono::milliseconds{after};
 }
 
+/// The signs of the threads that every line works for; of none before it begins.
+struct ProgramSigns {
+    SignOfLife bus, main;
+};
+/// How long they may give none. Behind kProgramMayStall the watchdog ends the program, or the one that
+/// still goes round does.
+inline constexpr std::chrono::milliseconds kBusThreadMayStall{1000}, kMainThreadMayStall{2500},
+    kProgramMayStall{5000};
+
 /// One station between its bus, its drive line and the main thread.
 struct StationLink {
     /// `sign`: of the line of its drive; null: nothing judges it.
-    explicit StationLink(std::shared_ptr<const io::ThreadSign> sign = {}) : line_sign(std::move(sign)) {}
+    explicit StationLink(std::shared_ptr<io::ThreadSign> sign = {}) : line_sign(std::move(sign)) {}
 
     /// When the line of its drive went round last.
-    const std::shared_ptr<const io::ThreadSign> line_sign;
+    const std::shared_ptr<io::ThreadSign> line_sign;
     // drive -> bus
     /// Counts how often the station has left for a drive that is gone, and has come back: odd while it
-    /// is away. A bus thread that missed both still leaves once.
+    /// is away. A bus thread that missed both still leaves once. 2 more: the line took the master for lost,
+    /// since the bus thread or the main thread had stalled.
     std::atomic<std::uint32_t> departures{0};
     Mailbox<InputImage> inputs;
     /// Newest wins: an answer to an order that no longer stands is dropped anyway.
@@ -85,6 +95,8 @@ struct StationLink {
     Mailbox<OutputImage> outputs;
     Ring<DemandOrder, 16> demand_orders;
     // bus -> main
+    /// Writes of Demand Data that were never made: newer orders came while the line stalled.
+    std::atomic<std::uint64_t> orders_dropped{0};
     Mailbox<dp::Snapshot> bus_snapshot;
     Ring<dp::Event, 64> events;
     // drive -> main
@@ -147,8 +159,7 @@ struct BusLink {
     Mailbox<BusSnapshot> snapshot;
     /// Who is on the bus, bus -> main; twice a second.
     Mailbox<dp::BusMembers::Table> members;
-    /// Counts the rounds of the bus thread: while it moves, the watchdog of systemd is fed.
-    std::atomic<std::uint64_t> heartbeat{0};
+    ProgramSigns signs; ///< bus and main -> whoever judges
     /// A thread has failed (the log says how): the main thread ends the program.
     std::atomic<bool> failed{false};
     /// The stations from now on, main -> bus, and back the set of before.
@@ -158,6 +169,9 @@ struct BusLink {
     Handover<PortMessage> port_messages;
     std::atomic<Baud> baud{Baud::k9_6}; ///< the rate of replies, bus -> guard of the driver enable
     std::atomic<bool> ended{false};     ///< the bus thread has ended
+    /// Is called on the bus thread when the main thread has stalled for kProgramMayStall and no service
+    /// manager ends the program; null: one does.
+    void (*end_program)() = nullptr;
     /// Main -> bus: the memory is locked, if it is to be. The bus is served before.
     std::atomic<bool> memory_is_ready{true};
     trace::Ring trace; ///< what was heard and sent, bus -> whoever looks
@@ -185,25 +199,15 @@ struct DriveUnit {
     std::shared_ptr<StationLink> link;
 };
 
-class LineBackend;
-/// With what the port of a line begins.
-struct FirstPort {
-    std::unique_ptr<LineBackend> backend; ///< null: it is not open yet
-    /// With a null: it could not be opened, and that was said. Otherwise another line has it still and will
-    /// close it.
-    bool is_missing = false;
-};
-
 /// What a reload changes at a line.
 struct LineChange {
-    ~LineChange();
     /// One that was there before goes on without a break, with its `config` of now.
     std::vector<DriveUnit> units;
     std::optional<config::LineConfig> line; ///< a key of it is different
     bool opens_port = false;                ///< the port is another one, or set in another way
     bool is_other_port = false;             ///< with `opens_port`: standing outputs are written there at once
     bool leaves_drives = false; ///< with `is_other_port`: the drives at the old one go to the safe state
-    FirstPort port;             ///< with `opens_port`
+    bool is_held = false;       ///< with `opens_port`: another line has it still, and will close it
 };
 
 /// An order of `dpctl`; its `unit` is found by the number of the station.
@@ -222,21 +226,28 @@ struct LineLink {
         : samples(sample_octets), trace(std::make_shared<LineTrace>(trace_octets))
     {}
 
-    Ring<LineOrder, 16> orders;                // main -> drive
-    Ring<drive::OperateAnswer, 16> answers;    // drive -> main
+    Ring<LineOrder, 16> orders;             // main -> drive
+    Ring<drive::OperateAnswer, 16> answers; // drive -> main
+    /// Main -> drive: orders up to this number were answered without the drive, and are not carried out.
+    std::atomic<std::uint32_t> withdrawn{0};
+    /// Drive -> main: the number of the order that is carried out now; 0: none.
+    std::atomic<std::uint32_t> operating{0};
     Ring<ProbeOrder, 2> probes;                // main -> drive
     Ring<ProbeReport, 2> probe_reports;        // drive -> main
     std::atomic<std::uint32_t> probe_tried{0}; ///< drive -> main: questions of the probe that runs
     /// main -> drive: the number of a probe whose caller has gone.
     std::atomic<std::uint32_t> probe_ended{0};
-    Mailbox<TroubleList> troubles;              // drive -> main
-    LineHappenings happenings;                  // drive -> main
-    std::atomic<bool> port_open{false};         // drive -> main
+    Mailbox<TroubleList> troubles; // drive -> main
+    LineHappenings happenings;     // drive -> main
+    /// Drive -> main. It counts as open until it could not be opened.
+    std::atomic<bool> port_open{true};
     io::TransceiverCounts transceiver;          ///< of a line that the program switches, drive -> main
     trace::Ring samples;                        ///< trace/samples.hpp, drive -> whoever looks
     Handover<LineChange> change;                // main -> drive
     std::atomic<std::uint32_t> changes_done{0}; ///< drive -> main: how many of them were carried out
-    std::atomic<bool> ended{false};             ///< drive -> main: the thread has ended
+    std::atomic<bool> ended{false};             ///< drive -> main: the thread is about to end
+    /// Main -> drive: until then the safe state may be written at the end.
+    std::atomic<Instant> ends_by{kNever};
     const std::shared_ptr<io::ThreadSign> sign =
         std::make_shared<io::ThreadSign>(); ///< drive -> whoever judges
     /// Its frames, drive -> whoever looks, who may keep it longer than the line is there.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpslave/app/daemon.hpp"
 
+#include "app/bus/bus_port_opener.hpp"
 #include "app/bus/bus_thread.hpp"
 #include "app/bus/driver_guard.hpp"
 #include "app/reload/plant.hpp"
@@ -12,12 +13,14 @@
 #include "dpslave/fdl/transmission.hpp"
 #include "dpslave/io/clock.hpp"
 #include "dpslave/io/driver_enable.hpp"
-#include "dpslave/io/port.hpp"
+#include "dpslave/io/notify.hpp"
 #include "dpslave/io/realtime.hpp"
 #include "dpslave/io/signals.hpp"
 
 #include <fmt/format.h>
+#include <poll.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -30,36 +33,6 @@ namespace {
 void say_warnings(const std::vector<std::string>& warnings)
 {
     for (const std::string& warning : warnings) spdlog::warn("{}", warning);
-}
-
-/// Opens the port of the bus and makes `driver` switch it; nothing: it cannot, and the log says why.
-std::optional<io::Port> open_bus(const config::Config& config, io::DriverEnable& driver)
-{
-    const auto refuse = [&config](const std::string& why) -> std::optional<io::Port> {
-        spdlog::error("{}[bus]: {}", place(config, config.bus.port_line), why);
-        return std::nullopt;
-    };
-    auto port = io::Port::open(config.bus.port, bus_tty_settings(config));
-    if (!port) return refuse(port.error());
-    if (const auto trouble = driver.attach(port->tty())) return refuse(*trouble);
-    for (const std::string& warning : port->tty().warnings())
-        spdlog::warn("{}: {}", config.bus.port, warning);
-    if (const auto trouble = driver.self_check()) {
-        driver.detach();
-        return refuse(*trouble);
-    }
-    spdlog::info("{}: {}", config.bus.port, driver.in_words());
-    Baud highest = Baud::k9_6; // that the bus may have
-    if (config.bus.baud) {
-        highest = *config.bus.baud;
-    } else {
-        const io::TtyBauds bauds = port->tty().bauds();
-        if (!bauds.why_not.empty()) spdlog::warn("{}: {}", config.bus.port, bauds.why_not);
-        for (const Baud baud : kBauds)
-            if (bauds.can.test(index_of(baud))) highest = std::max(highest, baud);
-    }
-    if (const auto doubt = driver.doubt(highest)) spdlog::warn("{}: {}", config.bus.port, *doubt);
-    return std::move(*port);
 }
 
 std::string rate_in_words(const config::BusConfig& bus)
@@ -96,23 +69,39 @@ void await_first_round(const BusLink& link)
 {
     constexpr std::chrono::milliseconds kLongest{50}; // some ticks: whatever holds it up, the start goes on
     const Instant limit = io::monotonic_now() + kLongest;
-    while (link.heartbeat.load(std::memory_order_relaxed) == 0 && io::monotonic_now() < limit)
+    while (link.signs.bus.last() == Instant{} && io::monotonic_now() < limit)
         std::this_thread::sleep_for(std::chrono::microseconds{100});
 }
 
-/// Stops the bus thread and waits for its end. False: it hangs in a call of the system.
-bool end(std::jthread& thread, io::EventFd& wake, const BusLink& link)
+/// The times of the end, from the signal on.
+constexpr std::chrono::milliseconds kBusLeaves{500}; // more than the longest telegram at any rate
+constexpr std::chrono::seconds kDrivesWrite{4};
+constexpr std::chrono::milliseconds kAllEnds{4700};
+
+/// Waits until the bus thread has left the bus, or `limit`.
+bool has_ended(const BusLink& link, Instant limit)
 {
-    constexpr std::chrono::seconds kLongest{2}; // more than twice the longest telegram at any rate
-    thread.request_stop();
-    wake.ring();
-    const Instant limit = io::monotonic_now() + kLongest;
     while (!link.ended.load(std::memory_order_acquire)) {
         if (io::monotonic_now() > limit) return false;
         std::this_thread::sleep_for(std::chrono::milliseconds{1});
     }
-    thread.join();
     return true;
+}
+
+std::chrono::milliseconds remaining(Instant until)
+{
+    return std::max(std::chrono::ceil<std::chrono::milliseconds>(until - io::monotonic_now()),
+                    std::chrono::milliseconds{10});
+}
+
+/// On the bus thread, when the main thread has stalled for too long. Nobody reads the log any more; the bus
+/// was left, and the drives have their safe state.
+void end_without_main_thread()
+{
+    constexpr std::string_view kWhy = "dpslaved: the main thread has stalled: the program ends\n";
+    pollfd taken{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
+    if (::poll(&taken, 1, 0) == 1) static_cast<void>(::write(STDERR_FILENO, kWhy.data(), kWhy.size()) < 0);
+    std::_Exit(static_cast<int>(ExitStatus::not_served));
 }
 
 } // namespace
@@ -122,33 +111,30 @@ ExitStatus run_daemon(const config::Config& config, const std::filesystem::path&
     io::Signals signals; // first: every later thread inherits the blocked signals
     for (const input::Fault& warning : config.warnings) spdlog::warn("{}", to_string(warning));
 
-    // Everything that can fail comes first, in this thread, before anything is sent on the bus.
-    auto driver = io::DriverEnable::open(config.bus.driver_enable);
-    if (!driver) {
-        spdlog::error("{}[bus]: {}", place(config, config.bus.port_line), driver.error());
-        return ExitStatus::device_not_opened;
-    }
-    auto port = open_bus(config, *driver);
-    if (!port) return ExitStatus::device_not_opened;
+    // What can end the start comes first, before anything is sent on the bus.
     if (const auto trouble = keep(drivers_of(config), runtime_folder())) spdlog::warn("{}", *trouble);
-    io::make_stacks_small(); // before the guards of the drive lines, the first threads
+    io::make_stacks_small(); // before the first threads
     if (config.realtime.lock_memory) io::keep_memory();
+    io::DriverEnable driver{config.bus.driver_enable};
     BusLink link{std::size_t{config.trace.bus_kib} * 1024};
-    Plant plant{link.failed, passes_self_test()};
+    Plant plant{link, passes_self_test()};
     plant.open(config);
-    DriverGuard guard{*driver,
+    DriverGuard guard{driver,
                       [&link] { return fdl::transmission_guard(link.baud.load(std::memory_order_relaxed)); }};
     MainThread main_thread(config, profiles, state_folder(), plant, link, guard, signals);
-    main_thread.tell_lines(); // of ports that are missing
     if (const auto trouble = main_thread.open_socket()) {
         spdlog::error("{}: [control] socket: {}; set it to a place where this user may write",
                       config.file.string(), *trouble);
-        driver->detach(); // the port goes before it
-        return ExitStatus::device_not_opened;
+        return ExitStatus::not_served;
     }
 
-    BusThread bus(config.bus, std::move(*port), *driver, plant.bus_stations(), link);
+    BusPortOpener opener{config, driver, link};
     link.memory_is_ready.store(false, std::memory_order_relaxed);
+    opener.start();
+    constexpr std::chrono::seconds kUsually{1}; // a port that opens later is served then
+    opener.await_first_try(kUsually);
+    if (!io::Notifier{}.watchdog_interval()) link.end_program = end_without_main_thread;
+    BusThread bus(config.bus, opener, driver, plant.bus_stations(), link);
     guard.start(config.realtime.priority);
     io::EventFd bus_wake;
     std::jthread bus_thread([&](const std::stop_token& stop) {
@@ -162,26 +148,30 @@ ExitStatus run_daemon(const config::Config& config, const std::filesystem::path&
     await_first_round(link); // the bus is served: what takes milliseconds comes now
     if (config.realtime.lock_memory) say_warnings(io::lock_memory());
     link.memory_is_ready.store(true, std::memory_order_relaxed);
+    opener.wake();
     plant.start();
     const bool by_signal = main_thread.run(begin_in_words(config));
 
-    // The bus first: the end that it publishes makes the drive lines write the safe state.
-    if (!end(bus_thread, bus_wake, link)) {
-        spdlog::critical("the bus thread hangs in a system call for {}; the program ends without it",
-                         config.bus.port);
-        plant.end(); // meanwhile the guard has the driver enable
-        main_thread.tell_rest();
-        main_thread.release();
-        std::_Exit(static_cast<int>(ExitStatus::device_not_opened)); // what it uses cannot be freed
-    }
-    static_cast<void>(driver->set(false, io::monotonic_now())); // also after a bus thread that has failed
-    plant.end();
+    // The bus first: the end that it publishes makes the drive lines write the safe state. They write it also
+    // without.
+    const Instant begun = io::monotonic_now();
+    bus_thread.request_stop();
+    bus_wake.ring();
+    const bool bus_has_left = has_ended(link, begun + kBusLeaves);
+    plant.request_end(begun + kDrivesWrite);
+    std::vector<std::string> hanging = plant.end(begun + kAllEnds);
+    if (!bus_has_left && !has_ended(link, begun + kAllEnds))
+        hanging.push_back("the bus thread hangs in a call of " + config.bus.port);
+    else if (bus_thread.join(); !opener.end(remaining(begun + kAllEnds)))
+        hanging.push_back("the port " + config.bus.port + " does not close");
     main_thread.tell_rest();
-    const auto status = by_signal ? ExitStatus::ended_by_signal : ExitStatus::device_not_opened;
-    if (!main_thread.end_incidents()) {
-        spdlog::warn("the folder of the incidents hangs; the program ends without the last one");
+    const auto status = by_signal ? ExitStatus::ended_by_signal : ExitStatus::not_served;
+    if (!main_thread.end_incidents(remaining(begun + kAllEnds)))
+        hanging.push_back("the folder of the incidents hangs");
+    main_thread.tell_hanging(hanging);
+    if (!hanging.empty()) {
         main_thread.release();
-        std::_Exit(static_cast<int>(status)); // what its thread uses cannot be freed
+        std::_Exit(static_cast<int>(status)); // what its threads use cannot be freed
     }
     spdlog::info("ended");
     return status;

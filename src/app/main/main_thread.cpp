@@ -105,7 +105,8 @@ bool MainThread::run(const std::string& begin)
     Instant next_tick{};
     for (;;) {
         const Instant now = io::monotonic_now();
-        if (bus_.failed.load(std::memory_order_relaxed)) return false;
+        bus_.signs.main.give(now);
+        if (bus_.failed.load(std::memory_order_relaxed) || bus_has_stalled(now)) return false;
         if (now >= next_tick) {
             tick(now);
             next_tick = now + tick_length();
@@ -190,6 +191,7 @@ void MainThread::tell(Happened kind, Severity severity, std::string text)
 void MainThread::tell_news()
 {
     tell_lines();
+    tell_stalls();
     for (const Station& station : plant_.leaving()) tell_bus_events(station);
     for (const Station& station : plant_.stations()) tell_bus_events(station);
     for (const auto& [line, happening] : std::exchange(of_masters_, {})) tell_line(*line, happening);
@@ -213,6 +215,52 @@ void MainThread::tell_lines()
                     of_masters_.emplace_back(line, *happening);
                 else
                     tell_line(*line, *happening);
+}
+
+/// A line that stalls cannot say so. When it goes round again it says what had stalled.
+void MainThread::tell_stalls()
+{
+    std::vector<std::shared_ptr<DriveLine>> stalls;
+    for (const Station& station : plant_.stations()) {
+        const auto& line = station.drive_line;
+        if (station.line_stalled.count() == 0 || std::ranges::count(stalls, line) != 0) continue;
+        stalls.push_back(line);
+        if (std::ranges::count(stalls_told_, line) != 0) continue;
+        LineHappening happening{.kind = LineHappening::Kind::port_missing, .severity = Severity::error};
+        fmt::format_to_n(happening.text.data(), happening.text.size() - 1,
+                         "{}: its drives count as lost. Look at the adapter and the cable of {}",
+                         stall_words(*line, station.line_stalled), line->config.port);
+        tell_line(*line, happening);
+    }
+    for (const auto& line : stalls_told_)
+        if (std::ranges::count(stalls, line) == 0)
+            tell(Happened::drive, Severity::info, fmt::format("line {} goes round again", line->config.name));
+    stalls_told_ = std::move(stalls);
+}
+
+/// True: for so long that the program has to end, and nobody else ends it.
+bool MainThread::bus_has_stalled(Instant now)
+{
+    const auto silent_for = bus_silence_.look(bus_.signs.bus.last(), now);
+    const bool stalls = silent_for >= kBusThreadMayStall;
+    if (stalls && !bus_stall_told_)
+        tell(
+            Happened::port, Severity::error,
+            fmt::format(
+                "the bus thread has stalled for {:.1f} s: no station answers, and the outputs go to their safe state",
+                std::chrono::duration<double>(silent_for).count()));
+    bus_stall_told_ = stalls;
+    if (silent_for < kProgramMayStall || notifier_.watchdog_interval()) return false;
+    spdlog::critical("the bus thread has stalled: the program ends");
+    return true;
+}
+
+void MainThread::tell_hanging(const std::vector<std::string>& sentences)
+{
+    for (const std::string& one : sentences) {
+        spdlog::critical("{}; the program ends without it", one);
+        notifier_.status(one + "; the program ends without it");
+    }
 }
 
 void MainThread::tell_rest()
@@ -296,8 +344,10 @@ void MainThread::tell_port_events()
                 break;
         }
     }
-    if (std::unique_ptr<PortMessage> words; bus_.port_messages.take(words))
+    if (std::unique_ptr<PortMessage> words; bus_.port_messages.take(words)) {
+        if (!words->is_warning) monitor_.set_bus_trouble(words->text);
         say(words->is_warning ? Severity::warning : Severity::error, words->text);
+    }
     if (const std::uint64_t dropped = guard_.dropped(); std::exchange(dropped_seen_, dropped) != dropped)
         say(Severity::error,
             "the driver enable of " + port +
@@ -319,11 +369,11 @@ void MainThread::feed_watchdog(Instant now)
         return;
     }
     if (now < next_watchdog_) return;
-    next_watchdog_ = now + *interval / 4;
+    next_watchdog_ = now + *interval / 10; // the drives need what is left of it for their safe state
     // Without it systemd restarts the service, as it must when the bus thread stands still.
-    const std::uint64_t heartbeat = bus_.heartbeat.load(std::memory_order_relaxed);
-    if (heartbeat != heartbeat_seen_) notifier_.watchdog();
-    heartbeat_seen_ = heartbeat;
+    const Instant sign = bus_.signs.bus.last();
+    if (sign != bus_seen_) notifier_.watchdog();
+    bus_seen_ = sign;
 }
 
 } // namespace dpslave::app

@@ -24,7 +24,7 @@ public:
     /// For an end without the destructor: switches the lamps off and removes the socket.
     void release();
     /// The last incident is written. False: the disk hangs, and this object cannot be destroyed.
-    bool end_incidents() { return incidents_.end(std::chrono::seconds{2}); }
+    bool end_incidents(std::chrono::milliseconds limit) { return incidents_.end(limit); }
 
     /// Opens the control socket. The reason of a failure is a sentence.
     std::optional<std::string> open_socket();
@@ -32,8 +32,8 @@ public:
     /// Serves until SIGTERM or SIGINT (true), or until another thread had to end early (false). `begin`: the
     /// sentence that it has begun.
     bool run(const std::string& begin);
-    /// What the drive lines have told until now.
-    void tell_lines();
+    /// What hangs at the end, for the log and the service manager.
+    void tell_hanging(const std::vector<std::string>& sentences);
     /// What was told since run() returned, and what the log holds back. The threads have ended.
     void tell_rest();
 
@@ -42,6 +42,8 @@ private:
     void on_applied(const std::vector<Station>& left);
     std::chrono::milliseconds tick_length() const;
     void tick(Instant now);
+    void tell_lines();
+    void tell_stalls();
     void tell_news();
     void tell_bus_events(const Station& station);
     void tell_line(const DriveLine& line, const LineHappening& happening);
@@ -49,6 +51,7 @@ private:
     void tell_port_events();
     void let_log_level_end(Instant now);
     void feed_watchdog(Instant now);
+    bool bus_has_stalled(Instant now);
     bool is_end_signalled();
 
     Plant& plant_;
@@ -78,9 +81,12 @@ private:
                     [this](const std::vector<Station>& left) { on_applied(left); }}};
     ControlMethods methods_;
 
-    std::string status_sent_;        ///< to systemd
-    std::uint64_t dropped_seen_ = 0; ///< of the guard, as logged
-    std::uint64_t heartbeat_seen_ = 0;
+    std::string status_sent_;                             ///< to systemd
+    std::uint64_t dropped_seen_ = 0;                      ///< of the guard, as logged
+    std::vector<std::shared_ptr<DriveLine>> stalls_told_; ///< lines that stall, as told
+    Silence bus_silence_;
+    bool bus_stall_told_ = false;
+    Instant bus_seen_{}; ///< its sign, when the watchdog was fed
     Instant next_watchdog_{};
 };
 

@@ -2,9 +2,8 @@
 /// What the program can test of itself at the start without anything connected: that its telegram code knows
 /// a telegram written down beforehand, and no other, and that the clock of the bus runs. UART and driver
 /// enable are tested where they are opened: what was set is read back and the line that enables the driver is
-/// moved, to inactive. Where that fails the program does not start (status 3); in service it is FAULT =
-/// HARDWARE until it works again. Only another station can show that the transceiver sends. Pure.
-/// Source: HA463561U002, "Features" (B-006).
+/// moved, to inactive. Where that fails it is FAULT = HARDWARE until it works. Only another station can show
+/// that the transceiver sends. Pure. Source: HA463561U002, "Features" (B-006).
 #pragma once
 
 #include "dpslave/base/bytes.hpp"

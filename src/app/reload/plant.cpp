@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plant.hpp"
 
-#include "app/line/line_backend.hpp"
 #include "app/state/device_news.hpp"
 
+#include "dpslave/io/clock.hpp"
 #include "dpslave/io/realtime.hpp"
 #include "dpslave/io/tty.hpp"
 
@@ -37,23 +37,6 @@ bool are_same(const std::vector<DriveUnit>& a, const std::vector<DriveUnit>& b)
                       });
 }
 
-std::string not_opened(const config::Config& config, const config::LineConfig& line, const std::string& why)
-{
-    return fmt::format("{}[[line]] \"{}\": {}; its drives count as silent until it can be opened",
-                       place(config, line.port_line), line.name, why);
-}
-
-/// The one place where the port of a line is opened for the first time. Not opened: `missing` has a sentence
-/// more.
-FirstPort first_port(const config::Config& config, const config::LineConfig& line, LineLink& link,
-                     std::vector<std::string>& missing)
-{
-    auto backend = LineBackend::open(line, listeners_of(link));
-    if (backend) return {.backend = std::move(*backend), .is_missing = false};
-    missing.push_back(not_opened(config, line, backend.error()));
-    return {.backend = nullptr, .is_missing = true};
-}
-
 } // namespace
 
 std::string place(const config::Config& config, unsigned line)
@@ -72,13 +55,26 @@ void guarded(std::atomic<bool>& failed, const char* name, const std::function<vo
     }
 }
 
-void Plant::end()
+void Plant::request_end(Instant ends_by)
 {
     for (auto* const lines : {&lines_, &leaving_lines_})
-        for (const auto& line : *lines) line->request_stop();
+        for (const auto& line : *lines) line->request_stop(io::monotonic_now(), ends_by);
+}
+
+std::vector<std::string> Plant::end(Instant limit)
+{
+    std::vector<std::string> hanging;
     for (auto* const lines : {&lines_, &leaving_lines_})
-        for (const auto& line : *lines)
-            if (line->thread.joinable()) line->thread.join();
+        for (const auto& line : *lines) {
+            if (!line->thread.joinable()) continue;
+            while (!line->link.ended.load(std::memory_order_acquire) && io::monotonic_now() < limit)
+                std::this_thread::sleep_for(std::chrono::milliseconds{1});
+            if (line->link.ended.load(std::memory_order_acquire))
+                line->thread.join();
+            else
+                hanging.push_back(stall_words(*line, io::monotonic_now() - line->link.sign->last()));
+        }
+    return hanging;
 }
 
 Station Plant::new_station(const config::StationConfig& config, const std::shared_ptr<DriveLine>& line)
@@ -104,19 +100,13 @@ Station Plant::new_station(const config::StationConfig& config, const std::share
 
 void Plant::open(const config::Config& config)
 {
-    std::vector<FirstPort> ports;
-    for (const config::LineConfig& line : config.lines) {
+    for (const config::LineConfig& line : config.lines)
         lines_.push_back(std::make_shared<DriveLine>(line, config.trace));
-        LineLink& link = lines_.back()->link;
-        std::vector<std::string> missing;
-        ports.push_back(first_port(config, line, link, missing));
-        for (const std::string& why : missing) link.happenings.tell(Severity::error, 0, why);
-    }
     for (const config::StationConfig& station : config.stations)
         stations_.push_back(new_station(station, lines_[station.line]));
-    for (std::size_t i = 0; i < lines_.size(); ++i)
-        lines_[i]->work = std::make_unique<DriveThread>(lines_[i]->config, std::move(ports[i]),
-                                                        units_on(*lines_[i], stations_), lines_[i]->link);
+    for (const auto& line : lines_)
+        line->work = std::make_unique<DriveThread>(line->config, false, units_on(*line, stations_),
+                                                   line->link, bus_.signs);
 }
 
 void Plant::start()
@@ -127,10 +117,11 @@ void Plant::start()
 void Plant::start(DriveLine& line)
 {
     line.thread = std::jthread([this, &line](const std::stop_token& stop) {
-        guarded(failed_, "drive", [&] {
+        guarded(bus_.failed, "drive", [&] {
             io::unlock_deep_stack(); // it waits for drives anyway, and there may be many lines
             line.work->run(stop, line.wake);
         });
+        line.link.ended.store(true, std::memory_order_release);
     });
 }
 
@@ -145,12 +136,10 @@ std::unique_ptr<BusStations> Plant::bus_stations() const
 
 struct Plant::Next {
     DriveLines lines;
-    std::vector<FirstPort> ports; ///< in the order of `lines`
     std::vector<Station> stations;
     std::vector<Change> changes;
 };
 
-/// A port that a present line has cannot be opened as a trial: that line closes it first.
 bool Plant::has_port(const std::string& port) const
 {
     const std::string wanted = config::canonical(port);
@@ -159,7 +148,6 @@ bool Plant::has_port(const std::string& port) const
     });
 }
 
-/// Likewise the GPIO line of its transceiver.
 bool Plant::has_gpio_line(const config::LineConfig& wanted) const
 {
     const io::DriverEnableSettings& driver = wanted.driver_enable;
@@ -171,11 +159,10 @@ bool Plant::has_gpio_line(const config::LineConfig& wanted) const
            });
 }
 
-bool Plant::opens_for_a_trial(const Plan& plan, std::size_t line) const
+/// A present line has its port, or the GPIO line of its transceiver, and closes it first.
+bool Plant::is_held(const config::LineConfig& wanted) const
 {
-    const Plan::Line& planned = plan.lines[line];
-    const config::LineConfig& wanted = plan.config.lines[line];
-    return (!planned.before || planned.is_opened_anew) && !has_port(wanted.port) && !has_gpio_line(wanted);
+    return has_port(wanted.port) || has_gpio_line(wanted);
 }
 
 std::vector<std::string> Plant::missing_ports(const Plan& plan) const
@@ -183,26 +170,23 @@ std::vector<std::string> Plant::missing_ports(const Plan& plan) const
     std::vector<std::string> missing;
     for (std::size_t i = 0; i < plan.lines.size(); ++i) {
         const config::LineConfig& line = plan.config.lines[i];
-        if (!opens_for_a_trial(plan, i)) continue;
+        const bool is_opened = !plan.lines[i].before || plan.lines[i].is_opened_anew;
+        if (!is_opened || is_held(line)) continue;
         if (const auto trouble = io::port_trouble(line.port))
-            missing.push_back(not_opened(plan.config, line, *trouble));
+            missing.push_back(
+                fmt::format("{}[[line]] \"{}\": {}; its drives count as silent until it can be opened",
+                            place(plan.config, line.port_line), line.name, *trouble));
     }
     return missing;
 }
 
-std::vector<std::string> Plant::make_lines(const Plan& plan, Next& next) const
+void Plant::make_lines(const Plan& plan, Next& next) const
 {
-    std::vector<std::string> missing;
     for (std::size_t i = 0; i < plan.lines.size(); ++i) {
-        const config::LineConfig& config = plan.config.lines[i];
-        const Plan::Line& planned = plan.lines[i];
-        next.lines.push_back(planned.before ? lines_[*planned.before]
-                                            : std::make_shared<DriveLine>(config, plan.config.trace));
-        next.ports.push_back(opens_for_a_trial(plan, i)
-                                 ? first_port(plan.config, config, next.lines[i]->link, missing)
-                                 : FirstPort{});
+        const auto before = plan.lines[i].before;
+        next.lines.push_back(before ? lines_[*before]
+                                    : std::make_shared<DriveLine>(plan.config.lines[i], plan.config.trace));
     }
-    return missing;
 }
 
 void Plant::make_stations(const Plan& plan, Next& next)
@@ -226,6 +210,7 @@ void Plant::plan_port(const Plan& plan, std::size_t index, LineChange& change) c
     if (!planned.is_changed) return;
     change.line = plan.config.lines[index];
     change.opens_port = planned.is_opened_anew;
+    change.is_held = is_held(*change.line);
     const std::string old_port = config::canonical(lines_[*planned.before]->config.port);
     change.is_other_port = config::canonical(change.line->port) != old_port;
     change.leaves_drives =
@@ -242,29 +227,27 @@ void Plant::make_changes(const Plan& plan, Next& next) const
         DriveLine& line = *next.lines[i];
         auto units = units_on(line, next.stations);
         if (!plan.lines[i].before) {
-            line.work =
-                std::make_unique<DriveThread>(line.config, std::move(next.ports[i]), units, line.link);
+            line.work = std::make_unique<DriveThread>(line.config, is_held(line.config), units, line.link,
+                                                      bus_.signs);
         } else if (plan.lines[i].is_changed || !are_same(units, units_on(line, stations_))) {
             auto change = std::make_unique<LineChange>();
             change->units = std::move(units);
             plan_port(plan, i, *change);
-            change->port = std::move(next.ports[i]);
             next.changes.push_back({next.lines[i], std::move(change)});
         }
     }
 }
 
-std::vector<std::string> Plant::exchange(const Plan& plan)
+void Plant::exchange(const Plan& plan)
 {
     Next next;
-    std::vector<std::string> missing = make_lines(plan, next);
+    make_lines(plan, next);
     make_stations(plan, next);
     make_changes(plan, next);
     for (std::size_t i = 0; i < next.lines.size(); ++i)
         if (!plan.lines[i].before) start(*next.lines[i]);
 
     commit(plan, std::move(next));
-    return missing;
 }
 
 /// Nothing can fail any more.
@@ -296,7 +279,8 @@ void Plant::finish()
         one.line->wake.ring();
     }
     changes_.clear();
-    for (const auto& line : leaving_lines_) line->request_stop();
+    const Instant now = io::monotonic_now();
+    for (const auto& line : leaving_lines_) line->request_stop(now, now + DriveThread::kSafeStateLimit);
 }
 
 bool Plant::is_settled()

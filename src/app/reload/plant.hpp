@@ -23,20 +23,19 @@ namespace dpslave::app {
 
 class Plant {
 public:
-    /// `failed` is set when a thread had to end early; it outlives this object. After a failed self-test
-    /// every station stays silent.
-    Plant(std::atomic<bool>& failed, bool self_test_passed)
-        : failed_(failed), self_test_passed_(self_test_passed)
-    {}
+    /// `bus` outlives this object: BusLink::failed is set when a thread had to end early. After a failed
+    /// self-test every station stays silent.
+    Plant(BusLink& bus, bool self_test_passed) : bus_(bus), self_test_passed_(self_test_passed) {}
 
-    /// Opens the lines and makes the stations, before there are any. A port that cannot be opened now is a
-    /// happening of its line, with its place in the file. Its drives count as silent until the port appears.
+    /// Makes the lines and the stations, before there are any. Opens nothing.
     void open(const config::Config& config);
-    /// Starts the threads of the lines.
+    /// Starts the threads of the lines, each of which opens its port.
     void start();
-    /// Ends them: the outputs go to their safe state, on all lines at the same time. The bus has ended
-    /// before.
-    void end();
+    /// They are to end: the outputs go to their safe state, on all lines at the same time, until `ends_by`.
+    void request_end(Instant ends_by);
+    /// After request_end(): waits for them, until `limit` at most. The result: a sentence for each that
+    /// hangs.
+    std::vector<std::string> end(Instant limit);
 
     /// In the order of the configuration. The main thread keeps in them what it knows.
     std::vector<Station>& stations() { return stations_; }
@@ -51,10 +50,10 @@ public:
     std::unique_ptr<BusStations> bus_stations() const;
 
     /// Makes what `plan` asks for and takes over what stays: stations() and lines() are the new ones, and
-    /// finish() is due when the bus has removed the stations that left. The result is as that of open(), of
-    /// the ports that none of the present lines has. Precondition: is_settled().
-    std::vector<std::string> exchange(const Plan& plan);
-    /// What exchange() would say of `plan`, as far as the file system shows. Opens nothing.
+    /// finish() is due when the bus has removed the stations that left. Precondition: is_settled().
+    void exchange(const Plan& plan);
+    /// A sentence for each port of `plan` that cannot be opened, as far as the file system shows; but for
+    /// those that the present lines have. Opens nothing.
     std::vector<std::string> missing_ports(const Plan& plan) const;
     /// The bus has removed the stations that left: the lines write the safe state of drives that left, then
     /// they ask the new drives. Does not wait.
@@ -72,15 +71,15 @@ private:
     Station new_station(const config::StationConfig& config, const std::shared_ptr<DriveLine>& line);
     bool has_port(const std::string& port) const;
     bool has_gpio_line(const config::LineConfig& wanted) const;
-    bool opens_for_a_trial(const Plan& plan, std::size_t line) const;
-    std::vector<std::string> make_lines(const Plan& plan, Next& next) const;
+    bool is_held(const config::LineConfig& wanted) const;
+    void make_lines(const Plan& plan, Next& next) const;
     void make_stations(const Plan& plan, Next& next);
     void plan_port(const Plan& plan, std::size_t index, LineChange& change) const;
     void make_changes(const Plan& plan, Next& next) const;
     void commit(const Plan& plan, Next next);
     void start(DriveLine& line);
 
-    std::atomic<bool>& failed_;
+    BusLink& bus_;
     bool self_test_passed_;
     DriveLines lines_;
     std::vector<Station> stations_;

@@ -176,28 +176,21 @@ Reload::Outcome Reload::attempt()
     auto [outcome, plan] = judge();
     for (const std::string& warning : outcome.warnings) spdlog::warn("{}", warning);
     if (!plan) return outcome;
-    std::vector<std::string> missing = apply(std::move(*plan));
+    apply(std::move(*plan));
     tell("reload: ", Severity::info, outcome.changes);
     tell("reload, pending: ", Severity::warning, outcome.pending);
-    for (std::string& one : missing) {
-        const auto& said = outcome.warnings;
-        if (std::find(said.begin(), said.end(), one) != said.end()) continue;
-        tell("reload: ", Severity::warning, {one});
-        outcome.warnings.push_back(std::move(one));
-    }
     outcome.applied = true;
     return outcome;
 }
 
-/// The new configuration is in force, and the bus is about to take it. The result: ports that cannot be
-/// opened.
-std::vector<std::string> Reload::apply(Plan plan)
+/// The new configuration is in force, and the bus is about to take it.
+void Reload::apply(Plan plan)
 {
     if (plan.changes.empty()) {
         parts_.monitor.set_config(std::move(plan.config)); // other texts in the file, and what is pending
-        return {};
+        return;
     }
-    std::vector<std::string> missing = parts_.plant.exchange(plan);
+    parts_.plant.exchange(plan);
     keep_drivers(parts_.monitor.config(), plan.config);
     parts_.monitor.set_config(std::move(plan.config));
     stations_ = parts_.plant.bus_stations();
@@ -205,7 +198,6 @@ std::vector<std::string> Reload::apply(Plan plan)
     const config::Config& config = parts_.monitor.config();
     for (const std::string& warning : parts_.lamps.exchange(config)) spdlog::warn("{}", warning);
     parts_.applied(parts_.plant.leaving());
-    return missing;
 }
 
 /// The bus takes its new stations when those that leave have published their end.

@@ -64,7 +64,7 @@ private:
     void start();
     Judged judge();
     Outcome attempt();
-    std::vector<std::string> apply(Plan plan);
+    void apply(Plan plan);
     std::vector<InForce> in_force() const;
     bool bus_has_taken();
     void tell(const std::string& before, Severity severity, const std::vector<std::string>& sentences) const;

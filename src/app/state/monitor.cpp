@@ -3,8 +3,10 @@
 
 #include "app/line/drive_line.hpp"
 #include "device_news.hpp"
+#include "old_words.hpp"
 
 #include "dpslave/base/number.hpp"
+#include "dpslave/io/clock.hpp"
 
 #include <algorithm>
 
@@ -86,6 +88,7 @@ Monitor::Choice Monitor::choose(const Json& parameters, bool one_is_needed) cons
 void Monitor::refresh()
 {
     view_.bus = bus_.snapshot.latest();
+    if (view_.bus.port_open) view_.bus_trouble.clear();
     if (bus_.members.fresh()) view_.members = bus_.members.latest();
     view_.lost_events = lost_before_;
     for (Station& station : stations_) {
@@ -93,6 +96,7 @@ void Monitor::refresh()
         if (link.bus_snapshot.fresh()) station.bus = link.bus_snapshot.latest();
         if (link.drive_snapshot.fresh()) station.drive = link.drive_snapshot.latest();
         station.ever_answered = station.ever_answered || station.drive.answers;
+        look_at_line(station);
         const LineLink& line = station.drive_line->link;
         station.line_open = line.port_open.load(std::memory_order_relaxed);
         station.late_releases = line.transceiver.late.load(std::memory_order_relaxed);
@@ -102,6 +106,16 @@ void Monitor::refresh()
         refresh_troubles(station);
         update(station);
     }
+}
+
+/// What a line said before it stalled is old, as a drive's words are that does not answer.
+void Monitor::look_at_line(Station& station)
+{
+    const auto& loss = station.config->loss;
+    const auto silent_for = station.drive_line->look(io::monotonic_now());
+    station.line_stalled = silent_for >= loss.after ? silent_for : std::chrono::nanoseconds{};
+    station.stalled_in = station.drive_line->link.sign->call();
+    if (station.line_stalled.count() != 0) make_old(station.drive, loss.when);
 }
 
 void Monitor::update_device(const Station& station)

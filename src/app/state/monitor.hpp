@@ -39,6 +39,8 @@ public:
 
     /// Fetches the newest snapshots and publishes the orders that follow from them.
     void refresh();
+    /// Why the port of the bus is closed, a sentence; it stands until the port is open.
+    void set_bus_trouble(std::string why) { view_.bus_trouble = std::move(why); }
     /// What the control socket has counted up to now.
     void set_calls(const control::ServerCounters& calls) { view_.calls = calls; }
     /// The same for the device of one station, after a setting of it has changed.
@@ -51,6 +53,7 @@ public:
     void add_lost_events(std::uint64_t count) { lost_before_ += count; }
 
 private:
+    void look_at_line(Station& station);
     void update(Station& station);
 
     config::Config config_;

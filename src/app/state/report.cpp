@@ -63,6 +63,9 @@ report::Drive drive_report(const Station& station)
     result.refusals = integer(drive.refusals);
     result.losses = integer(drive.losses);
     if (!station.troubles.empty()) result.last_trouble = station.troubles.back().text.data();
+    if (station.line_stalled.count() != 0) result.stalled_ms = milliseconds(station.line_stalled);
+    if (const std::string_view call = io::name(station.stalled_in); result.stalled_ms && !call.empty())
+        result.stalled_in = call;
     return result;
 }
 
@@ -141,6 +144,7 @@ report::Bus bus_report(const View& view, Instant now)
     result.stations = integer(view.stations.size());
     result.exchanging = exchanging(view);
     result.last_telegram_age_ms = age(view.bus.last_telegram, now);
+    if (!view.bus_trouble.empty()) result.trouble = view.bus_trouble;
     return result;
 }
 
@@ -292,14 +296,17 @@ std::string status_line(const View& view)
     std::string line = view.config->bus.listen
                            ? std::string{"only listens"}
                            : fmt::format("{} of {} in Data_Exch", exchanging(view), view.stations.size());
-    if (!view.bus.port_open) line += "; the port of the bus is missing";
+    if (!view.bus.port_open)
+        line += view.bus_trouble.empty() ? "; the port of the bus is missing" : "; " + view.bus_trouble;
     for (const Station& one : view.stations) {
         line += fmt::format("; {}: {}", one.config->name, dp::text(one.bus.state));
         if (one.bus.master != 0xFF) line += fmt::format(" with master {}", one.bus.master);
         if (one.bus.hold != StartHold::none) line += fmt::format(", held: {}", report::text(one.bus.hold));
         if (one.bus.clear) line += " in Clear";
         if (one.drive.ride_ends) line += ", RIDE THROUGH";
-        if (!one.line_open)
+        if (one.line_stalled.count() != 0)
+            line += ", line stalled";
+        else if (!one.line_open)
             line += ", port of the drive gone";
         else if (one.drive.known && !one.drive.answers)
             line += ", drive silent";

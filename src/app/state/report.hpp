@@ -49,6 +49,7 @@ private:
 struct View {
     const config::Config* config = nullptr;
     BusSnapshot bus{};
+    std::string bus_trouble; ///< why there is no port; empty: there is one, or the reason is not known
     dp::BusMembers::Table members{};
     std::span<const Station> stations; ///< in the order of config.stations
     std::uint64_t lost_events = 0;     ///< events that no log could take

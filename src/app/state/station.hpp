@@ -6,6 +6,7 @@
 
 #include "dpslave/config/config.hpp"
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -34,6 +35,10 @@ struct Station {
     dp::Snapshot bus{};
     drive::DriveSnapshot drive{};
     bool line_open = false;
+    /// Its line has given no sign for so long that the drive counts as lost, and the call that it is
+    /// in; 0: it goes round.
+    std::chrono::nanoseconds line_stalled{};
+    io::PortCall stalled_in = io::PortCall::none;
     /// Of the transceiver of its line, where the program switches it (io::TransceiverCounts).
     std::uint64_t late_releases = 0, guarded_releases = 0, driver_errors = 0;
     bool ever_answered = false;    ///< the drive, since the station was added

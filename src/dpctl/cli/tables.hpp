@@ -19,6 +19,8 @@ std::string state_text(const report::Station& station);
 Tone state_tone(const report::Station& station);
 /// "answers", "silent", "port missing".
 std::string link_text(const report::Drive& drive);
+/// "line p3 has stalled in write for 12 s". Precondition: it has.
+std::string stall_text(const report::Drive& drive);
 Tone link_tone(const report::Drive& drive);
 /// "read only" of "read_only".
 std::string state_text(const report::Word& word);

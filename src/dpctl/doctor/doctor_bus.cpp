@@ -50,7 +50,7 @@ Count flaws(const Facts& f)
 std::string seen_gone(const Facts& f)
 {
     if (f.bus.port_open) return {};
-    return f.bus.port + " is not there";
+    return f.bus.trouble.value_or(f.bus.port + " is not there");
 }
 std::string seen_driver_gone(const Facts& f)
 {
@@ -177,8 +177,9 @@ std::string seen_driver(const Facts& f)
 }
 
 constexpr std::array kBusRules = std::to_array<Rule>({
-    {"bus.gone", Rank::gone, "the port of the bus has vanished",
-     "The port of the bus is missing: the adapter was unplugged, or its driver failed",
+    {"bus.gone", Rank::gone, "the port of the bus cannot be used",
+     "The port of the bus or its driver enable is missing: unplugged, failed, or used by another program",
+     "Do what the sentence above says.\n"
      "Check that the adapter is plugged in. See where it is now: ls -l /dev/serial/by-id\n"
      "Name the port under [bus] by its stable path in /dev/serial/by-id.\n"
      "See when it went: journalctl -u dpslaved. It is opened again as soon as it returns.",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The link to the drive, for a station of any family.
 #include "doctor_rules.hpp"
+#include "dpctl/cli/tables.hpp"
 #include "dpctl/cli/words.hpp"
 
 #include <fmt/format.h>
@@ -27,7 +28,7 @@ constexpr double kOfNow = 15'000;         ///< ms: a lost drive is asked every f
 bool is_silent(const Facts& f)
 {
     const report::Drive& d = f.station.drive;
-    return d.port_open && (d.link == "silent" || d.link == "gone");
+    return d.port_open && !d.stalled_ms && (d.link == "silent" || d.link == "gone");
 }
 
 /// "EI-ASCII unit 00 on p3: /dev/ttyS2 at 9.6 kbit/s, 7E1, direction gpio".
@@ -41,6 +42,10 @@ std::string seen_drive_port_gone(const Facts& f)
 {
     const report::Drive& d = f.station.drive;
     return !d.port_open ? fmt::format("{} of line {} is not there, or cannot be opened", d.port, d.line) : "";
+}
+std::string seen_stalled(const Facts& f)
+{
+    return f.station.drive.stalled_ms ? stall_text(f.station.drive) : std::string{};
 }
 /// Do we hear ourselves? Then what else is heard says nothing of the drive.
 bool is_drive_echo(const Facts& f)
@@ -230,6 +235,13 @@ std::string seen_unknown(const Facts& f)
 }
 
 constexpr std::array kDriveRules = std::to_array<Rule>({
+    {"drive.stalled", Rank::gone, "a call of the port of the drive line does not come back",
+     "The adapter of the drive line, its driver or the USB bus hangs: no drive of this line is asked any more",
+     "Unplug the adapter and plug it in again. The line goes on by itself.\n"
+     "See what the kernel says: journalctl -k\n"
+     "If it comes again: another adapter, another USB port or hub, a shorter USB cable.\n"
+     "If nothing helps, restart the machine: a call in the kernel cannot be ended.",
+     kGateway, seen_stalled},
     {"drive.gone", Rank::gone, "the port of the drive line is missing",
      "The port of the drive line is missing: no adapter is plugged in there, or its driver failed",
      "Check that the adapter is plugged in. See where it is now: ls -l /dev/serial/by-id\n"

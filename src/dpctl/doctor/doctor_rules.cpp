@@ -124,7 +124,7 @@ std::string tag_trouble(const Facts& f)
 std::string drive_silence(const Facts& f)
 {
     const report::Drive& d = f.station.drive;
-    if (d.link != "silent" && d.link != "gone") return {};
+    if (d.stalled_ms || (d.link != "silent" && d.link != "gone")) return {};
     return fmt::format("unit {} on {} ({}, {}) does not answer: {} unanswered", d.unit, d.line, d.port,
                        d.protocol, plural(d.silences, "request"));
 }

@@ -42,7 +42,7 @@ std::string diagnosis(const report::Station& station)
 std::string drive(const report::Drive& d)
 {
     std::string result = fmt::format("unit {} on {} ({}, {}, direction {}): {}\n", d.unit, d.line, d.port,
-                                     d.protocol, d.direction, d.link);
+                                     d.protocol, d.direction, d.stalled_ms ? stall_text(d) : d.link);
     if (d.cycle_ms) result += fmt::format("a round takes {}; ", age(d.cycle_ms));
     result += fmt::format("{}, {}, {} unanswered, {} refused, lost {}", plural(d.reads, "read"),
                           plural(d.writes, "write"), d.silences, d.refusals, plural(d.losses, "time"));

@@ -21,6 +21,7 @@ std::string remarks_of(const report::Station& s, Look look)
         add("Freeze holds the inputs: the master gets old values until the next Freeze or Unfreeze");
     if (s.ride) add("RIDE THROUGH: " + ride_text(*s.ride));
     if (s.silent_because) add(*s.silent_because);
+    if (s.drive.stalled_ms) add(stall_text(s.drive) + "; what it read last is old");
     if (!s.drive.port_open)
         add(fmt::format("the port of the drive line, {}, is gone or cannot be opened; it is tried again",
                         s.drive.port));
@@ -47,7 +48,14 @@ Tone state_tone(const report::Station& s)
 
 std::string link_text(const report::Drive& d)
 {
+    if (d.stalled_ms) return "line stalled";
     return d.port_open ? d.link : "port missing";
+}
+
+std::string stall_text(const report::Drive& d)
+{
+    return fmt::format("line {} has stalled{} for {}", d.line, d.stalled_in ? " in " + *d.stalled_in : "",
+                       age(d.stalled_ms));
 }
 
 Tone link_tone(const report::Drive& d)
@@ -67,7 +75,8 @@ std::string ride_text(const report::Ride& ride)
 
 std::string bus_line(const report::Bus& bus)
 {
-    if (!bus.port_open) return bus.port + " is missing; it is opened again as soon as it returns";
+    if (!bus.port_open)
+        return bus.trouble.value_or(bus.port + " is missing; it is opened again as soon as it returns");
     const bool is_search = bus.baud_state == "Baud_Search";
     std::string speed = rate(bus.baud);
     if (is_search) speed = "searching the rate" + (bus.baud > 0 ? ", now at " + speed : std::string{});

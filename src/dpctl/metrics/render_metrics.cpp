@@ -180,6 +180,9 @@ void add_drive(Exposition& out, const report::Station& station, const Labels& bu
         out.gauge("dpslaved_line_port_open", "0: the port of the drive line is gone.", line,
                   drive.port_open ? 1 : 0);
     }
+    if (drive.stalled_ms)
+        out.gauge("dpslaved_drive_line_stalled_seconds", "A call of the port does not come back.",
+                  drive_labels(station.name, drive.line, bus), seconds(*drive.stalled_ms));
     const Labels labels = drive_labels(station.name, drive.line, bus);
     if (drive.link != "unknown")
         out.gauge("dpslaved_drive_answers", "0: the drive is silent; missing if nothing was asked yet.",

@@ -91,9 +91,9 @@ struct DriverEnable::Held {
 
     const DriverEnableSettings settings;
     /// Held while line or port are exchanged, and by the guard while it uses them. set() does not need it: it
-    /// runs in the thread that exchanges them.
+    /// uses the line while `works` only, and it is exchanged while not.
     std::mutex exchange_mutex;
-    std::optional<GpioLine> line; ///< nullopt: the chip has gone
+    std::optional<GpioLine> line; ///< nullopt: not taken yet, or the chip has gone
     int port = kNoPort;
     serial_rs485 took{}; ///< what the UART's driver made of Direction::kernel
 
@@ -114,9 +114,15 @@ struct DriverEnable::Held {
     }
     void fail(Instant now) noexcept
     {
-        if (!works.exchange(false, std::memory_order_relaxed)) return;
+        if (!works.load(std::memory_order_relaxed)) return;
         next_try = now;
         failures = 0;
+        works.store(false, std::memory_order_release);
+    }
+    void work() noexcept
+    {
+        next_try = kNever;
+        works.store(true, std::memory_order_release);
     }
     void forget() noexcept { since.store(kInactive, std::memory_order_release); }
 
@@ -130,7 +136,7 @@ struct DriverEnable::Held {
 /// The time is noted before the edge: a thread that is stopped in between is covered by the guard.
 std::error_code DriverEnable::Held::rise(Instant now) noexcept
 {
-    if (!works.load(std::memory_order_relaxed)) return std::make_error_code(std::errc::no_such_device);
+    if (!works.load(std::memory_order_acquire)) return std::make_error_code(std::errc::no_such_device);
     const std::int64_t mine = ticks(now);
     std::int64_t before = since.load(std::memory_order_acquire);
     do
@@ -206,20 +212,31 @@ std::optional<std::string> DriverEnable::Held::attach_kernel(int fd)
     return std::nullopt;
 }
 
-DriverEnable::DriverEnable(std::unique_ptr<Held> held) : held_(std::move(held)) {}
+DriverEnable::DriverEnable(const DriverEnableSettings& settings) : held_(std::make_unique<Held>(settings))
+{
+    if (settings.direction == Direction::gpio) held_->fail(Instant{});
+}
 DriverEnable::DriverEnable(DriverEnable&&) noexcept = default;
 DriverEnable& DriverEnable::operator=(DriverEnable&&) noexcept = default;
 DriverEnable::~DriverEnable() = default;
 
 Result<DriverEnable, std::string> DriverEnable::open(const DriverEnableSettings& settings)
 {
-    auto held = std::make_unique<Held>(settings);
-    if (settings.direction == Direction::gpio) {
-        auto line = GpioLine::request(request_of(settings));
-        if (!line) return Failure{"driver enable: " + line.error()};
-        held->line.emplace(std::move(*line));
-    }
-    return DriverEnable{std::move(held)};
+    DriverEnable driver{settings};
+    if (auto trouble = driver.take()) return Failure{*std::move(trouble)};
+    return driver;
+}
+
+std::optional<std::string> DriverEnable::take()
+{
+    Held& h = *held_;
+    if (h.settings.direction != Direction::gpio || h.line) return std::nullopt;
+    auto line = GpioLine::request(request_of(h.settings));
+    if (!line) return "driver enable: " + line.error();
+    const std::lock_guard lock(h.exchange_mutex);
+    h.line.emplace(std::move(*line));
+    h.work();
+    return std::nullopt;
 }
 
 std::optional<std::string> DriverEnable::release(const DriverEnableSettings& settings,
@@ -254,8 +271,7 @@ std::optional<std::string> DriverEnable::attach(const Tty& port)
     h.port = port.fd();
     if (h.settings.direction == Direction::rts) {
         h.forget();
-        h.works.store(true, std::memory_order_relaxed);
-        h.next_try = kNever;
+        h.work();
     }
     return std::nullopt;
 }
@@ -282,12 +298,13 @@ bool DriverEnable::by_hand() const noexcept
 std::error_code DriverEnable::set(bool sending, Instant now) noexcept
 {
     if (!by_hand()) return {};
-    return sending ? held_->rise(now) : held_->fall(now);
+    if (sending) return held_->rise(now);
+    return works() ? held_->fall(now) : std::make_error_code(std::errc::no_such_device);
 }
 
 bool DriverEnable::works() const noexcept
 {
-    return held_->works.load(std::memory_order_relaxed);
+    return held_->works.load(std::memory_order_acquire);
 }
 
 bool DriverEnable::ready(Instant now)
@@ -302,8 +319,7 @@ bool DriverEnable::ready(Instant now)
         ++h.failures;
         return false;
     }
-    h.next_try = kNever;
-    h.works.store(true, std::memory_order_relaxed);
+    h.work();
     return true;
 }
 

@@ -7,6 +7,7 @@ namespace dpslave::io {
 namespace {
 
 thread_local ThreadSign* sign_of_this_thread = nullptr;
+thread_local SignListener* listener_of_this_thread = nullptr;
 
 } // namespace
 
@@ -39,20 +40,35 @@ void ThreadSign::leave(Instant now)
     give(now);
 }
 
-void set_sign_of_this_thread(ThreadSign* sign)
+void set_sign_of_this_thread(ThreadSign* sign, SignListener* listener)
 {
     sign_of_this_thread = sign;
+    listener_of_this_thread = listener;
     give_sign();
 }
 
 void give_sign()
 {
-    if (sign_of_this_thread != nullptr) sign_of_this_thread->give(monotonic_now());
+    if (sign_of_this_thread == nullptr) return;
+    const Instant now = monotonic_now();
+    sign_of_this_thread->give(now);
+    if (listener_of_this_thread != nullptr) listener_of_this_thread->on_sign(now);
 }
 
 bool this_thread_stalled()
 {
     return sign_of_this_thread != nullptr && sign_of_this_thread->stall().has_value();
+}
+
+Instant waits_of_this_thread_end()
+{
+    return sign_of_this_thread != nullptr ? sign_of_this_thread->waits_end() : kNever;
+}
+
+bool this_thread_may_write()
+{
+    const ThreadSign* const sign = sign_of_this_thread;
+    return sign == nullptr || (!sign->is_given_up() && monotonic_now() < sign->waits_end());
 }
 
 InCall::InCall(PortCall call)

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdint>
 #include <system_error>
 
 namespace dpslave::io {
@@ -20,10 +19,11 @@ Ticker::Ticker(std::chrono::nanoseconds period)
         throw std::system_error{errno, std::system_category(), "timerfd"};
 }
 
-void Ticker::clear() noexcept
+std::uint64_t Ticker::clear() noexcept
 {
     std::uint64_t ticks = 0;
     [[maybe_unused]] const ssize_t taken = ::read(fd_.get(), &ticks, sizeof ticks);
+    return ticks;
 }
 
 } // namespace dpslave::io

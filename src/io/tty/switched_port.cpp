@@ -29,6 +29,12 @@ void count(TransceiverCounts* counts, std::atomic<std::uint64_t> TransceiverCoun
     if (counts != nullptr) (counts->*which).fetch_add(1, std::memory_order_relaxed);
 }
 
+Result<DriverEnable, std::string> open_driver(const DriverEnableSettings& settings)
+{
+    const InCall open{PortCall::driver_enable};
+    return DriverEnable::open(settings);
+}
+
 Transmission::Times times_of(const TtySettings& settings)
 {
     const auto character = character_time(settings);
@@ -48,7 +54,7 @@ Result<SwitchedPort, std::string> SwitchedPort::open(std::string path, const Tty
                                                      const TransceiverSettings& transceiver,
                                                      std::chrono::nanoseconds first_wait)
 {
-    auto driver = DriverEnable::open(transceiver.driver);
+    auto driver = open_driver(transceiver.driver);
     if (!driver) return Failure{driver.error()};
     TtySettings wanted = settings;
     wanted.drop_rts_at_close =
@@ -62,6 +68,7 @@ Result<SwitchedPort, std::string> SwitchedPort::open(std::string path, const Tty
 
 std::optional<std::string> SwitchedPort::join()
 {
+    const InCall joins{PortCall::driver_enable};
     if (auto trouble = driver_.attach(port_.tty())) return trouble;
     auto trouble = driver_.self_check();
     if (trouble) driver_.detach();
@@ -77,6 +84,7 @@ bool SwitchedPort::ready(Instant now)
 {
     if (port_.is_open()) return true;
     if (!port_.ready(now)) return false;
+    const InCall joins{PortCall::driver_enable};
     std::optional<std::string> trouble = driver_.attach(port_.tty());
     if (!trouble && !driver_.ready(now)) trouble = "the driver enable does not work yet";
     if (!trouble) return true;
@@ -94,6 +102,7 @@ void SwitchedPort::lose(Instant now)
 
 std::error_code SwitchedPort::write(Bytes octets)
 {
+    if (!this_thread_may_write()) return std::make_error_code(std::errc::timed_out);
     const std::error_code error = write_switched(octets);
     // The call came back long after it was made: nobody knows what has left and when.
     return this_thread_stalled() ? std::make_error_code(std::errc::timed_out) : error;

@@ -29,19 +29,20 @@ std::error_code last_error()
     return {errno, std::system_category()};
 }
 
-/// Waits for `events` or a hang-up. False too where the thread has stalled.
+/// Waits for `events` or a hang-up. False too where the thread has stalled, or its waits have ended.
 bool wait_for(int fd, short events, std::chrono::nanoseconds timeout)
 {
     constexpr std::chrono::hours kLongest{24 * 365};
     const Instant end = monotonic_now() + std::min<std::chrono::nanoseconds>(timeout, kLongest);
     pollfd waiting{.fd = fd, .events = events, .revents = 0};
     for (;;) {
+        const Instant until = std::min(end, waits_of_this_thread_end());
         const timespec limit = to_timespec(std::clamp<std::chrono::nanoseconds>(
-            end - monotonic_now(), std::chrono::nanoseconds{0}, ThreadSign::kSlice));
+            until - monotonic_now(), std::chrono::nanoseconds{0}, ThreadSign::kSlice));
         const bool is_ready = ::ppoll(&waiting, 1, &limit, nullptr) > 0;
         give_sign();
         if (this_thread_stalled()) return false;
-        if (is_ready || monotonic_now() >= end) return is_ready;
+        if (is_ready || monotonic_now() >= until) return is_ready;
     }
 }
 

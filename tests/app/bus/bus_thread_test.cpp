@@ -17,6 +17,7 @@ namespace {
 
 using app::PortEvent;
 using testing::Ge;
+using testing::HasSubstr;
 using testing::Le;
 using testing::StartsWith;
 
@@ -211,9 +212,10 @@ protected:
     }
     void plug()
     {
-        std::filesystem::remove(link_);
+        unplug();
         std::filesystem::create_symlink(pty.path(), link_);
     }
+    void unplug() { std::filesystem::remove(link_); }
 
 private:
     const std::filesystem::path link_ = folder_.path() / "bus";
@@ -236,6 +238,21 @@ TEST_F(ReopenedPort, GoesOnWithItsStationsWhereItWas)
     EXPECT_EQ(exchange(kStation), 7); // still in Data_Exch
     ASSERT_TRUE(eventually([this] { return snapshot().port_open; }));
     EXPECT_EQ(links[kStation]->bus_snapshot.latest().counters.left_data_exchange, 0u);
+}
+
+TEST_F(ReopenedPort, ThatIsMissingAtTheStartIsServedWhenItHasCome)
+{
+    unplug();
+    start({}, {station(kStation)});
+    EXPECT_FALSE(snapshot().port_open);
+    EXPECT_THAT(hears_trouble(), HasSubstr("is not there: check `port` in the configuration"));
+    plug();
+
+    ASSERT_TRUE(eventually([this] { return snapshot().port_open; }));
+    start_up(kStation);
+    drive_reads(kStation, 7);
+    EXPECT_EQ(exchange(kStation), 7);
+    EXPECT_TRUE(uart::edges().size() >= 2) << "with its driver enable";
 }
 
 TEST_F(ReopenedPort, LetsTheDriverGoWithThePort)

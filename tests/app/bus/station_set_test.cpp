@@ -5,6 +5,8 @@
 namespace dpslave::test {
 namespace {
 
+using namespace std::chrono_literals;
+
 class StationsOfTheBus : public OnABus {
 protected:
     /// Offers a new set and waits until it is in use; gives the old one back.
@@ -128,6 +130,137 @@ TEST_F(StationsOfTheBus, ShowsEachStationInItsTurn)
             return one.second->bus_snapshot.latest().state == dp::State::wait_prm;
         });
     }));
+}
+
+/// The test has the only clock: no thread runs.
+class StationsWithoutAMainThread : public OnABus {
+protected:
+    StationsWithoutAMainThread()
+    {
+        one = station(kStation);
+        auto all = std::make_unique<app::BusStations>();
+        all->push_back(one);
+        set.emplace(std::move(all), next, layer2, main_thread);
+    }
+    /// Until `end`, every 10 ms. `main`: it goes round.
+    void until(Instant end, bool main)
+    {
+        for (; now < end; now += 10ms) {
+            if (main) main_thread.give(now);
+            set->update(now);
+        }
+    }
+    bool is_on_the_bus() { return one->slave().state() != dp::State::power_on; }
+
+    Instant now{1h};
+    SignOfLife main_thread;
+    Handover<app::BusStations> next;
+    fdl::Layer2 layer2{fdl::Layer2Settings{}};
+    std::shared_ptr<app::BusStation> one;
+    std::optional<app::StationSet> set;
+};
+
+TEST_F(StationsWithoutAMainThread, AreOnTheBusUntilItHasGivenNoSignForTwoAndAHalfSeconds)
+{
+    until(now + 10s, true);
+    until(now + 2490ms, false);
+    EXPECT_TRUE(is_on_the_bus());
+    until(now + 20ms, false);
+    EXPECT_FALSE(is_on_the_bus());
+}
+
+TEST_F(StationsWithoutAMainThread, StartUpAgainWhenItGoesRoundAgain)
+{
+    until(now + 1s, true);
+    until(now + 4s, false);
+    ASSERT_FALSE(is_on_the_bus());
+    until(now + 20ms, true);
+    EXPECT_EQ(one->slave().state(), dp::State::wait_prm);
+}
+
+TEST_F(StationsWithoutAMainThread, StayWhereTheBusThreadItselfStalledAsLong)
+{
+    until(now + 1s, true);
+    now += 1h;
+    until(now + 2s, false);
+    EXPECT_TRUE(is_on_the_bus());
+}
+
+TEST_F(StationsWithoutAMainThread, AreOnTheBusBeforeItBegins)
+{
+    until(now + 10s, false);
+    EXPECT_TRUE(is_on_the_bus());
+}
+
+/// The signs of the line of its drive come from the test.
+class StationOfAStalledLine : public OnABus {
+protected:
+    StationOfAStalledLine()
+    {
+        link = std::make_shared<app::StationLink>(sign);
+        one = std::make_shared<app::BusStation>(station_config(kStation), link);
+        sign->give(now);
+    }
+    void until(Instant end, bool line)
+    {
+        for (; now < end; now += 10ms) {
+            if (line) sign->give(now);
+            one->judge_line(now);
+        }
+    }
+    std::shared_ptr<io::ThreadSign> sign = std::make_shared<io::ThreadSign>();
+    std::shared_ptr<app::StationLink> link;
+    std::shared_ptr<app::BusStation> one;
+    Instant now{1h};
+};
+
+TEST_F(StationOfAStalledLine, LetsTheLineWriteNothingUntilItHasTakenNote)
+{
+    until(now + 2s, true);
+    EXPECT_FALSE(sign->is_given_up());
+    until(now + 2s + 10ms, false);
+    EXPECT_TRUE(sign->is_given_up());
+    EXPECT_EQ(link->stalls.load(), 1u);
+    EXPECT_FALSE(one->is_wanted());
+    until(now + 1s, true);
+    EXPECT_FALSE(one->is_wanted()) << "it has not taken note yet";
+    link->stalls_noted.store(1);
+    until(now + 20ms, true);
+    EXPECT_TRUE(one->is_wanted());
+}
+
+TEST_F(StationOfAStalledLine, KeepsOfDemandDataTheNewestOrderUntilTheLineGoesRoundAgain)
+{
+    config::StationConfig config = station_config(kStation);
+    config.loss = {.when = drive::WhenLost::hold, .after = 500ms};
+    links[kStation] = link;
+    start({}, {std::make_shared<app::BusStation>(config, link)});
+    start_up(kStation);
+    const auto writes = [this](std::uint8_t value) {
+        Octets outputs{0x20, 55, 0, 0, 0, 0, 0, value}; // write tag 55
+        EXPECT_TRUE(master.ask(::test::sd2(kStation, 2, master.next_fc(), outputs)));
+    };
+    const auto goes_round = [this] {
+        link->stalls_noted.store(link->stalls.load());
+        sign->give(io::monotonic_now());
+        return true;
+    };
+    std::optional<DemandOrder> order;
+    ASSERT_TRUE(eventually([&] {
+        goes_round();
+        writes(1);
+        return (order = link->demand_orders.pop()).has_value();
+    }));
+    ASSERT_EQ(order->value, 1);
+
+    const std::uint32_t before = link->stalls.load();
+    ASSERT_TRUE(eventually([&] { return link->stalls.load() > before; }));
+    for (std::uint8_t value = 2; value <= 4; ++value) writes(value);
+    EXPECT_EQ(link->demand_orders.pop(), std::nullopt);
+    ASSERT_TRUE(eventually([&] { return goes_round() && (order = link->demand_orders.pop()).has_value(); }));
+    EXPECT_EQ(order->value, 4);
+    EXPECT_EQ(link->demand_orders.pop(), std::nullopt);
+    EXPECT_EQ(link->orders_dropped.load(), 2u);
 }
 
 } // namespace
