@@ -48,11 +48,6 @@ void Poller::set_zero_after(std::size_t unit, ZeroAfter after)
     units_[unit]->set_zero_after(after);
 }
 
-void Poller::cancel_ride_through()
-{
-    for (const auto& unit : units_) unit->cancel_ride_through();
-}
-
 void Poller::cancel_ride_through(std::size_t unit)
 {
     units_[unit]->cancel_ride_through();
@@ -77,11 +72,6 @@ bool Poller::survey(std::size_t unit, std::uint32_t number, std::uint16_t tag,
 void Poller::withdraw(std::uint32_t until)
 {
     for (const auto& unit : units_) unit->withdraw(until);
-}
-
-void Poller::drop_superseded(std::size_t unit)
-{
-    units_[unit]->drop_superseded();
 }
 
 /// One transaction a turn, the drives in a circle: what one of them costs, the others do not pay. Between two
@@ -204,11 +194,6 @@ bool Poller::safe_state_pending() const
                        [](const auto& unit) { return unit->safe_state_pending(); });
 }
 
-bool Poller::safe_state_pending(std::size_t unit) const
-{
-    return units_[unit]->safe_state_pending();
-}
-
 std::vector<std::uint16_t> Poller::safe_state_left(std::size_t unit) const
 {
     return units_[unit]->safe_state_left();
@@ -217,11 +202,6 @@ std::vector<std::uint16_t> Poller::safe_state_left(std::size_t unit) const
 const DriveSnapshot& Poller::snapshot(std::size_t unit) const
 {
     return units_[unit]->snapshot();
-}
-
-void Poller::not_asked(Instant now)
-{
-    for (const auto& unit : units_) unit->not_asked(now);
 }
 
 void Poller::not_asked(std::size_t unit, Instant now)

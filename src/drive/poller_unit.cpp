@@ -122,12 +122,6 @@ bool Poller::Unit::survey(std::uint32_t number, std::uint16_t tag, std::optional
     return orders_.survey(number, *tags_.row(tag), rule, link().is_lost());
 }
 
-void Poller::Unit::drop_superseded()
-{
-    orders_.drop_superseded();
-    snapshot_.orders_dropped = orders_.dropped();
-}
-
 // ---- another port, other settings
 
 void Poller::Unit::leave_port()
@@ -422,6 +416,8 @@ void Poller::Unit::lose(Instant now)
 /// Nothing is written to it before it is back, as if it were gone: it may be.
 void Poller::Unit::not_asked(Instant now)
 {
+    orders_.drop_superseded();
+    snapshot_.orders_dropped = orders_.dropped();
     if (!presence().is_supervised()) return;
     if (!link().is_lost()) {
         link().lose();

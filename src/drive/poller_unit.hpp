@@ -25,7 +25,6 @@ public:
     bool operate(const OperateOrder& order);
     void not_asked(Instant now);
     void withdraw(std::uint32_t until) { orders_.withdraw(until); }
-    void drop_superseded();
     bool survey(std::uint32_t number, std::uint16_t tag, std::optional<MnemonicRule> rule);
 
     void set_zero_after(ZeroAfter after) { safe_state_.set_zero_after(after); }
@@ -55,7 +54,10 @@ public:
     {
         return safe_state_.pending() && !(cyclic_.outputs().leaves_port() && link().is_lost());
     }
-    std::vector<std::uint16_t> safe_state_left() const { return safe_state_.pending_tags(); }
+    std::vector<std::uint16_t> safe_state_left() const
+    {
+        return safe_state_pending() ? safe_state_.pending_tags() : std::vector<std::uint16_t>{};
+    }
     const DriveSnapshot& snapshot() const { return snapshot_; }
 
 private:

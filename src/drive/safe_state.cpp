@@ -162,7 +162,6 @@ bool SafeState::pending() const
 std::vector<std::uint16_t> SafeState::pending_tags() const
 {
     std::vector<std::uint16_t> tags;
-    if (!pending()) return tags;
     for (const Zero& zero : zeros_)
         if (!zero.is_done) tags.push_back(zero.row->number);
     return tags;

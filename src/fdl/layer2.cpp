@@ -12,6 +12,12 @@ bool is_sdn(const Telegram& telegram)
     return telegram.function() == Function::sdn_low || telegram.function() == Function::sdn_high;
 }
 
+template <class Requests>
+void leave_unanswered(Requests& requests, Unanswered::Why why, std::uint8_t address, Instant at)
+{
+    static_cast<void>(requests.push({.why = why, .address = address, .at = at}));
+}
+
 /// Returns whether a slave answers this function at all. Time_Event and the reserved codes are not answered.
 bool is_answered(Function function)
 {
@@ -113,7 +119,7 @@ void Layer2::on_time(Instant now)
         take_heard();
     }
     if (pending_ && now > pending_->not_after) { // the master has given up: a late reply would meet its retry
-        leave_unanswered(Unanswered::Why::late, pending_->address, now);
+        leave_unanswered(unanswered_, Unanswered::Why::late, pending_->address, now);
         pending_.reset();
         ++counters_.late;
     }
@@ -177,7 +183,7 @@ void Layer2::on_telegram(const Telegram& telegram, Instant read_at, bool newest)
         follow_search();
         if (silent) { // the telegram that ends the search is still heard in it
             if (ours && telegram.is_request())
-                leave_unanswered(Unanswered::Why::searching, telegram.da, read_at);
+                leave_unanswered(unanswered_, Unanswered::Why::searching, telegram.da, read_at);
             return;
         }
     }
@@ -185,7 +191,7 @@ void Layer2::on_telegram(const Telegram& telegram, Instant read_at, bool newest)
     const bool known_code = (telegram.fc & 0x80) == 0; // bit 7 is a second code table with nothing for us
     if (!telegram.is_request()) return;
     if (!known_code) {
-        if (ours) leave_unanswered(Unanswered::Why::no_service, telegram.da, read_at);
+        if (ours) leave_unanswered(unanswered_, Unanswered::Why::no_service, telegram.da, read_at);
         return;
     }
 
@@ -201,10 +207,10 @@ void Layer2::on_telegram(const Telegram& telegram, Instant read_at, bool newest)
             on_request(telegram, read_at);
         } else { // dropped completely, FCB included: the master's retry still looks new
             ++counters_.overtaken;
-            leave_unanswered(Unanswered::Why::overtaken, telegram.da, read_at);
+            leave_unanswered(unanswered_, Unanswered::Why::overtaken, telegram.da, read_at);
         }
     } else if (ours) {
-        leave_unanswered(Unanswered::Why::no_service, telegram.da, read_at);
+        leave_unanswered(unanswered_, Unanswered::Why::no_service, telegram.da, read_at);
     }
 }
 
@@ -218,7 +224,7 @@ void Layer2::on_own_address(const Telegram& telegram, Instant at)
         ++counters_.came_back;
         return;
     }
-    leave_unanswered(Unanswered::Why::own_address, telegram.sa, at);
+    leave_unanswered(unanswered_, Unanswered::Why::own_address, telegram.sa, at);
 }
 
 void Layer2::on_request(const Telegram& request, Instant at)
@@ -237,14 +243,9 @@ void Layer2::on_request(const Telegram& request, Instant at)
 void Layer2::cancel_reply(Instant at)
 {
     if (!pending_) return;
-    leave_unanswered(Unanswered::Why::overtaken, pending_->address, at);
+    leave_unanswered(unanswered_, Unanswered::Why::overtaken, pending_->address, at);
     pending_.reset();
     ++counters_.overtaken;
-}
-
-void Layer2::leave_unanswered(Unanswered::Why why, std::uint8_t address, Instant at)
-{
-    static_cast<void>(unanswered_.push({.why = why, .address = address, .at = at}));
 }
 
 /// Gives the search what was heard. Returns false if the rate has been given up: octets heard at it have no

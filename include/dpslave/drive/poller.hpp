@@ -219,9 +219,8 @@ public:
     void set_demand(std::size_t unit, const DemandOrder& order);
     /// From now on, also for a ride that is under way: it counts from the loss. What is zeroed already stays.
     void set_zero_after(std::size_t unit, ZeroAfter after);
-    /// The program ends: what would be zeroed later is zeroed now.
-    void cancel_ride_through();
-    /// The same of one drive, which is about to leave.
+    /// The drive is about to leave, or the program to end: what would be zeroed later is zeroed now, also of
+    /// layouts that end afterwards.
     void cancel_ride_through(std::size_t unit);
     /// The master was lost in a way that is not ridden through: what left_data_exchange() has ended, and
     /// would be zeroed later, is zeroed now.
@@ -240,8 +239,6 @@ public:
     /// those that wait are dropped without an answer. Numbers go round. Precondition: no transaction is under
     /// way.
     void withdraw(std::uint32_t until);
-    /// Orders of Demand Data that newer ones have taken the place of are dropped.
-    void drop_superseded(std::size_t unit);
 
     /// What to do now; nothing = wait until next_deadline() or until something new is set. Then also what can
     /// be seen may have changed: that a drive is gone is not shown behind one more question.
@@ -259,16 +256,14 @@ public:
 
     /// Does an output still wait to be written to its safe state, now or when a ride is over?
     bool safe_state_pending() const;
-    bool safe_state_pending(std::size_t unit) const; ///< one of this drive
-    /// The tags of those, in the order of their layouts.
+    /// The tags of those of this drive, in the order of their layouts.
     std::vector<std::uint16_t> safe_state_left(std::size_t unit) const;
 
     const DriveSnapshot& snapshot(std::size_t unit) const;
 
-    /// Nothing is asked of the drives until next(), for longer than a station may wait: those by whose loss
-    /// something follows (LossRule) are gone at once. Precondition: no transaction is under way.
-    void not_asked(Instant now);
-    /// The same of one drive.
+    /// Nothing is asked of the drive until next(), for longer than a station may wait: where something
+    /// follows from its loss (LossRule) it is gone at once. Orders of Demand Data that newer ones have taken
+    /// the place of are dropped. Precondition: no transaction is under way.
     void not_asked(std::size_t unit, Instant now);
 
     /// The port is about to be another one, and no line has the present one any more: what was written goes

@@ -161,7 +161,6 @@ private:
     void on_telegram(const Telegram& telegram, Instant read_at, bool newest);
     void on_request(const Telegram& request, Instant at);
     void cancel_reply(Instant at);
-    void leave_unanswered(Unanswered::Why why, std::uint8_t address, Instant at);
     void on_own_address(const Telegram& telegram, Instant at);
     bool rate_is_kept(std::size_t good, std::size_t bad, Instant at);
     void report_supervision(Instant at);

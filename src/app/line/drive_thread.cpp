@@ -2,6 +2,7 @@
 #include "drive_thread.hpp"
 
 #include "probe_run.hpp"
+#include "transaction_log.hpp"
 
 #include "dpslave/io/clock.hpp"
 #include "dpslave/io/thread_sign.hpp"
@@ -31,26 +32,6 @@ bool is_refusal(AccessError error)
 bool is_withdrawn(std::uint32_t order, std::uint32_t until)
 {
     return static_cast<std::int32_t>(order - until) <= 0;
-}
-
-/// At level debug each request to a drive is a line of the log.
-void log_transaction(const std::string& line, const LineUnit& unit, const drive::Transaction& transaction,
-                     const drive::Outcome& outcome)
-{
-    if (!spdlog::should_log(spdlog::level::debug)) return;
-    using Kind = drive::Transaction::Kind;
-    const char* const kind = transaction.kind == Kind::read    ? "read"
-                             : transaction.kind == Kind::write ? "write"
-                                                               : "look for the drive";
-    std::string what = transaction.tag == nullptr ? std::string{}
-                       : transaction.count == 1
-                           ? fmt::format(" tag {}", transaction.tag->number)
-                           : fmt::format(" {} tags from {}", transaction.count, transaction.tag->number);
-    const auto words = transaction.kind == Kind::write ? transaction.words : outcome.words;
-    if (outcome.error == AccessError::none || transaction.kind == Kind::write)
-        for (const std::uint16_t word : words) what += fmt::format(" {:04X}", word);
-    spdlog::debug("line {}, {}: {}{}: {}", line, unit.config->name, kind, what,
-                  outcome.error == AccessError::none ? "done" : report::text(outcome.error));
 }
 
 template <class Units>
@@ -268,7 +249,7 @@ void DriveThread::probe(const ProbeOrder& order, const std::stop_token& stop)
     ProbeReport report{.number = order.number, .tried = 0, .answers = {}, .count = 0};
     if (const auto unit = find_unit(units_, order.station); unit != units_.end() && !unit->leaves) {
         port_.close();
-        poller_.not_asked(io::monotonic_now());
+        for (std::size_t i = 0; i < units_.size(); ++i) poller_.not_asked(i, io::monotonic_now());
         publish();
         report = run_probe(order, line_, *unit, units_, link_, stop);
     }
@@ -308,16 +289,17 @@ void DriveThread::write_safe_state()
     fetch();
     note_stalls();
     // Usually the bus has said so; one that hangs or has failed has not.
-    for (std::size_t i = 0; i < units_.size(); ++i)
+    for (std::size_t i = 0; i < units_.size(); ++i) {
         poller_.left_data_exchange(i, {.generation = units_[i].layout()});
-    poller_.cancel_ride_through(); // nothing could zero the outputs later
+        poller_.cancel_ride_through(i); // nothing could zero the outputs later
+    }
     while (poller_.safe_state_pending() && io::monotonic_now() < end) {
         io::give_sign();
         link_.sign->end_waits(end); // of what is opened
         if (link_.sign->stall()) recover();
         const Instant now = io::monotonic_now();
         std::int64_t waiting = 0;
-        for (std::size_t i = 0; i < units_.size(); ++i) waiting += poller_.safe_state_pending(i) ? 1 : 0;
+        for (std::size_t i = 0; i < units_.size(); ++i) waiting += is_pending(i) ? 1 : 0;
         const auto share = std::max<std::chrono::nanoseconds>((end - now) / waiting, kLastAnswer);
         link_.sign->end_waits(std::min(end, now + share));
         if (const auto transaction = poller_.next(now))
@@ -327,10 +309,15 @@ void DriveThread::write_safe_state()
     }
     publish(); // the cause first
     for (std::size_t i = 0; i < units_.size(); ++i)
-        if (poller_.safe_state_pending(i))
+        if (is_pending(i))
             link_.happenings.tell(Severity::error, units_[i].number,
                                   fmt::format("{}: not every output could be put into its safe state: {}",
                                               units_[i].config->name, not_written(i)));
+}
+
+bool DriveThread::is_pending(std::size_t unit) const
+{
+    return !poller_.safe_state_left(unit).empty();
 }
 
 std::string DriveThread::not_written(std::size_t unit) const
@@ -360,14 +347,13 @@ bool DriveThread::leaving_is_over() const
 {
     // A drive that is lost at the port that is left is not waited for: its cable may be at the new one.
     const auto is_waited_for = [this](std::size_t i) {
-        return poller_.safe_state_pending(i) &&
-               (units_[i].leaves || (next_->leaves_drives && poller_.snapshot(i).answers));
+        return is_pending(i) && (units_[i].leaves || (next_->leaves_drives && poller_.snapshot(i).answers));
     };
     bool pending = false;
     for (std::size_t i = 0; i < units_.size(); ++i) pending = pending || is_waited_for(i);
     if (pending && io::monotonic_now() < leave_until_) return false;
     for (std::size_t i = 0; i < units_.size(); ++i)
-        if (poller_.safe_state_pending(i) && (units_[i].leaves || next_->leaves_drives))
+        if (is_pending(i) && (units_[i].leaves || next_->leaves_drives))
             link_.happenings.tell(
                 Severity::error, units_[i].number,
                 fmt::format("{}: not every output could be put into its safe state before {}: {}",

@@ -61,6 +61,7 @@ private:
     void rest(int wake, std::chrono::nanoseconds wait);
     std::chrono::nanoseconds rest_time(Instant now) const;
     void write_safe_state();
+    bool is_pending(std::size_t unit) const;
     std::string not_written(std::size_t unit) const;
 
     void take_change();

@@ -77,7 +77,6 @@ bool LineUnit::note_stall(drive::Poller& poller, std::size_t index, Instant now)
     const std::uint32_t all = link->stalls.load(std::memory_order_acquire);
     if (std::exchange(stalls_, all) == all) return false;
     poller.not_asked(index, now);
-    poller.drop_superseded(index);
     return true;
 }
 

@@ -39,11 +39,6 @@ std::error_code code(int error)
     return {error, std::system_category()};
 }
 
-std::string level(bool high)
-{
-    return high ? "high" : "low";
-}
-
 GpioRequest request_of(const DriverEnableSettings& settings)
 {
     return {.chip = settings.gpio_chip,
@@ -71,17 +66,6 @@ std::string microseconds(std::chrono::nanoseconds time)
 }
 
 } // namespace
-
-std::string_view text(Direction direction) noexcept
-{
-    switch (direction) {
-        case Direction::none: return "none";
-        case Direction::gpio: return "gpio";
-        case Direction::kernel: return "kernel";
-        case Direction::rts: return "rts";
-    }
-    return "?";
-}
 
 struct DriverEnable::Held {
     explicit Held(DriverEnableSettings wanted) : settings(std::move(wanted)) {}
@@ -373,7 +357,8 @@ std::string DriverEnable::in_words() const
         case Direction::none: found += "none, the transceiver switches by itself"; break;
         case Direction::gpio:
             found += "line " + std::to_string(s.gpio_line) + " of GPIO chip " + s.gpio_chip + ", " +
-                     level(!s.active_low) + " while sending; an edge takes " + microseconds(h.edge_time);
+                     (s.active_low ? "low" : "high") + " while sending; an edge takes " +
+                     microseconds(h.edge_time);
             break;
         case Direction::kernel:
             found += "by the driver of the UART (TIOCSRS485, read back): RTS " +

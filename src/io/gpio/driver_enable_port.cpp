@@ -15,6 +15,17 @@ constexpr __u32 kLevels = SER_RS485_RTS_ON_SEND | SER_RS485_RTS_AFTER_SEND;
 
 } // namespace
 
+std::string_view text(Direction direction) noexcept
+{
+    switch (direction) {
+        case Direction::none: return "none";
+        case Direction::gpio: return "gpio";
+        case Direction::kernel: return "kernel";
+        case Direction::rts: return "rts";
+    }
+    return "?";
+}
+
 serial_rs485 rs485_wanted(const DriverEnableSettings& settings)
 {
     serial_rs485 wanted{}; // delays 0: their unit is the millisecond, longer than a master waits

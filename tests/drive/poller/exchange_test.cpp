@@ -110,11 +110,11 @@ TEST_F(PollerExchange, ComesWhenTheOneThatLeavesIsZeroedWhichTheOtherDoesNotNoti
     bench.master_leaves(0);
     bench.master_leaves(1);
     bench.poller.cancel_ride_through(0);
-    EXPECT_TRUE(bench.poller.safe_state_pending(0));
+    EXPECT_FALSE(bench.poller.safe_state_left(0).empty());
     bench.run(1s);
-    EXPECT_FALSE(bench.poller.safe_state_pending(0));
+    EXPECT_TRUE(bench.poller.safe_state_left(0).empty());
     EXPECT_EQ(bench.drives[0].words[10], 0);
-    EXPECT_TRUE(bench.poller.safe_state_pending(1)) << "it rides on";
+    EXPECT_FALSE(bench.poller.safe_state_left(1).empty()) << "it rides on";
     EXPECT_EQ(bench.drives[1].words[10], 500);
 }
 
@@ -229,7 +229,7 @@ TEST_F(PollerOtherPort, ZeroesWhatItHasWrittenAtTheOneThatIsLeft)
 {
     bench.poller.set_zero_after(0, 60s); // a ride is not waited for
     bench.poller.leave_port();
-    EXPECT_TRUE(bench.poller.safe_state_pending(0));
+    EXPECT_FALSE(bench.poller.safe_state_left(0).empty());
     bench.run(500ms);
     EXPECT_FALSE(bench.poller.safe_state_pending());
     EXPECT_EQ(bench.drives[0].words[10], 0);
@@ -244,7 +244,7 @@ TEST_F(PollerOtherPort, LeavesADriveAsItIsWhoseOutputsAreNeverZeroed)
 {
     bench.poller.set_zero_after(0, std::nullopt);
     bench.poller.leave_port();
-    EXPECT_FALSE(bench.poller.safe_state_pending(0));
+    EXPECT_TRUE(bench.poller.safe_state_left(0).empty());
     bench.run(500ms);
     EXPECT_EQ(bench.drives[0].words[10], 500);
 }

@@ -133,7 +133,7 @@ TEST_F(GoneDrive, AWordOfItThatComesTooLateKeepsTheStation)
 TEST_F(GoneDrive, ADriveThatIsAskedNothingForLongIsGoneAtOnceAndComesBackByItself)
 {
     exchanges();
-    bench.poller.not_asked(bench.now);
+    bench.poller.not_asked(0, bench.now);
     EXPECT_TRUE(is_away());
     EXPECT_EQ(seen().departures, 1u);
     bench.now += 60s;
@@ -432,7 +432,7 @@ protected:
 TEST_F(HeldDrive, NothingFollowsFromBeingAskedNothing)
 {
     exchanges();
-    bench.poller.not_asked(bench.now);
+    bench.poller.not_asked(0, bench.now);
     EXPECT_FALSE(is_away());
     EXPECT_TRUE(seen().answers);
 }

@@ -461,7 +461,7 @@ TEST_F(PollerOrders, OfDemandDataThatNewerOnesHaveTakenThePlaceOfAreDroppedWhere
 {
     order(Kind::write, 20, 5);
     order(Kind::write, 21, 6);
-    bench.poller.drop_superseded(0);
+    bench.poller.not_asked(0, bench.now);
     bench.run(1s);
     EXPECT_EQ(bench.drives[0].words[20], 1020);
     EXPECT_EQ(bench.drives[0].words[21], 6);

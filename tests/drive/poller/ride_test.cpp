@@ -217,7 +217,7 @@ TEST_F(PollerRide, TheEndOfTheProgramZeroesNow)
     bench.master_leaves(0);
     bench.run(1s);
     bench.log.clear();
-    bench.poller.cancel_ride_through();
+    bench.poller.cancel_ride_through(0);
     EXPECT_TRUE(bench.poller.safe_state_pending());
     bench.steps(4); // two zeros, and what shows them
     EXPECT_EQ(bench.purposes(), "ssss");
@@ -250,14 +250,14 @@ TEST_F(PollerRide, NamesTheTagsThatWaitForTheirZero)
     EXPECT_TRUE(bench.poller.safe_state_left(0).empty());
     drive().silent_tags = {10, 11};
     bench.master_leaves(0);
-    bench.poller.cancel_ride_through();
+    bench.poller.cancel_ride_through(0);
     bench.run(2s);
     EXPECT_EQ(bench.poller.safe_state_left(0), (std::vector<std::uint16_t>{10, 11}));
 }
 
 TEST_F(PollerRide, AMasterThatIsLostAfterTheEndOfTheProgramBeganDoesNotRide)
 {
-    bench.poller.cancel_ride_through();
+    bench.poller.cancel_ride_through(0);
     bench.master_leaves(0);
     bench.poller.set_zero_after(0, 60s); // the main thread said it meanwhile
     bench.steps(2);
@@ -328,7 +328,7 @@ TEST_F(PollerRideNever, WritingStopsAndTheOutputsStand)
 TEST_F(PollerRideNever, StaysNeverAtTheEndOfTheProgram)
 {
     bench.master_leaves(0);
-    bench.poller.cancel_ride_through();
+    bench.poller.cancel_ride_through(0);
     EXPECT_FALSE(bench.poller.safe_state_pending());
     bench.run(10s);
     EXPECT_EQ(drive().words[10], 10);
@@ -374,7 +374,8 @@ TEST(PollerRides, AreThoseOfEachDrive)
     bench.run(1s);
     EXPECT_EQ(bench.drives[0].words[10], 0);
     EXPECT_EQ(bench.drives[1].words[10], 5);
-    bench.poller.cancel_ride_through();
+    bench.poller.cancel_ride_through(0);
+    bench.poller.cancel_ride_through(1);
     bench.run(1s);
     EXPECT_EQ(bench.drives[1].words[10], 0);
 }
