@@ -178,11 +178,7 @@ ExitStatus run_daemon(const config::Config& config, const std::filesystem::path&
     plant.end();
     main_thread.tell_rest();
     const auto status = by_signal ? ExitStatus::ended_by_signal : ExitStatus::device_not_opened;
-    if (!main_thread.end_incidents()) {
-        spdlog::warn("the folder of the incidents hangs; the program ends without the last one");
-        main_thread.release();
-        std::_Exit(static_cast<int>(status)); // what its thread uses cannot be freed
-    }
+    if (!main_thread.end_side_work()) std::_Exit(static_cast<int>(status)); // what hangs cannot be freed
     spdlog::info("ended");
     return status;
 }

@@ -42,15 +42,32 @@ MainThread::MainThread(config::Config config, const std::filesystem::path& profi
                 happenings_, event_streams_, log_level_},
                io::monotonic_now())
 {
-    for (const std::string& warning : lamps_.exchange(monitor_.config())) spdlog::warn("{}", warning);
+    lamps_.exchange(monitor_.config());
     if (const auto words = first_start_words(monitor_.config(), state))
         tell(Happened::daemon, Severity::warning, *words);
 }
 
 void MainThread::release()
 {
-    lamps_ = Lamps{};
+    end_lamps();
     server_.reset();
+}
+
+bool MainThread::end_side_work()
+{
+    const bool is_written = incidents_.end(std::chrono::seconds{2});
+    if (!is_written) spdlog::warn("the folder of the incidents hangs; the program ends without the last one");
+    if (end_lamps() && is_written) return true;
+    server_.reset();
+    return false;
+}
+
+bool MainThread::end_lamps()
+{
+    const std::vector<std::string> hanging = lamps_.end(Lamps::kEnd);
+    for (const std::string& chip : hanging)
+        spdlog::warn("the lamps of {} do not answer: they are left as they are", chip);
+    return hanging.empty();
 }
 
 std::optional<std::string> MainThread::open_socket()
@@ -150,6 +167,7 @@ void MainThread::tick(Instant now)
     const auto& stations = plant_.stations();
     for (std::size_t i = 0; i < stations.size(); ++i) lamps_.set(i, stations[i].device->condition());
     lamps_.show(now);
+    for (const auto& [station, news] : lamps_.take_news(now)) tell_device(stations[station], news);
     accesses_.answer(now);
     probes_.answer(now);
     watchers_.push(now);
@@ -195,13 +213,17 @@ void MainThread::tell_news()
     for (const auto& [line, happening] : std::exchange(of_masters_, {})) tell_line(*line, happening);
     tell_port_events();
     for (const Station& station : plant_.stations())
-        for (const Sentence& news : station.news->take())
-            happenings_.tell({.kind = Happened::device,
-                              .severity = news.is_warning ? Severity::warning : Severity::info,
-                              .text = news.text,
-                              .stations = {station.config->name}},
-                             io::monotonic_now());
+        for (const Sentence& news : station.news->take()) tell_device(station, news);
     happenings_.on_time(io::monotonic_now());
+}
+
+void MainThread::tell_device(const Station& station, const Sentence& news)
+{
+    happenings_.tell({.kind = Happened::device,
+                      .severity = news.is_warning ? Severity::warning : Severity::info,
+                      .text = news.text,
+                      .stations = {station.config->name}},
+                     io::monotonic_now());
 }
 
 void MainThread::tell_lines()

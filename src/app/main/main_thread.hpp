@@ -23,8 +23,9 @@ public:
 
     /// For an end without the destructor: switches the lamps off and removes the socket.
     void release();
-    /// The last incident is written. False: the disk hangs, and this object cannot be destroyed.
-    bool end_incidents() { return incidents_.end(std::chrono::seconds{2}); }
+    /// The last incident is written, and the lamps are off. False: something hangs, as the log says. The
+    /// socket is removed then, and this object cannot be destroyed.
+    bool end_side_work();
 
     /// Opens the control socket. The reason of a failure is a sentence.
     std::optional<std::string> open_socket();
@@ -38,11 +39,13 @@ public:
     void tell_rest();
 
 private:
+    bool end_lamps();
     void admit_operators();
     void on_applied(const std::vector<Station>& left);
     std::chrono::milliseconds tick_length() const;
     void tick(Instant now);
     void tell_news();
+    void tell_device(const Station& station, const Sentence& news);
     void tell_bus_events(const Station& station);
     void tell_line(const DriveLine& line, const LineHappening& happening);
     void tell(Happened kind, Severity severity, std::string text);
