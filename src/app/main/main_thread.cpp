@@ -177,6 +177,7 @@ void MainThread::tick(Instant now)
     let_log_level_end(now);
     file_.on_time(now);
     feed_watchdog(now);
+    notifier_.send_rest();
     if (std::string line = status_line(monitor_.view()); line != status_sent_) {
         notifier_.status(line);
         status_sent_ = std::move(line);
