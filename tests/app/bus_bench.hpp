@@ -8,6 +8,7 @@
 #include "io/pty.hpp"
 #include "stand_in_uart.hpp"
 #include "support/allocations.hpp"
+#include "support/eventually.hpp"
 #include "support/wire.hpp"
 
 #include "dpslave/io/clock.hpp"
@@ -24,17 +25,6 @@ namespace dpslave::test {
 using ::test::Octets;
 
 inline constexpr std::uint8_t kStation = 5; ///< the address of the station on this bus
-
-template <class Condition>
-bool eventually(Condition condition, std::chrono::nanoseconds within = std::chrono::minutes{1})
-{
-    const Instant limit = io::monotonic_now() + within;
-    while (!condition()) {
-        if (io::monotonic_now() > limit) return false;
-        std::this_thread::yield();
-    }
-    return true;
-}
 
 /// The octets of one telegram, from the wire; each of them once. Sends everything back where it is to echo.
 class Master {

@@ -2,7 +2,6 @@
 // The files of incidents: written, found again, and what is not one of them. And what leads to them.
 #include "app/incident/burst.hpp"
 #include "app/incident/folder.hpp"
-#include "app/incident/side_job.hpp"
 
 #include "dpslave/io/new_file.hpp"
 #include "dpslave/trace/incident_file.hpp"
@@ -325,33 +324,6 @@ TEST(Burst, LastsUntilASecondWithout)
         EXPECT_FALSE(burst.count(static_cast<std::uint64_t>(i) * 50, kAt + milliseconds{100 * i}));
     EXPECT_FALSE(burst.count(49 * 50, kAt + seconds{7}));
     EXPECT_TRUE(burst.count(49 * 50 + 10, kAt + milliseconds{7100}));
-}
-
-// ---------------------------------------------------------------- the thread of the disk
-
-TEST(SideJob, DoesThePartOfTheMainThreadWhenTheWorkIsOver)
-{
-    SideJob job;
-    EXPECT_TRUE(job.is_idle());
-    std::atomic<bool> may_end{false};
-    bool is_done = false;
-    ASSERT_TRUE(job.start([&]() -> SideJob::Then {
-        may_end.wait(false);
-        return [&] { is_done = true; };
-    }));
-    EXPECT_FALSE(job.start([]() -> SideJob::Then { return {}; })) << "one at a time";
-    EXPECT_FALSE(job.wait(milliseconds{0}));
-    may_end = true;
-    may_end.notify_all();
-    EXPECT_TRUE(job.wait(seconds{60}));
-    EXPECT_TRUE(is_done);
-}
-
-TEST(SideJob, ThatFailsIsOver)
-{
-    SideJob job;
-    ASSERT_TRUE(job.start([]() -> SideJob::Then { throw std::bad_alloc{}; }));
-    EXPECT_TRUE(job.wait(seconds{60}));
 }
 
 } // namespace

@@ -6,17 +6,11 @@
 
 #include <gmock/gmock.h>
 
-#include <chrono>
-
 namespace dpslave::io {
 namespace {
 
-using namespace std::chrono_literals;
-
 using testing::AllOf;
 using testing::HasSubstr;
-
-constexpr Instant kAtFirst{1h};
 
 class LampOnALine : public GpioFolder {
 protected:
@@ -36,26 +30,14 @@ TEST_F(LampOnALine, IsDarkAtFirstThenFollowsAndIsDarkAfterwards)
         ASSERT_TRUE(lamp) << lamp.error();
         EXPECT_FALSE(chip.high(4));
         EXPECT_EQ(chip.consumer(4), "dpslaved lamp");
-        (*lamp)->set(true, kAtFirst);
+        (*lamp)->set(true);
         EXPECT_TRUE(chip.high(4));
-        (*lamp)->set(false, kAtFirst);
+        (*lamp)->set(false);
         EXPECT_FALSE(chip.high(4));
-        (*lamp)->set(true, kAtFirst);
+        (*lamp)->set(true);
     }
     EXPECT_FALSE(chip.high(4));
     EXPECT_FALSE(chip.is_taken(4));
-}
-
-TEST_F(LampOnALine, IsOrderedOnlyWhatChanges)
-{
-    auto lamp = open_led_sink(sink(4), folder);
-    ASSERT_TRUE(lamp) << lamp.error();
-    (*lamp)->set(true, kAtFirst);
-    const unsigned before = chip.edges(4);
-
-    (*lamp)->set(true, kAtFirst);
-
-    EXPECT_EQ(chip.edges(4), before);
 }
 
 TEST_F(LampOnALine, ThatIsInUseIsRefusedWithTheNameOfItsUser)
@@ -68,35 +50,20 @@ TEST_F(LampOnALine, ThatIsInUseIsRefusedWithTheNameOfItsUser)
     EXPECT_THAT(lamp.error(), AllOf(HasSubstr("LED " + sink(4)), HasSubstr("in use by \"gpio-leds\"")));
 }
 
-TEST_F(LampOnALine, OfAChipThatWasPulledShinesAgainWithAChangeAfterItIsBack)
+TEST_F(LampOnALine, OfAChipThatWasPulledSaysSoAndIsThereWhenItIsOpenedAgain)
 {
     auto lamp = open_led_sink(sink(4), folder);
     ASSERT_TRUE(lamp) << lamp.error();
-    (*lamp)->set(true, kAtFirst);
+    EXPECT_TRUE((*lamp)->set(true));
     chip.remove();
-    (*lamp)->set(false, kAtFirst);
+    EXPECT_FALSE((*lamp)->set(false));
     chip.come_back();
 
-    (*lamp)->set(true, kAtFirst);
+    lamp->reset();
+    lamp = open_led_sink(sink(4), folder);
 
-    EXPECT_TRUE(chip.high(4));
-}
-
-TEST_F(LampOnALine, OfAChipThatWasPulledIsAskedForOnceASecondUntilItIsBack)
-{
-    auto lamp = open_led_sink(sink(4), folder);
     ASSERT_TRUE(lamp) << lamp.error();
-    chip.remove();
-    (*lamp)->set(true, kAtFirst);
-    EXPECT_FALSE(chip.high(4));
-    chip.come_back();
-    const unsigned before = chip.requests(4);
-
-    for (auto passed = 0ms; passed < 1s; passed += 5ms) (*lamp)->set(true, kAtFirst + passed);
-    EXPECT_EQ(chip.requests(4), before);
-    EXPECT_FALSE(chip.high(4));
-    (*lamp)->set(true, kAtFirst + 1s);
-    EXPECT_EQ(chip.requests(4), before + 1);
+    EXPECT_TRUE((*lamp)->set(true));
     EXPECT_TRUE(chip.high(4));
 }
 

@@ -7,19 +7,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <fstream>
 
 namespace dpslave::io {
 namespace {
 
-using namespace std::chrono_literals;
-
 namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
-
-constexpr Instant kAtFirst{1h};
 
 class LedSinks : public testing::Test {
 protected:
@@ -67,9 +62,9 @@ TEST_F(LedSinks, APinBecomesADarkOutputThenFollows)
     ASSERT_TRUE(lamp) << lamp.error();
     EXPECT_EQ(get("class/gpio/gpio23/direction"), "low") << "an output that was never high";
     EXPECT_EQ(get("class/gpio/gpio23/value"), "0");
-    (*lamp)->set(true, kAtFirst);
+    (*lamp)->set(true);
     EXPECT_EQ(get("class/gpio/gpio23/value"), "1");
-    (*lamp)->set(false, kAtFirst);
+    (*lamp)->set(false);
     EXPECT_EQ(get("class/gpio/gpio23/value"), "0");
 }
 
@@ -79,7 +74,7 @@ TEST_F(LedSinks, APinIsDarkAfterwards)
     {
         auto lamp = open_led_sink("gpio:23", sysfs);
         ASSERT_TRUE(lamp) << lamp.error();
-        (*lamp)->set(true, kAtFirst);
+        (*lamp)->set(true);
     }
 
     EXPECT_EQ(get("class/gpio/gpio23/value"), "0");
@@ -94,7 +89,7 @@ TEST_F(LedSinks, APinIsFoundByTheLabelOfItsChipWhateverNumberItHasSinceTheLastBo
     auto lamp = open_led_sink("gpio:pl061:7", sysfs);
 
     ASSERT_TRUE(lamp) << lamp.error();
-    (*lamp)->set(true, kAtFirst);
+    (*lamp)->set(true);
     EXPECT_EQ(get("class/gpio/gpio511/value"), "1");
 }
 
@@ -138,9 +133,9 @@ TEST_F(LedSinks, ALampOfTheLedClassShinesAsBrightAsItCan)
     ASSERT_TRUE(lamp) << lamp.error();
     EXPECT_EQ(get("class/leds/dpslaved-green/trigger"), "none");
     EXPECT_EQ(get("class/leds/dpslaved-green/brightness"), "0");
-    (*lamp)->set(true, kAtFirst);
+    (*lamp)->set(true);
     EXPECT_EQ(get("class/leds/dpslaved-green/brightness"), "15");
-    (*lamp)->set(false, kAtFirst);
+    (*lamp)->set(false);
     EXPECT_EQ(get("class/leds/dpslaved-green/brightness"), "0");
 }
 
@@ -150,7 +145,7 @@ TEST_F(LedSinks, ALampOfTheLedClassIsDarkAfterwards)
     {
         auto lamp = open_led_sink("led:red", sysfs);
         ASSERT_TRUE(lamp) << lamp.error();
-        (*lamp)->set(true, kAtFirst);
+        (*lamp)->set(true);
     }
 
     EXPECT_EQ(get("class/leds/red/brightness"), "0");
@@ -164,46 +159,21 @@ TEST_F(LedSinks, AKernelWithoutTriggersIsFine)
     EXPECT_TRUE(open_led_sink("led:red", sysfs));
 }
 
-TEST_F(LedSinks, OnlyAChangeIsWritten)
+TEST_F(LedSinks, ALampThatHasGoneSaysSoAndIsThereWhenItIsOpenedAgain)
 {
     has_lamp("red", "1");
     auto lamp = open_led_sink("led:red", sysfs);
     ASSERT_TRUE(lamp) << lamp.error();
-    (*lamp)->set(true, kAtFirst);
-    put("class/leds/red/brightness", "untouched");
-
-    (*lamp)->set(true, kAtFirst);
-
-    EXPECT_EQ(get("class/leds/red/brightness"), "untouched");
-}
-
-TEST_F(LedSinks, ALampThatWasGoneShinesAgainWithTheNextChange)
-{
-    has_lamp("red", "1");
-    auto lamp = open_led_sink("led:red", sysfs);
-    ASSERT_TRUE(lamp) << lamp.error();
-    (*lamp)->set(true, kAtFirst);
+    EXPECT_TRUE((*lamp)->set(true));
     fs::remove_all(sysfs / "class/leds/red");
-    (*lamp)->set(false, kAtFirst);
+    EXPECT_FALSE((*lamp)->set(false));
     has_lamp("red", "1");
 
-    (*lamp)->set(true, kAtFirst);
+    lamp->reset();
+    lamp = open_led_sink("led:red", sysfs);
 
-    EXPECT_EQ(get("class/leds/red/brightness"), "1");
-}
-
-TEST_F(LedSinks, ALampThatWasGoneShinesAgainAfterASecondWithoutAChange)
-{
-    has_lamp("red", "1");
-    auto lamp = open_led_sink("led:red", sysfs);
     ASSERT_TRUE(lamp) << lamp.error();
-    fs::remove_all(sysfs / "class/leds/red");
-    (*lamp)->set(true, kAtFirst);
-    has_lamp("red", "1");
-
-    (*lamp)->set(true, kAtFirst + 999ms);
-    EXPECT_EQ(get("class/leds/red/brightness"), "3") << "not tried yet";
-    (*lamp)->set(true, kAtFirst + 1s);
+    EXPECT_TRUE((*lamp)->set(true));
     EXPECT_EQ(get("class/leds/red/brightness"), "1");
 }
 
@@ -218,71 +188,6 @@ TEST_F(LedSinks, AnUnknownLampOrKindIsRefusedWithASentence)
                     AllOf(HasSubstr(sink), testing::AnyOf(HasSubstr("check"), HasSubstr("write"))))
             << sink;
     }
-}
-
-/// Counts how often it is written.
-class CountedLamp final : public LedSink {
-public:
-    int tries = 0;
-    bool works = true;
-
-private:
-    bool write(bool) override
-    {
-        ++tries;
-        return works;
-    }
-};
-
-/// The main loop: a round each 5 ms, for `length`.
-void rounds(LedSink& lamp, bool lit, Instant from, std::chrono::milliseconds length)
-{
-    for (auto passed = 0ms; passed < length; passed += 5ms) lamp.set(lit, from + passed);
-}
-
-TEST(LampThatCannotBeWritten, IsTriedOnceASecondHoweverOftenTheMainLoopComes)
-{
-    CountedLamp lamp;
-    lamp.works = false;
-
-    rounds(lamp, true, kAtFirst, 3s);
-
-    EXPECT_EQ(lamp.tries, 3);
-}
-
-TEST(LampThatCannotBeWritten, IsTriedWithEachChangeAtOnce)
-{
-    CountedLamp lamp;
-    lamp.works = false;
-
-    rounds(lamp, true, kAtFirst, 500ms);
-    rounds(lamp, false, kAtFirst + 500ms, 500ms);
-    rounds(lamp, true, kAtFirst + 1s, 500ms);
-
-    EXPECT_EQ(lamp.tries, 3);
-}
-
-TEST(LampThatCannotBeWritten, IsLeftAloneOnceItWorksAgain)
-{
-    CountedLamp lamp;
-    lamp.works = false;
-    rounds(lamp, true, kAtFirst, 1s);
-    lamp.works = true;
-
-    rounds(lamp, true, kAtFirst + 1s, 5s);
-
-    EXPECT_EQ(lamp.tries, 2);
-}
-
-TEST(LampThatCanBeWritten, IsWrittenOnceForEachChange)
-{
-    CountedLamp lamp;
-
-    rounds(lamp, false, kAtFirst, 2s); // dark it was
-    rounds(lamp, true, kAtFirst + 2s, 5s);
-    rounds(lamp, false, kAtFirst + 7s, 5s);
-
-    EXPECT_EQ(lamp.tries, 2);
 }
 
 } // namespace

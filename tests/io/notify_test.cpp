@@ -10,7 +10,11 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdlib>
+#include <string>
+#include <vector>
 
 namespace dpslave::io {
 namespace {
@@ -95,6 +99,42 @@ TEST_F(ServiceManager, ThatIsNotThereGetsNothing)
     notifier.watchdog();
 
     EXPECT_EQ(heard(), "");
+}
+
+TEST_F(ServiceManager, ThatDoesNotReadKeepsNobodyAndHearsTheLastOfEachWhenItReads)
+{
+    notifier.reloading(Instant{1us});
+    for (int i = 0; i < 10'000; ++i) notifier.status("round " + std::to_string(i));
+    notifier.watchdog();
+    notifier.ready("up");
+
+    std::vector<std::string> all;
+    for (std::string one = heard(); !one.empty(); one = heard()) {
+        all.push_back(one);
+        notifier.send_rest();
+    }
+    EXPECT_EQ(all.front(), "RELOADING=1\nMONOTONIC_USEC=1");
+    EXPECT_EQ(all.back(), "READY=1\nSTATUS=up");
+    EXPECT_EQ(std::count(all.begin(), all.end(), "STATUS=round 9999"), 1);
+    EXPECT_EQ(std::count(all.begin(), all.end(), "STATUS=round 9998"), 0);
+    EXPECT_EQ(std::count(all.begin(), all.end(), "WATCHDOG=1"), 0) << "a sign of life that is late is none";
+}
+
+TEST_F(ServiceManager, MayHaveAnAbstractSocket)
+{
+    const std::string name = "@dpslave-notify-test-" + std::to_string(::getpid());
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    name.copy(address.sun_path, name.size());
+    address.sun_path[0] = '\0';
+    socket = Fd{::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)};
+    const auto length = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + name.size());
+    ASSERT_EQ(::bind(socket.get(), reinterpret_cast<const sockaddr*>(&address), length), 0);
+    ::setenv("NOTIFY_SOCKET", name.c_str(), 1);
+
+    notifier.watchdog();
+
+    EXPECT_EQ(heard(), "WATCHDOG=1");
 }
 
 TEST_F(ServiceManager, ReportsHowOftenTheWatchdogIsDue)

@@ -4,6 +4,7 @@
 #include "gateway.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace dpslave::test {
@@ -212,8 +213,8 @@ protected:
 
 TEST_F(Lamps, SpeakTheLanguageOfTheOptionBoard)
 {
-    EXPECT_EQ(content(gateway.lamp_folder() / "class/gpio/gpio23/direction"), "low");
     EXPECT_TRUE(shows(red, "1")) << "external fault: there is no master";
+    EXPECT_EQ(content(gateway.lamp_folder() / "class/gpio/gpio23/direction"), "low");
     EXPECT_TRUE(flashes(green));
     EXPECT_EQ(pattern("green"), "flashing 1 Hz");
 
@@ -253,6 +254,24 @@ TEST_F(Lamps, AreDarkWhenTheDaemonHasEnded)
     EXPECT_EQ(gateway.daemon().end(), 0);
     EXPECT_EQ(content(red), "0");
     EXPECT_EQ(content(green), "0");
+}
+
+/// A pipe that nobody reads: to open it for writing never ends, like a call of a chip that hangs.
+TEST_F(Lamps, ThatHangCostOnlyThemselvesAndTheEndSaysSo)
+{
+    EXPECT_TRUE(flashes(green));
+    std::filesystem::remove(green);
+    ASSERT_EQ(::mkfifo(green.c_str(), 0600), 0);
+
+    EXPECT_TRUE(gateway.daemon().says("the lamp green does not show its pattern: LED led:green"));
+    Master master{gateway, {"--tags", "55"}};
+    ASSERT_TRUE(master.does("start 60s"));
+    EXPECT_TRUE(shows(red, "0")) << "data exchange";
+    EXPECT_THAT(gateway.dpctl({"doctor"}).out, HasSubstr("has not answered for"));
+
+    EXPECT_EQ(gateway.daemon().end(), 0);
+    EXPECT_TRUE(gateway.daemon().says("the lamps of led do not answer"));
+    EXPECT_EQ(content(red), "0");
 }
 
 } // namespace

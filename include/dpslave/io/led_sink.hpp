@@ -3,10 +3,8 @@
 #pragma once
 
 #include "dpslave/base/result.hpp"
-#include "dpslave/base/units.hpp"
 #include "dpslave/io/gpio.hpp"
 
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -21,18 +19,9 @@ public:
     LedSink& operator=(const LedSink&) = delete;
     virtual ~LedSink() = default; ///< the lamp is off then
 
-    /// Writes only what changes. A lamp that has gone is tried again with the next change, or when kPause has
-    /// passed: each try may wait for a bus (I2C), and the main loop comes here every few ms.
-    void set(bool lit, Instant now);
-
-    static constexpr std::chrono::seconds kPause{1};
-
-private:
-    virtual bool write(bool lit) = 0; ///< false: the lamp cannot be written
-
-    bool wanted_ = false; // open_led_sink() has darkened it
-    bool failed_ = false;
-    Instant tried_{}; ///< of the last write
+    /// Each call here, and the end, may wait for a bus (I2C). False: the lamp cannot be switched, and has to
+    /// be opened again.
+    virtual bool set(bool lit) = 0;
 };
 
 /// "line:CHIP:LINE": a GPIO character device, chip as GpioRequest has it. "led:NAME":

@@ -216,7 +216,7 @@ report::StationLeds ControlMethods::leds(const Station& station) const
     report::StationLeds result =
         leds_report(*station.config, parts_.lamps.condition(index), io::monotonic_now());
     for (report::Led& led : result.leds) {
-        led.trouble = parts_.lamps.trouble(index, led.name);
+        led.trouble = parts_.lamps.trouble(index, led.name, io::monotonic_now());
         led.lit = led.lit && !led.trouble;
     }
     return result;

@@ -4,13 +4,13 @@
 /// SideJob.
 #pragma once
 
+#include "app/job/side_job.hpp"
 #include "app/line/drive_line.hpp"
 #include "app/state/happenings.hpp"
 #include "app/state/monitor.hpp"
 #include "book.hpp"
 #include "burst.hpp"
 #include "folder.hpp"
-#include "side_job.hpp"
 
 #include "dpslave/trace/ring.hpp"
 
@@ -106,7 +106,7 @@ private:
     std::map<std::uint32_t, drive::AnswerCounts> heard_; ///< likewise: of the drive
     Burst flaws_;
     std::array<std::uint64_t, fdl::kFlaws> flaws_before_{};
-    SideJob job_; ///< last: it ends first
+    SideJob job_{"disk", "work on files of incidents"}; ///< last: it ends first
 };
 
 } // namespace dpslave::app

@@ -76,7 +76,7 @@ void await_first_round(const BusLink& link)
 /// The times of the end, from the signal on.
 constexpr std::chrono::milliseconds kBusLeaves{500}; // more than the longest telegram at any rate
 constexpr std::chrono::seconds kDrivesWrite{4};
-constexpr std::chrono::milliseconds kAllEnds{4700};
+constexpr std::chrono::milliseconds kAllEnds{4400}; // then the lamps
 
 /// Waits until the bus thread has left the bus, or `limit`.
 bool has_ended(const BusLink& link, Instant limit)
@@ -166,13 +166,8 @@ ExitStatus run_daemon(const config::Config& config, const std::filesystem::path&
         hanging.push_back("the port " + config.bus.port + " does not close");
     main_thread.tell_rest();
     const auto status = by_signal ? ExitStatus::ended_by_signal : ExitStatus::not_served;
-    if (!main_thread.end_incidents(remaining(begun + kAllEnds)))
-        hanging.push_back("the folder of the incidents hangs");
-    main_thread.tell_hanging(hanging);
-    if (!hanging.empty()) {
-        main_thread.release();
-        std::_Exit(static_cast<int>(status)); // what its threads use cannot be freed
-    }
+    if (!main_thread.end(std::move(hanging), begun + kAllEnds))
+        std::_Exit(static_cast<int>(status)); // what hangs uses objects that cannot be freed
     spdlog::info("ended");
     return status;
 }

@@ -42,15 +42,25 @@ MainThread::MainThread(config::Config config, const std::filesystem::path& profi
                 happenings_, event_streams_, log_level_},
                io::monotonic_now())
 {
-    for (const std::string& warning : lamps_.exchange(monitor_.config())) spdlog::warn("{}", warning);
+    lamps_.exchange(monitor_.config());
     if (const auto words = first_start_words(monitor_.config(), state))
         tell(Happened::daemon, Severity::warning, *words);
 }
 
-void MainThread::release()
+bool MainThread::end(std::vector<std::string> hanging, Instant limit)
 {
-    lamps_ = Lamps{};
-    server_.reset();
+    constexpr std::chrono::milliseconds kAtLeast{10};
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(limit - io::monotonic_now());
+    if (!incidents_.end(std::max(left, kAtLeast)))
+        hanging.emplace_back("the folder of the incidents hangs, and the last one is not written");
+    for (const std::string& chip : lamps_.end(Lamps::kEnd))
+        hanging.push_back("the lamps of " + chip + " do not answer, and are left as they are");
+    for (const std::string& one : hanging) {
+        spdlog::critical("{}; the program ends without it", one);
+        notifier_.status(one + "; the program ends without it");
+    }
+    if (!hanging.empty()) server_.reset();
+    return hanging.empty();
 }
 
 std::optional<std::string> MainThread::open_socket()
@@ -151,6 +161,7 @@ void MainThread::tick(Instant now)
     const auto& stations = plant_.stations();
     for (std::size_t i = 0; i < stations.size(); ++i) lamps_.set(i, stations[i].device->condition());
     lamps_.show(now);
+    for (const auto& [station, news] : lamps_.take_news(now)) tell_device(stations[station], news);
     accesses_.answer(now);
     probes_.answer(now);
     watchers_.push(now);
@@ -160,6 +171,7 @@ void MainThread::tick(Instant now)
     let_log_level_end(now);
     file_.on_time(now);
     feed_watchdog(now);
+    notifier_.send_rest();
     if (std::string line = status_line(monitor_.view()); line != status_sent_) {
         notifier_.status(line);
         status_sent_ = std::move(line);
@@ -197,13 +209,17 @@ void MainThread::tell_news()
     for (const auto& [line, happening] : std::exchange(of_masters_, {})) tell_line(*line, happening);
     tell_port_events();
     for (const Station& station : plant_.stations())
-        for (const Sentence& news : station.news->take())
-            happenings_.tell({.kind = Happened::device,
-                              .severity = news.is_warning ? Severity::warning : Severity::info,
-                              .text = news.text,
-                              .stations = {station.config->name}},
-                             io::monotonic_now());
+        for (const Sentence& news : station.news->take()) tell_device(station, news);
     happenings_.on_time(io::monotonic_now());
+}
+
+void MainThread::tell_device(const Station& station, const Sentence& news)
+{
+    happenings_.tell({.kind = Happened::device,
+                      .severity = news.is_warning ? Severity::warning : Severity::info,
+                      .text = news.text,
+                      .stations = {station.config->name}},
+                     io::monotonic_now());
 }
 
 void MainThread::tell_lines()
@@ -253,14 +269,6 @@ bool MainThread::bus_has_stalled(Instant now)
     if (silent_for < kProgramMayStall || notifier_.watchdog_interval()) return false;
     spdlog::critical("the bus thread has stalled: the program ends");
     return true;
-}
-
-void MainThread::tell_hanging(const std::vector<std::string>& sentences)
-{
-    for (const std::string& one : sentences) {
-        spdlog::critical("{}; the program ends without it", one);
-        notifier_.status(one + "; the program ends without it");
-    }
 }
 
 void MainThread::tell_rest()

@@ -21,10 +21,10 @@ public:
                const std::filesystem::path& state, Plant& plant, BusLink& bus, const DriverGuard& guard,
                io::Signals& signals);
 
-    /// For an end without the destructor: switches the lamps off and removes the socket.
-    void release();
-    /// The last incident is written. False: the disk hangs, and this object cannot be destroyed.
-    bool end_incidents(std::chrono::milliseconds limit) { return incidents_.end(limit); }
+    /// The last incident is written, and the lamps are off, by `limit` at the latest. `hanging`: what else
+    /// does not end, a sentence each. False: something does not, as the log and the service manager are told.
+    /// The socket is removed then, and this object cannot be destroyed.
+    bool end(std::vector<std::string> hanging, Instant limit);
 
     /// Opens the control socket. The reason of a failure is a sentence.
     std::optional<std::string> open_socket();
@@ -32,8 +32,6 @@ public:
     /// Serves until SIGTERM or SIGINT (true), or until another thread had to end early (false). `begin`: the
     /// sentence that it has begun.
     bool run(const std::string& begin);
-    /// What hangs at the end, for the log and the service manager.
-    void tell_hanging(const std::vector<std::string>& sentences);
     /// What was told since run() returned, and what the log holds back. The threads have ended.
     void tell_rest();
 
@@ -45,6 +43,7 @@ private:
     void tell_lines();
     void tell_stalls();
     void tell_news();
+    void tell_device(const Station& station, const Sentence& news);
     void tell_bus_events(const Station& station);
     void tell_line(const DriveLine& line, const LineHappening& happening);
     void tell(Happened kind, Severity severity, std::string text);

@@ -195,8 +195,7 @@ void Reload::apply(Plan plan)
     parts_.monitor.set_config(std::move(plan.config));
     stations_ = parts_.plant.bus_stations();
     step_ = Step::bus;
-    const config::Config& config = parts_.monitor.config();
-    for (const std::string& warning : parts_.lamps.exchange(config)) spdlog::warn("{}", warning);
+    parts_.lamps.exchange(parts_.monitor.config());
     parts_.applied(parts_.plant.leaving());
 }
 

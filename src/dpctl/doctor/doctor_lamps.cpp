@@ -17,11 +17,11 @@ std::string seen_lamp(const Facts& f)
 
 constexpr std::array kLampRules = std::to_array<Rule>({
     {"station.lamp", Rank::stands, "a lamp of the gateway stays dark",
-     "A lamp cannot be switched: it shows nothing",
+     "A lamp cannot be switched, or its chip does not answer: it shows nothing",
      "Compare the line or the name of the lamp in [station.leds] with gpioinfo, and with ls /sys/class/leds\n"
      "Check that no other program has this line. Check that the service may use it: its groups and the udev "
      "rule.\n"
-     "Then: dpctl reload. Until then look at the lamps with dpctl show",
+     "The daemon tries it again by itself, after 30 s at most. Until then look at the lamps with dpctl show",
      kGateway, seen_lamp},
 });
 

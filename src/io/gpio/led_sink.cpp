@@ -67,9 +67,9 @@ public:
     Attribute(fs::path file, std::string on) : file_(std::move(file)), on_(std::move(on)) {}
     ~Attribute() override { static_cast<void>(write_attribute(file_, "0")); }
 
-private:
-    bool write(bool lit) override { return write_attribute(file_, lit ? std::string_view{on_} : "0") == 0; }
+    bool set(bool lit) override { return write_attribute(file_, lit ? std::string_view{on_} : "0") == 0; }
 
+private:
     fs::path file_;
     std::string on_;
 };
@@ -77,23 +77,11 @@ private:
 /// A line of a GPIO chip.
 class LineLamp final : public LedSink {
 public:
-    LineLamp(GpioRequest request, GpioLine line) : request_(std::move(request)), line_(std::move(line)) {}
+    explicit LineLamp(GpioLine line) : line_(std::move(line)) {}
+    bool set(bool lit) override { return !line_.set(lit); }
 
 private:
-    bool write(bool lit) override
-    {
-        if (!line_) { // its chip had gone
-            auto again = GpioLine::request(request_);
-            if (!again) return false;
-            line_.emplace(std::move(*again));
-        }
-        if (!line_->set(lit)) return true;
-        line_.reset();
-        return false;
-    }
-
-    GpioRequest request_;
-    std::optional<GpioLine> line_; // inactive when it is requested, and when it is released
+    GpioLine line_; // inactive when it is requested, and when it is released
 };
 
 using Opened = Result<std::unique_ptr<LedSink>, std::string>;
@@ -178,11 +166,11 @@ Opened open_led_class(const std::string& sink, const std::string& name, const fs
     return Opened{std::make_unique<Attribute>(brightness, std::to_string(full))};
 }
 
-Opened open_line(const std::string& sink, GpioRequest request)
+Opened open_line(const std::string& sink, const GpioRequest& request)
 {
     auto taken = GpioLine::request(request);
     if (!taken) return Failure{"LED " + sink + ": " + taken.error()};
-    return Opened{std::make_unique<LineLamp>(std::move(request), std::move(*taken))};
+    return Opened{std::make_unique<LineLamp>(std::move(*taken))};
 }
 
 /// "line:CHIP:LINE" as "line" and "CHIP:LINE".
@@ -270,15 +258,6 @@ std::string led_sink_target(const std::string& sink, const fs::path& sysfs)
     return "led:" + (error ? rest : lamp.filename().string());
 }
 
-void LedSink::set(bool lit, Instant now)
-{
-    // After a failure the state of the lamp is not known: the wanted state counts, not the one shown last.
-    if (lit == wanted_ && !(failed_ && now - tried_ >= kPause)) return;
-    wanted_ = lit;
-    tried_ = now;
-    failed_ = !write(lit);
-}
-
 std::optional<GpioRequest> line_of_led_sink(const std::string& sink)
 {
     const auto [kind, rest] = cut(sink, sink.find(':'));
@@ -313,7 +292,7 @@ std::optional<std::string> judge_led_sink(const std::string& sink)
 Result<std::unique_ptr<LedSink>, std::string> open_led_sink(const std::string& sink, const fs::path& sysfs)
 {
     if (const auto wrong = judge_led_sink(sink)) return Failure{"LED \"" + sink + "\": " + *wrong};
-    if (auto line = line_of_led_sink(sink)) return open_line(sink, std::move(*line));
+    if (const auto line = line_of_led_sink(sink)) return open_line(sink, *line);
     const auto [kind, rest] = cut(sink, sink.find(':'));
     return kind == "gpio" ? open_gpio(sink, rest, sysfs) : open_led_class(sink, rest, sysfs);
 }
