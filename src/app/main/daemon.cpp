@@ -130,7 +130,6 @@ ExitStatus run_daemon(const config::Config& config, const std::filesystem::path&
     }
     auto port = open_bus(config, *driver);
     if (!port) return ExitStatus::device_not_opened;
-    if (const auto trouble = keep(drivers_of(config), runtime_folder())) spdlog::warn("{}", *trouble);
     io::make_stacks_small(); // before the guards of the drive lines, the first threads
     if (config.realtime.lock_memory) io::keep_memory();
     BusLink link{std::size_t{config.trace.bus_kib} * 1024};

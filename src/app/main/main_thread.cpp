@@ -21,6 +21,8 @@ namespace {
 constexpr std::uint64_t kServerKey = 0;
 constexpr std::uint64_t kSignalKey = 1;
 
+constexpr std::chrono::milliseconds kEndOfFiles{500};
+
 constexpr std::chrono::milliseconds kTick{100};
 constexpr std::chrono::milliseconds kTickWithDiagnosis{20}; // a trip reaches the master soon
 constexpr std::chrono::milliseconds kTickWhilePending{5};   // while a call waits for a drive or a reload
@@ -43,8 +45,17 @@ MainThread::MainThread(config::Config config, const std::filesystem::path& profi
                io::monotonic_now())
 {
     lamps_.exchange(monitor_.config());
-    if (const auto words = first_start_words(monitor_.config(), state))
-        tell(Happened::daemon, Severity::warning, *words);
+    file_.keep(drivers_of(monitor_.config()));
+    file_.find_group(monitor_.config().control, [this](std::optional<gid_t> group) {
+        if (!group) spdlog::warn("{}", to_string(config::without_operator_group(monitor_.config())));
+        admit(group);
+    });
+    if (!state.empty() && has_new_default(monitor_.config()))
+        file_.add("the disk with " + state.string(), [this, state]() -> SideJob::Then {
+            const auto words = first_start_words(state);
+            if (!words) return {};
+            return [this, words] { tell(Happened::daemon, Severity::warning, *words); };
+        });
 }
 
 void MainThread::release()
@@ -57,7 +68,9 @@ bool MainThread::end_side_work()
 {
     const bool is_written = incidents_.end(std::chrono::seconds{2});
     if (!is_written) spdlog::warn("the folder of the incidents hangs; the program ends without the last one");
-    if (end_lamps() && is_written) return true;
+    const bool is_idle = file_.end(kEndOfFiles);
+    if (!is_idle) spdlog::warn("{} hangs; the program ends without it", file_.waits_for());
+    if (end_lamps() && is_written && is_idle) return true;
     server_.reset();
     return false;
 }
@@ -89,35 +102,42 @@ std::optional<std::string> MainThread::open_socket()
     return std::nullopt;
 }
 
-/// Not before the bus is served: a directory in the network may be asked for the group.
-void MainThread::admit_operators()
+void MainThread::admit(std::optional<gid_t> operators)
 {
-    const config::Config& config = monitor_.config();
-    const auto group = config::operator_group_of(config.control);
-    if (!group) spdlog::warn("{}", to_string(config::without_operator_group(config)));
-    server_->set_operators(group, config.control.operator_group);
+    is_group_known_ = true;
+    server_->set_operators(operators, monitor_.config().control.operator_group);
 }
 
 /// A reload has put another configuration in force.
-void MainThread::on_applied(const std::vector<Station>& left)
+void MainThread::on_applied(const std::vector<Station>& left, std::optional<gid_t> operators)
 {
-    const config::ControlConfig& control = monitor_.config().control;
-    server_->set_operators(config::operator_group_of(control), control.operator_group);
-    server_->set_read_only(control.read_only);
+    admit(operators);
+    server_->set_read_only(monitor_.config().control.read_only);
     accesses_.refuse(left);
     probes_.refuse(left);
+}
+
+/// The first call waits for the group of the operators: a member who calls at once is not refused. A name
+/// service that hangs keeps the others for a moment only.
+void MainThread::serve_calls_if_due(Instant now)
+{
+    constexpr std::chrono::seconds kLongest{1};
+    const bool is_late = now > began_ + kLongest;
+    if (serves_calls_ || !(is_group_known_ || is_late)) return;
+    serves_calls_ = true;
+    if (!is_group_known_)
+        spdlog::warn("{}", file_.waits_for() +
+                               " has not answered for a second: until it does only root may operate");
+    epoll_.add(server_->fd(), EPOLLIN, kServerKey);
+    status_sent_ = status_line(monitor_.view());
+    notifier_.ready(status_sent_);
 }
 
 bool MainThread::run(const std::string& begin)
 {
     tell(Happened::daemon, Severity::info, begin);
-    admit_operators();
-    control::Server& server = *server_;
-    epoll_.add(server.fd(), EPOLLIN, kServerKey);
+    began_ = io::monotonic_now();
     epoll_.add(signals_.fd(), EPOLLIN, kSignalKey);
-    monitor_.refresh();
-    status_sent_ = status_line(monitor_.view());
-    notifier_.ready(status_sent_);
 
     Instant next_tick{};
     for (;;) {
@@ -139,7 +159,7 @@ bool MainThread::run(const std::string& begin)
             }
             if (event.data.u64 == kServerKey) {
                 monitor_.refresh();
-                server.on_ready();
+                server_->on_ready();
             }
         }
         next_tick = std::min(next_tick, now + tick_length()); // a call may have begun to wait
@@ -148,7 +168,8 @@ bool MainThread::run(const std::string& begin)
 
 std::chrono::milliseconds MainThread::tick_length() const
 {
-    if (!accesses_.empty() || !reload_.is_idle() || incidents_.is_waited_for()) return kTickWhilePending;
+    if (!accesses_.empty() || !reload_.is_idle() || incidents_.is_waited_for() || !serves_calls_)
+        return kTickWhilePending;
     if (!traces_.empty()) return kTickWithDiagnosis;
     const auto& stations = plant_.stations();
     const bool has_diagnosis = std::any_of(stations.begin(), stations.end(), [](const Station& station) {
@@ -159,8 +180,10 @@ std::chrono::milliseconds MainThread::tick_length() const
 
 void MainThread::tick(Instant now)
 {
-    reload_.advance();
+    file_.on_time(now);
+    reload_.advance(now);
     monitor_.refresh();
+    serve_calls_if_due(now);
     monitor_.set_calls(server_->counters());
     monitor_.sample(now);
     tell_news();
@@ -175,10 +198,9 @@ void MainThread::tick(Instant now)
     traces_.push();
     incidents_.on_time(now);
     let_log_level_end(now);
-    file_.on_time(now);
     feed_watchdog(now);
     notifier_.send_rest();
-    if (std::string line = status_line(monitor_.view()); line != status_sent_) {
+    if (std::string line = status_line(monitor_.view()); serves_calls_ && line != status_sent_) {
         notifier_.status(line);
         status_sent_ = std::move(line);
     }

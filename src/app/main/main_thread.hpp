@@ -40,8 +40,9 @@ public:
 
 private:
     bool end_lamps();
-    void admit_operators();
-    void on_applied(const std::vector<Station>& left);
+    void admit(std::optional<gid_t> operators);
+    void serve_calls_if_due(Instant now);
+    void on_applied(const std::vector<Station>& left, std::optional<gid_t> operators);
     std::chrono::milliseconds tick_length() const;
     void tick(Instant now);
     void tell_news();
@@ -78,9 +79,14 @@ private:
     Traces traces_;
     Incidents incidents_;
     Reload reload_{{file_, monitor_, plant_, bus_, lamps_, notifier_, happenings_,
-                    [this](const std::vector<Station>& left) { on_applied(left); }}};
+                    [this](const std::vector<Station>& left, std::optional<gid_t> operators) {
+                        on_applied(left, operators);
+                    }}};
     ControlMethods methods_;
 
+    Instant began_{};             ///< run()
+    bool is_group_known_ = false; ///< of the operators
+    bool serves_calls_ = false;
     std::string status_sent_;        ///< to systemd
     std::uint64_t dropped_seen_ = 0; ///< of the guard, as logged
     std::uint64_t heartbeat_seen_ = 0;

@@ -178,14 +178,14 @@ bool Plant::opens_for_a_trial(const Plan& plan, std::size_t line) const
     return (!planned.before || planned.is_opened_anew) && !has_port(wanted.port) && !has_gpio_line(wanted);
 }
 
-std::vector<std::string> Plant::missing_ports(const Plan& plan) const
+std::vector<std::string> Plant::missing_ports(const Plan& plan,
+                                              const std::vector<std::optional<std::string>>& troubles) const
 {
     std::vector<std::string> missing;
     for (std::size_t i = 0; i < plan.lines.size(); ++i) {
         const config::LineConfig& line = plan.config.lines[i];
-        if (!opens_for_a_trial(plan, i)) continue;
-        if (const auto trouble = io::port_trouble(line.port))
-            missing.push_back(not_opened(plan.config, line, *trouble));
+        if (troubles[i] && opens_for_a_trial(plan, i))
+            missing.push_back(not_opened(plan.config, line, *troubles[i]));
     }
     return missing;
 }

@@ -54,8 +54,10 @@ public:
     /// finish() is due when the bus has removed the stations that left. The result is as that of open(), of
     /// the ports that none of the present lines has. Precondition: is_settled().
     std::vector<std::string> exchange(const Plan& plan);
-    /// What exchange() would say of `plan`, as far as the file system shows. Opens nothing.
-    std::vector<std::string> missing_ports(const Plan& plan) const;
+    /// What exchange() would say of `plan`, as far as the file system shows. `troubles`: io::port_trouble()
+    /// of each line of the plan.
+    std::vector<std::string> missing_ports(const Plan& plan,
+                                           const std::vector<std::optional<std::string>>& troubles) const;
     /// The bus has removed the stations that left: the lines write the safe state of drives that left, then
     /// they ask the new drives. Does not wait.
     void finish();
