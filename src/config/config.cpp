@@ -7,7 +7,9 @@
 #include <sys/un.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <system_error>
+#include <vector>
 
 namespace dpslave::config {
 namespace {
@@ -129,8 +131,15 @@ std::string canonical(const std::string& path)
 
 std::optional<gid_t> operator_group_of(const ControlConfig& control)
 {
-    const group* const found = ::getgrnam(control.operator_group.c_str());
-    return found != nullptr ? std::optional{found->gr_gid} : std::nullopt;
+    constexpr std::size_t kMost = std::size_t{1} << 22; // a group of the network may have very many members
+    group entry{};
+    group* found = nullptr;
+    int error = ERANGE;
+    for (std::size_t size = 4096; error == ERANGE && size <= kMost; size *= 4) {
+        std::vector<char> room(size);
+        error = ::getgrnam_r(control.operator_group.c_str(), &entry, room.data(), room.size(), &found);
+    }
+    return found != nullptr ? std::optional{entry.gr_gid} : std::nullopt;
 }
 
 input::Fault without_operator_group(const Config& config)

@@ -6,10 +6,10 @@
 #include "dpslave/base/units.hpp"
 
 #include <chrono>
-#include <deque>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace dpslave::io {
 
@@ -31,7 +31,7 @@ public:
 private:
     void tell(std::string state);
 
-    std::deque<std::string> unsent_;
+    std::vector<std::string> unsent_;
 };
 
 } // namespace dpslave::io

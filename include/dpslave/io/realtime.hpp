@@ -36,9 +36,11 @@ void keep_memory();
 /// fail to start later.
 std::vector<std::string> lock_memory();
 
-/// Gives back the part of the calling thread's stack that no thread was seen to need, 16 KiB below this call,
-/// and locks it no more. Call it in a thread that may wait for a page of memory.
-void unlock_deep_stack();
+/// No drive thread was seen to need more of its stack.
+inline constexpr std::size_t kKeptStack = 16 * 1024;
+/// Gives back what the calling thread's stack has more than `kept` octets below this call, and locks it no
+/// more. Call it in a thread that may wait for a page of memory.
+void unlock_deep_stack(std::size_t kept = kKeptStack);
 
 /// Sets the calling thread: timer slack 1 ns, pinned to processor `cpu` (-1 = not), and SCHED_FIFO with
 /// `priority` 1..99 (0 = ordinary scheduling).

@@ -51,7 +51,7 @@ void SideJob::leave()
 void SideJob::serve(const std::shared_ptr<Shared>& shared, const char* name, const std::string& what)
 {
     io::name_thread(name);
-    io::unlock_deep_stack();
+    io::unlock_deep_stack(0); // it may wait for a page
     std::unique_lock lock{shared->mutex};
     for (;;) {
         shared->changed.wait(lock, [&shared] { return shared->work || shared->ends; });
@@ -62,9 +62,10 @@ void SideJob::serve(const std::shared_ptr<Shared>& shared, const char* name, con
         try {
             then = work();
         } catch (const std::exception& error) { // no memory left
-            spdlog::error("{}: {}", what, error.what());
+            spdlog::error("{}", what + ": " + error.what());
         }
         work = nullptr; // what it owns is given up here, where that may block
+        io::unlock_deep_stack(0);
         lock.lock();
         shared->then = std::move(then);
         shared->is_done = true;

@@ -112,7 +112,6 @@ ExitStatus run_daemon(const config::Config& config, const std::filesystem::path&
     for (const input::Fault& warning : config.warnings) spdlog::warn("{}", to_string(warning));
 
     // What can end the start comes first, before anything is sent on the bus.
-    if (const auto trouble = keep(drivers_of(config), runtime_folder())) spdlog::warn("{}", *trouble);
     io::make_stacks_small(); // before the first threads
     if (config.realtime.lock_memory) io::keep_memory();
     io::DriverEnable driver{config.bus.driver_enable};

@@ -6,13 +6,15 @@
 
 namespace dpslave::app {
 
-std::optional<std::string> first_start_words(const config::Config& config, const std::filesystem::path& state)
+bool has_new_default(const config::Config& config)
 {
-    const auto leaves = [](const config::StationConfig& station) {
-        return station.loss.when == drive::WhenLost::silent;
-    };
-    if (state.empty() || std::none_of(config.stations.begin(), config.stations.end(), leaves))
-        return std::nullopt;
+    return std::any_of(
+        config.stations.begin(), config.stations.end(),
+        [](const config::StationConfig& station) { return station.loss.when == drive::WhenLost::silent; });
+}
+
+std::optional<std::string> first_start_words(const std::filesystem::path& state)
+{
     const std::filesystem::path said = state / "said-when-drive-lost";
     std::error_code ignored;
     if (std::filesystem::exists(said, ignored)) return std::nullopt;

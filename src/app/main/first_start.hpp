@@ -10,9 +10,10 @@
 
 namespace dpslave::app {
 
-/// What the plant has to know of the new default of when_drive_lost; nothing: it was said before, no
-/// station has the default, or there is no state folder to remember it in (`state` is empty).
-std::optional<std::string> first_start_words(const config::Config& config,
-                                             const std::filesystem::path& state);
+/// True: a station has the new default of when_drive_lost.
+bool has_new_default(const config::Config& config);
+/// What the plant has to know of that default; nothing: it was said before. `state`: the folder where that is
+/// remembered. It may block.
+std::optional<std::string> first_start_words(const std::filesystem::path& state);
 
 } // namespace dpslave::app

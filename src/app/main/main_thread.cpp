@@ -21,6 +21,8 @@ namespace {
 constexpr std::uint64_t kServerKey = 0;
 constexpr std::uint64_t kSignalKey = 1;
 
+constexpr std::chrono::milliseconds kEndOfFiles{500};
+
 constexpr std::chrono::milliseconds kTick{100};
 constexpr std::chrono::milliseconds kTickWithDiagnosis{20}; // a trip reaches the master soon
 constexpr std::chrono::milliseconds kTickWhilePending{5};   // while a call waits for a drive or a reload
@@ -43,8 +45,17 @@ MainThread::MainThread(config::Config config, const std::filesystem::path& profi
                io::monotonic_now())
 {
     lamps_.exchange(monitor_.config());
-    if (const auto words = first_start_words(monitor_.config(), state))
-        tell(Happened::daemon, Severity::warning, *words);
+    file_.keep(drivers_of(monitor_.config()));
+    file_.find_group(monitor_.config().control, [this](std::optional<gid_t> group) {
+        if (!group) spdlog::warn("{}", to_string(config::without_operator_group(monitor_.config())));
+        admit(group);
+    });
+    if (!state.empty() && has_new_default(monitor_.config()))
+        file_.add("the disk with " + state.string(), [this, state]() -> SideJob::Then {
+            const auto words = first_start_words(state);
+            if (!words) return {};
+            return [this, words] { tell(Happened::daemon, Severity::warning, *words); };
+        });
 }
 
 bool MainThread::end(std::vector<std::string> hanging, Instant limit)
@@ -53,6 +64,7 @@ bool MainThread::end(std::vector<std::string> hanging, Instant limit)
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(limit - io::monotonic_now());
     if (!incidents_.end(std::max(left, kAtLeast)))
         hanging.emplace_back("the folder of the incidents hangs, and the last one is not written");
+    if (!file_.end(kEndOfFiles)) hanging.push_back(file_.waits_for() + " hangs");
     for (const std::string& chip : lamps_.end(Lamps::kEnd))
         hanging.push_back("the lamps of " + chip + " do not answer, and are left as they are");
     for (const std::string& one : hanging) {
@@ -82,35 +94,42 @@ std::optional<std::string> MainThread::open_socket()
     return std::nullopt;
 }
 
-/// Not before the bus is served: a directory in the network may be asked for the group.
-void MainThread::admit_operators()
+void MainThread::admit(std::optional<gid_t> operators)
 {
-    const config::Config& config = monitor_.config();
-    const auto group = config::operator_group_of(config.control);
-    if (!group) spdlog::warn("{}", to_string(config::without_operator_group(config)));
-    server_->set_operators(group, config.control.operator_group);
+    is_group_known_ = true;
+    server_->set_operators(operators, monitor_.config().control.operator_group);
 }
 
 /// A reload has put another configuration in force.
-void MainThread::on_applied(const std::vector<Station>& left)
+void MainThread::on_applied(const std::vector<Station>& left, std::optional<gid_t> operators)
 {
-    const config::ControlConfig& control = monitor_.config().control;
-    server_->set_operators(config::operator_group_of(control), control.operator_group);
-    server_->set_read_only(control.read_only);
+    admit(operators);
+    server_->set_read_only(monitor_.config().control.read_only);
     accesses_.refuse(left);
     probes_.refuse(left);
+}
+
+/// The first call waits for the group of the operators: a member who calls at once is not refused. A name
+/// service that hangs keeps the others for a moment only.
+void MainThread::serve_calls_if_due(Instant now)
+{
+    constexpr std::chrono::seconds kLongest{1};
+    const bool is_late = now > began_ + kLongest;
+    if (serves_calls_ || !(is_group_known_ || is_late)) return;
+    serves_calls_ = true;
+    if (!is_group_known_)
+        spdlog::warn("{}", file_.waits_for() +
+                               " has not answered for a second: until it does only root may operate");
+    epoll_.add(server_->fd(), EPOLLIN, kServerKey);
+    status_sent_ = status_line(monitor_.view());
+    notifier_.ready(status_sent_);
 }
 
 bool MainThread::run(const std::string& begin)
 {
     tell(Happened::daemon, Severity::info, begin);
-    admit_operators();
-    control::Server& server = *server_;
-    epoll_.add(server.fd(), EPOLLIN, kServerKey);
+    began_ = io::monotonic_now();
     epoll_.add(signals_.fd(), EPOLLIN, kSignalKey);
-    monitor_.refresh();
-    status_sent_ = status_line(monitor_.view());
-    notifier_.ready(status_sent_);
 
     Instant next_tick{};
     for (;;) {
@@ -133,7 +152,7 @@ bool MainThread::run(const std::string& begin)
             }
             if (event.data.u64 == kServerKey) {
                 monitor_.refresh();
-                server.on_ready();
+                server_->on_ready();
             }
         }
         next_tick = std::min(next_tick, now + tick_length()); // a call may have begun to wait
@@ -142,7 +161,8 @@ bool MainThread::run(const std::string& begin)
 
 std::chrono::milliseconds MainThread::tick_length() const
 {
-    if (!accesses_.empty() || !reload_.is_idle() || incidents_.is_waited_for()) return kTickWhilePending;
+    if (!accesses_.empty() || !reload_.is_idle() || incidents_.is_waited_for() || !serves_calls_)
+        return kTickWhilePending;
     if (!traces_.empty()) return kTickWithDiagnosis;
     const auto& stations = plant_.stations();
     const bool has_diagnosis = std::any_of(stations.begin(), stations.end(), [](const Station& station) {
@@ -153,8 +173,10 @@ std::chrono::milliseconds MainThread::tick_length() const
 
 void MainThread::tick(Instant now)
 {
-    reload_.advance();
+    file_.on_time(now);
+    reload_.advance(now);
     monitor_.refresh();
+    serve_calls_if_due(now);
     monitor_.set_calls(server_->counters());
     monitor_.sample(now);
     tell_news();
@@ -169,10 +191,9 @@ void MainThread::tick(Instant now)
     traces_.push();
     incidents_.on_time(now);
     let_log_level_end(now);
-    file_.on_time(now);
     feed_watchdog(now);
     notifier_.send_rest();
-    if (std::string line = status_line(monitor_.view()); line != status_sent_) {
+    if (std::string line = status_line(monitor_.view()); serves_calls_ && line != status_sent_) {
         notifier_.status(line);
         status_sent_ = std::move(line);
     }
@@ -233,25 +254,13 @@ void MainThread::tell_lines()
                     tell_line(*line, *happening);
 }
 
-/// A line that stalls cannot say so. When it goes round again it says what had stalled.
 void MainThread::tell_stalls()
 {
-    std::vector<std::shared_ptr<DriveLine>> stalls;
-    for (const Station& station : plant_.stations()) {
-        const auto& line = station.drive_line;
-        if (station.line_stalled.count() == 0 || std::ranges::count(stalls, line) != 0) continue;
-        stalls.push_back(line);
-        if (std::ranges::count(stalls_told_, line) != 0) continue;
-        LineHappening happening{.kind = LineHappening::Kind::port_missing, .severity = Severity::error};
-        fmt::format_to_n(happening.text.data(), happening.text.size() - 1,
-                         "{}: its drives count as lost. Look at the adapter and the cable of {}",
-                         stall_words(*line, station.line_stalled), line->config.port);
-        tell_line(*line, happening);
-    }
-    for (const auto& line : stalls_told_)
-        if (std::ranges::count(stalls, line) == 0)
-            tell(Happened::drive, Severity::info, fmt::format("line {} goes round again", line->config.name));
-    stalls_told_ = std::move(stalls);
+    for (const StalledLines::News& one : stalled_lines_.look(plant_.stations()))
+        if (one.is_over)
+            tell(Happened::drive, Severity::info, one.text);
+        else
+            tell_line(*one.line, stall_happening(one.text));
 }
 
 /// True: for so long that the program has to end, and nobody else ends it.

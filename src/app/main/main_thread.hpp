@@ -6,6 +6,7 @@
 #include "app/bus/driver_guard.hpp"
 #include "app/calls/control_methods.hpp"
 #include "app/state/happenings.hpp"
+#include "stalled_lines.hpp"
 
 #include "dpslave/control/server.hpp"
 #include "dpslave/io/epoll.hpp"
@@ -36,8 +37,9 @@ public:
     void tell_rest();
 
 private:
-    void admit_operators();
-    void on_applied(const std::vector<Station>& left);
+    void admit(std::optional<gid_t> operators);
+    void serve_calls_if_due(Instant now);
+    void on_applied(const std::vector<Station>& left, std::optional<gid_t> operators);
     std::chrono::milliseconds tick_length() const;
     void tick(Instant now);
     void tell_lines();
@@ -77,12 +79,17 @@ private:
     Traces traces_;
     Incidents incidents_;
     Reload reload_{{file_, monitor_, plant_, bus_, lamps_, notifier_, happenings_,
-                    [this](const std::vector<Station>& left) { on_applied(left); }}};
+                    [this](const std::vector<Station>& left, std::optional<gid_t> operators) {
+                        on_applied(left, operators);
+                    }}};
     ControlMethods methods_;
 
-    std::string status_sent_;                             ///< to systemd
-    std::uint64_t dropped_seen_ = 0;                      ///< of the guard, as logged
-    std::vector<std::shared_ptr<DriveLine>> stalls_told_; ///< lines that stall, as told
+    Instant began_{};             ///< run()
+    bool is_group_known_ = false; ///< of the operators
+    bool serves_calls_ = false;
+    std::string status_sent_;        ///< to systemd
+    std::uint64_t dropped_seen_ = 0; ///< of the guard, as logged
+    StalledLines stalled_lines_;
     Silence bus_silence_;
     bool bus_stall_told_ = false;
     Instant bus_seen_{}; ///< its sign, when the watchdog was fed

@@ -165,17 +165,17 @@ bool Plant::is_held(const config::LineConfig& wanted) const
     return has_port(wanted.port) || has_gpio_line(wanted);
 }
 
-std::vector<std::string> Plant::missing_ports(const Plan& plan) const
+std::vector<std::string> Plant::missing_ports(const Plan& plan,
+                                              const std::vector<std::optional<std::string>>& troubles) const
 {
     std::vector<std::string> missing;
     for (std::size_t i = 0; i < plan.lines.size(); ++i) {
         const config::LineConfig& line = plan.config.lines[i];
         const bool is_opened = !plan.lines[i].before || plan.lines[i].is_opened_anew;
-        if (!is_opened || is_held(line)) continue;
-        if (const auto trouble = io::port_trouble(line.port))
+        if (troubles[i] && is_opened && !is_held(line))
             missing.push_back(
                 fmt::format("{}[[line]] \"{}\": {}; its drives count as silent until it can be opened",
-                            place(plan.config, line.port_line), line.name, *trouble));
+                            place(plan.config, line.port_line), line.name, *troubles[i]));
     }
     return missing;
 }

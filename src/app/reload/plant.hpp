@@ -52,9 +52,10 @@ public:
     /// Makes what `plan` asks for and takes over what stays: stations() and lines() are the new ones, and
     /// finish() is due when the bus has removed the stations that left. Precondition: is_settled().
     void exchange(const Plan& plan);
-    /// A sentence for each port of `plan` that cannot be opened, as far as the file system shows; but for
-    /// those that the present lines have. Opens nothing.
-    std::vector<std::string> missing_ports(const Plan& plan) const;
+    /// A sentence for each port of `plan` that cannot be opened; but for those that the present lines have.
+    /// `troubles`: io::port_trouble() of each line of the plan.
+    std::vector<std::string> missing_ports(const Plan& plan,
+                                           const std::vector<std::optional<std::string>>& troubles) const;
     /// The bus has removed the stations that left: the lines write the safe state of drives that left, then
     /// they ask the new drives. Does not wait.
     void finish();

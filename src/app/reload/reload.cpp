@@ -26,15 +26,6 @@ std::vector<std::string> sentences(const input::Faults& faults)
     return all;
 }
 
-/// Lines that leave have their driver enables for a moment still.
-void keep_drivers(const config::Config& before, const config::Config& now)
-{
-    std::vector<DriverInUse> drivers = drivers_of(now);
-    for (const DriverInUse& one : drivers_of(before))
-        if (std::find(drivers.begin(), drivers.end(), one) == drivers.end()) drivers.push_back(one);
-    if (const auto trouble = keep(drivers, runtime_folder())) spdlog::warn("{}", *trouble);
-}
-
 } // namespace
 
 Json Reload::reply_of(const Outcome& outcome)
@@ -49,19 +40,23 @@ Json Reload::reply_of(const Outcome& outcome)
 
 Reply Reload::request(bool dry_run, const control::Caller& caller)
 {
-    if (dry_run) return Done{reply_of(judge().outcome)};
+    if (dry_run) {
+        trials_.push_back(caller.reply_to);
+        return control::Later{};
+    }
     wanted_ = true;
     if (waiting_.empty()) waits_since_ = io::monotonic_now();
     waiting_.push_back(caller.reply_to);
     return control::Later{};
 }
 
-void Reload::advance()
+void Reload::advance(Instant now)
 {
     switch (step_) {
         case Step::idle:
-            if (wanted_) start();
+            if (wanted_ && !is_trial_) start(now);
             break;
+        case Step::reading: break;
         case Step::bus:
             if (!bus_has_taken()) break;
             parts_.plant.finish();
@@ -77,14 +72,38 @@ void Reload::advance()
             step_ = Step::idle;
             break;
     }
-    answer_late();
+    if (!trials_.empty() && !is_trial_ && step_ != Step::reading) start_trial(now);
+    give_up_reading(now);
+    answer_late(now);
+}
+
+/// The disk or the name service hangs: nobody waits for it, and what comes of it is not used.
+void Reload::give_up_reading(Instant now)
+{
+    const bool is_reading = step_ == Step::reading || is_trial_;
+    if (!is_reading || now <= (is_trial_ ? trial_began_ : began_) + kLongestReading) return;
+    Outcome outcome;
+    outcome.faults.push_back(fmt::format(
+        "{} has not answered for {} s: nothing was changed, and nothing of it is done later; repeat the reload when it answers",
+        parts_.file.waits_for(), kLongestReading.count()));
+    parts_.file.forget();
+    for (const control::ReplyTo& caller : std::exchange(trials_, {})) tried_.push_back(caller);
+    answer_trials(outcome);
+    // Also those that wait for it: another one would hang as well. Not those that wait for the bus.
+    const bool is_refused = step_ == Step::reading || (step_ == Step::idle && wanted_);
+    if (!is_refused) return;
+    step_ = Step::idle;
+    wanted_ = false;
+    for (const control::ReplyTo& caller : std::exchange(waiting_, {})) current_.push_back(caller);
+    outcome_ = std::move(outcome);
+    tell("reload refused: ", Severity::error, outcome_.faults);
+    answer();
 }
 
 /// A bus thread or a drive line that hangs keeps no caller: the reload itself goes on when it can.
-void Reload::answer_late()
+void Reload::answer_late(Instant now)
 {
     constexpr std::chrono::minutes kLongestWait{5}; // a search for a drive ends before
-    const Instant now = io::monotonic_now();
     if (!current_.empty() && now > began_ + kLongestWait) {
         outcome_.warnings.push_back("the bus has not yet taken the new configuration");
         answer();
@@ -94,15 +113,36 @@ void Reload::answer_late()
         caller.end(control::Error{"Busy", Json::object()});
 }
 
-void Reload::start()
+void Reload::start(Instant now)
 {
     wanted_ = false;
     current_ = std::exchange(waiting_, {});
-    began_ = io::monotonic_now();
+    began_ = now;
     parts_.notifier.reloading(io::monotonic_now());
     spdlog::info("reading {} again", parts_.file.path().string());
+    step_ = Step::reading;
+    parts_.file.read([this](ReadConfig& read) { carry_out(read); });
+}
+
+void Reload::start_trial(Instant now)
+{
+    is_trial_ = true;
+    trial_began_ = now;
+    tried_ = std::exchange(trials_, {});
+    parts_.file.read([this](ReadConfig& read) { answer_trials(judge(read).outcome); });
+}
+
+void Reload::answer_trials(const Outcome& outcome)
+{
+    is_trial_ = false;
+    for (const control::ReplyTo& caller : std::exchange(tried_, {})) caller.end(Done{reply_of(outcome)});
+}
+
+void Reload::carry_out(ReadConfig& read)
+{
+    step_ = Step::idle;
     try {
-        outcome_ = attempt();
+        outcome_ = attempt(read);
     } catch (const std::exception& error) { // no descriptor, no thread or no memory left; nothing was changed
         outcome_ = {};
         outcome_.faults.push_back(fmt::format("a system error: {}", error.what()));
@@ -144,17 +184,16 @@ std::vector<InForce> Reload::in_force() const
     return all;
 }
 
-Reload::Judged Reload::judge()
+Reload::Judged Reload::judge(ReadConfig& read)
 {
     Judged judged;
     Outcome& outcome = judged.outcome;
-    auto wanted = parts_.file.load();
+    auto& wanted = read.config;
     if (!wanted) {
         outcome.faults = sentences(wanted.error());
         return judged;
     }
-    if (!config::operator_group_of(wanted->control))
-        wanted->warnings.push_back(config::without_operator_group(*wanted));
+    if (!read.group) wanted->warnings.push_back(config::without_operator_group(*wanted));
     outcome.warnings = sentences(wanted->warnings);
     parts_.monitor.refresh();
     Plan plan = plan_reload(parts_.monitor.config(), in_force(), std::move(*wanted));
@@ -162,7 +201,7 @@ Reload::Judged Reload::judge()
         outcome.faults = std::move(plan.refusals);
         return judged;
     }
-    for (std::string& missing : parts_.plant.missing_ports(plan))
+    for (std::string& missing : parts_.plant.missing_ports(plan, read.ports))
         outcome.warnings.push_back(std::move(missing));
     outcome.changes = plan.changes;
     outcome.leaving = plan.leaving;
@@ -171,12 +210,12 @@ Reload::Judged Reload::judge()
     return judged;
 }
 
-Reload::Outcome Reload::attempt()
+Reload::Outcome Reload::attempt(ReadConfig& read)
 {
-    auto [outcome, plan] = judge();
+    auto [outcome, plan] = judge(read);
     for (const std::string& warning : outcome.warnings) spdlog::warn("{}", warning);
     if (!plan) return outcome;
-    apply(std::move(*plan));
+    apply(std::move(*plan), read.group);
     tell("reload: ", Severity::info, outcome.changes);
     tell("reload, pending: ", Severity::warning, outcome.pending);
     outcome.applied = true;
@@ -184,19 +223,28 @@ Reload::Outcome Reload::attempt()
 }
 
 /// The new configuration is in force, and the bus is about to take it.
-void Reload::apply(Plan plan)
+void Reload::apply(Plan plan, std::optional<gid_t> group)
 {
-    if (plan.changes.empty()) {
-        parts_.monitor.set_config(std::move(plan.config)); // other texts in the file, and what is pending
-        return;
+    if (plan.changes.empty()) { // other texts in the file, and what is pending
+        parts_.monitor.set_config(std::move(plan.config));
+    } else {
+        parts_.plant.exchange(plan);
+        keep_drivers(parts_.monitor.config(), plan.config);
+        parts_.monitor.set_config(std::move(plan.config));
+        stations_ = parts_.plant.bus_stations();
+        step_ = Step::bus;
+        parts_.lamps.exchange(parts_.monitor.config());
     }
-    parts_.plant.exchange(plan);
-    keep_drivers(parts_.monitor.config(), plan.config);
-    parts_.monitor.set_config(std::move(plan.config));
-    stations_ = parts_.plant.bus_stations();
-    step_ = Step::bus;
-    parts_.lamps.exchange(parts_.monitor.config());
-    parts_.applied(parts_.plant.leaving());
+    parts_.applied(parts_.plant.leaving(), group);
+}
+
+/// Lines that leave have their driver enables for a moment still.
+void Reload::keep_drivers(const config::Config& before, const config::Config& now)
+{
+    std::vector<DriverInUse> drivers = drivers_of(now);
+    for (const DriverInUse& one : drivers_of(before))
+        if (std::find(drivers.begin(), drivers.end(), one) == drivers.end()) drivers.push_back(one);
+    parts_.file.keep(std::move(drivers));
 }
 
 /// The bus takes its new stations when those that leave have published their end.

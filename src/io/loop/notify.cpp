@@ -63,7 +63,7 @@ void Notifier::tell(std::string state)
 }
 void Notifier::send_rest()
 {
-    while (!unsent_.empty() && send(unsent_.front())) unsent_.pop_front();
+    while (!unsent_.empty() && send(unsent_.front())) unsent_.erase(unsent_.begin());
 }
 
 void Notifier::ready(std::string_view status)

@@ -77,9 +77,8 @@ std::vector<std::string> lock_memory()
     return {not_locked("not enough for the threads")};
 }
 
-void unlock_deep_stack()
+void unlock_deep_stack(std::size_t kept)
 {
-    constexpr std::uintptr_t kKept = 16 * 1024;
     pthread_attr_t attributes;
     if (::pthread_getattr_np(::pthread_self(), &attributes) != 0) return;
     void* lowest = nullptr;
@@ -89,7 +88,7 @@ void unlock_deep_stack()
     if (!known) return;
     const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
     const auto begin = reinterpret_cast<std::uintptr_t>(lowest);
-    const auto end = (reinterpret_cast<std::uintptr_t>(&attributes) - kKept) / page * page;
+    const auto end = (reinterpret_cast<std::uintptr_t>(&attributes) - kept) / page * page;
     if (end <= begin) return;
     ::munlock(lowest, end - begin);
     ::madvise(lowest, end - begin, MADV_DONTNEED);
