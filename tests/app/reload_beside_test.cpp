@@ -69,7 +69,7 @@ protected:
     ~ReloadBeside() override
     {
         for (Gate* const gate : {&gates->disk, &gates->names, &gates->ports}) gate->open();
-        EXPECT_TRUE(file.end(1min));
+        EXPECT_TRUE(file.settle(1min));
     }
 
     /// The main thread goes round once.
@@ -174,7 +174,7 @@ TEST_F(ReloadBeside, WhoseDiskHangsIsRefusedInItsTimeAndNotDoneLater)
                 AllOf(HasSubstr("the disk with " + file.path().string()), HasSubstr("nothing was changed")));
     EXPECT_TRUE(reload.is_idle());
     gates->disk.open();
-    EXPECT_TRUE(file.end(1min));
+    EXPECT_TRUE(file.settle(1min));
     EXPECT_FALSE(is_changed());
     auto next = call();
     EXPECT_EQ(answer_to(next).at("applied"), true);
@@ -250,7 +250,7 @@ TEST_F(ReloadBeside, LooksOnceASecondWhetherTheFileHasChanged)
     EXPECT_EQ(gates->disk.asked, 1);
     now += 1s;
     go_round();
-    EXPECT_TRUE(file.end(1min));
+    EXPECT_TRUE(file.settle(1min));
     EXPECT_EQ(gates->disk.asked, 1) << "read once";
 }
 

@@ -21,7 +21,7 @@ namespace {
 constexpr std::uint64_t kServerKey = 0;
 constexpr std::uint64_t kSignalKey = 1;
 
-constexpr std::chrono::milliseconds kEndOfFiles{500};
+constexpr std::chrono::milliseconds kSettling{500}; // of files at the start
 
 constexpr std::chrono::milliseconds kTick{100};
 constexpr std::chrono::milliseconds kTickWithDiagnosis{20}; // a trip reaches the master soon
@@ -46,6 +46,8 @@ MainThread::MainThread(config::Config config, const std::filesystem::path& profi
 {
     lamps_.exchange(monitor_.config());
     file_.keep(drivers_of(monitor_.config()));
+    if (!file_.settle(kSettling)) // before anything is sent: a crash may come at any time
+        spdlog::warn("{} has not answered: a crash may leave a driver enable active", file_.waits_for());
     file_.find_group(monitor_.config().control, [this](std::optional<gid_t> group) {
         if (!group) spdlog::warn("{}", to_string(config::without_operator_group(monitor_.config())));
         admit(group);
@@ -60,11 +62,13 @@ MainThread::MainThread(config::Config config, const std::filesystem::path& profi
 
 bool MainThread::end(std::vector<std::string> hanging, Instant limit)
 {
-    constexpr std::chrono::milliseconds kAtLeast{10};
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(limit - io::monotonic_now());
-    if (!incidents_.end(std::max(left, kAtLeast)))
+    const auto left = [limit] { // 10 ms at least
+        return std::chrono::ceil<std::chrono::milliseconds>(
+            std::max<std::chrono::nanoseconds>(limit - io::monotonic_now(), std::chrono::milliseconds{10}));
+    };
+    if (!incidents_.end(left()))
         hanging.emplace_back("the folder of the incidents hangs, and the last one is not written");
-    if (!file_.end(kEndOfFiles)) hanging.push_back(file_.waits_for() + " hangs");
+    if (!file_.settle(left())) hanging.push_back(file_.waits_for() + " hangs");
     for (const std::string& chip : lamps_.end(Lamps::kEnd))
         hanging.push_back("the lamps of " + chip + " do not answer, and are left as they are");
     for (const std::string& one : hanging) {
@@ -389,8 +393,7 @@ void MainThread::feed_watchdog(Instant now)
     next_watchdog_ = now + *interval / 10; // the drives need what is left of it for their safe state
     // Without it systemd restarts the service, as it must when the bus thread stands still.
     const Instant sign = bus_.signs.bus.last();
-    if (sign != bus_seen_) notifier_.watchdog();
-    bus_seen_ = sign;
+    if (std::exchange(bus_seen_, sign) != sign) notifier_.watchdog();
 }
 
 } // namespace dpslave::app

@@ -169,7 +169,7 @@ void ConfigFile::on_time(Instant now)
     look();
 }
 
-bool ConfigFile::end(std::chrono::milliseconds limit)
+bool ConfigFile::settle(std::chrono::milliseconds limit)
 {
     forget();
     const auto until = std::chrono::steady_clock::now() + limit;

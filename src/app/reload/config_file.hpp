@@ -64,8 +64,9 @@ public:
     void on_time(Instant now);
     /// Who has not answered yet: "the name service", "the disk with FILE".
     const std::string& waits_for() const { return running_; }
-    /// What was added is done; waits for that until `limit` is over. False: it hangs.
-    bool end(std::chrono::milliseconds limit);
+    /// What was added is done, and no reading any more; waits for that until `limit` is over. False: it
+    /// hangs.
+    bool settle(std::chrono::milliseconds limit);
 
     /// The address of a station in it, as of the last reading: what a restart would bring. Nothing:
     /// it has no such station, or it has faults.
