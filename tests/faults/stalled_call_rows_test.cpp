@@ -141,6 +141,7 @@ TEST_F(RowOfAStalledBusPort, F40_WhoseWriteDoesNotComeBackIsALossOfTheMaster)
     EXPECT_EQ(gateway->dpctl({"events"}).status, 0) << "the other threads go on";
     EXPECT_TRUE(gateway->daemon().says("the program ends without it"));
     EXPECT_EQ(gateway->daemon().wait(), 3);
+    fault_ends();
     comes_back();
     restarts = true;
     gateway->start_daemon();
@@ -160,11 +161,12 @@ TEST_F(RowOfAStalledBusPort, F40_WhoseOpenDoesNotComeBackKeepsNeitherDrivesNorCa
     EXPECT_EQ(gateway->dpctl({"read", "55"}).status, 0);
     EXPECT_EQ(gateway->daemon().end(SIGTERM), 0);
     EXPECT_TRUE(gateway->daemon().says("the program ends without it"));
+    fault_ends();
     comes_back();
-
     gateway->start_daemon();
     restarts = true;
     exchanges(master_of("ei-ascii"));
+    recovered();
 }
 
 TEST_F(StalledCall, F41_OfADriveLineIsNamedAtTheEndWhichTheOtherLinesAndTheBusDoNotWaitFor)
@@ -177,6 +179,7 @@ TEST_F(StalledCall, F41_OfADriveLineIsNamedAtTheEndWhichTheOtherLinesAndTheBusDo
     EXPECT_EQ(gateway->daemon().end(SIGTERM), 0);
     EXPECT_TRUE(gateway->daemon().ever_said("line p3 has stalled in write for "));
     EXPECT_TRUE(gateway->daemon().ever_said("the program ends without it"));
+    fault_ends();
     comes_back();
     restarts = true;
     gateway->start_daemon();
