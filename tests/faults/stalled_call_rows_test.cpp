@@ -49,6 +49,15 @@ protected:
     {
         return eventually([&] { return std::filesystem::exists(note()); });
     }
+    void next_daemon_goes_on()
+    {
+        fault_ends();
+        comes_back();
+        restarts = true;
+        gateway->start_daemon();
+        EXPECT_TRUE(master->does("wait 60s for state data-exchange"));
+        recovered();
+    }
     void TearDown() override
     {
         comes_back();
@@ -141,12 +150,7 @@ TEST_F(RowOfAStalledBusPort, F40_WhoseWriteDoesNotComeBackIsALossOfTheMaster)
     EXPECT_EQ(gateway->dpctl({"events"}).status, 0) << "the other threads go on";
     EXPECT_TRUE(gateway->daemon().says("the program ends without it"));
     EXPECT_EQ(gateway->daemon().wait(), 3);
-    fault_ends();
-    comes_back();
-    restarts = true;
-    gateway->start_daemon();
-    EXPECT_TRUE(master->does("wait 60s for state data-exchange"));
-    recovered();
+    next_daemon_goes_on();
 }
 
 TEST_F(RowOfAStalledBusPort, F40_WhoseOpenDoesNotComeBackKeepsNeitherDrivesNorCallsNorTheEnd)
@@ -179,12 +183,7 @@ TEST_F(StalledCall, F41_OfADriveLineIsNamedAtTheEndWhichTheOtherLinesAndTheBusDo
     EXPECT_EQ(gateway->daemon().end(SIGTERM), 0);
     EXPECT_TRUE(gateway->daemon().ever_said("line p3 has stalled in write for "));
     EXPECT_TRUE(gateway->daemon().ever_said("the program ends without it"));
-    fault_ends();
-    comes_back();
-    restarts = true;
-    gateway->start_daemon();
-    EXPECT_TRUE(master->does("wait 60s for state data-exchange"));
-    recovered();
+    next_daemon_goes_on();
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <exception>
 #include <memory>
 #include <utility>
 
@@ -43,7 +44,16 @@ BusPortOpener::~BusPortOpener()
 
 void BusPortOpener::start()
 {
-    thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+    thread_ = std::jthread([this](const std::stop_token& stop) {
+        try {
+            run(stop);
+        } catch (const std::exception& error) { // no memory left
+            spdlog::critical("the thread that opens the bus port ended because of an error: {}",
+                             error.what());
+            link_.failed.store(true, std::memory_order_relaxed);
+        }
+        state_.store(State::ended, std::memory_order_release);
+    });
 }
 
 bool BusPortOpener::await_first_try(std::chrono::milliseconds limit) const
@@ -93,7 +103,6 @@ void BusPortOpener::run(const std::stop_token& stop)
         wait(now);
     }
     close(State::lost, io::monotonic_now());
-    state_.store(State::ended, std::memory_order_release);
 }
 
 /// For the bus thread, or until something is to be tried again.

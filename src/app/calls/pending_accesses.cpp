@@ -113,6 +113,12 @@ Result<std::optional<drive::MnemonicRule>, Error> rule_of(const Json& parameters
                           {"reason", "a rule is 590plus, ac, pno or none"}}}};
 }
 
+/// It only grows, in whatever order calls end. Numbers go round.
+void withdraw_until(std::uint32_t number, LineLink& line)
+{
+    if (static_cast<std::int32_t>(number - line.withdrawn.load()) > 0) line.withdrawn.store(number);
+}
+
 } // namespace
 
 /// Few accesses can wait for a drive: no user may take all places.
@@ -311,8 +317,8 @@ void PendingAccesses::answer(Instant now)
     }
     withdraw_from_stalled_lines();
     waiting_.end_late(now, [this](std::uint32_t number, const Waiting::Call& call) {
-        if (const Station* const station = monitor_.find(call.station))
-            station->drive_line->link.withdrawn.store(number);
+        const Station* const station = monitor_.find(call.station);
+        if (station != nullptr) withdraw_until(number, station->drive_line->link);
         refuse(call, fmt::format("{} within {} minutes", report::kLineDidNotServe, kLongestWait.count()),
                "not known: its drive line did not come to it");
     });
@@ -334,7 +340,7 @@ void PendingAccesses::withdraw(DriveLine& line)
     };
     if (waiting_.count(is_of_line) == 0) return;
     line.link.sign->give_up();
-    line.link.withdrawn.store(waiting_.next_number() - 1);
+    withdraw_until(waiting_.next_number() - 1, line.link);
     const std::uint32_t under_way = line.link.operating.load();
     const std::string stall = stall_words(line, line.silent_for);
     waiting_.end_where(is_of_line, [&](std::uint32_t number, const Waiting::Call& call) {

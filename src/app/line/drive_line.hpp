@@ -29,8 +29,9 @@ struct DriveLine {
     void request_stop(Instant now, Instant ends_by)
     {
         link.ends_by.store(ends_by, std::memory_order_relaxed);
-        link.sign->end_waits(now + DriveThread::kLastAnswer);
         thread.request_stop();
+        link.sign->end_waits(now +
+                             DriveThread::kLastAnswer); // last: the thread may end its own limit until then
         wake.ring();
     }
 

@@ -68,6 +68,7 @@ void DriveThread::run(const std::stop_token& stop, io::EventFd& wake)
         fetch();
         note_stalls();
         if (std::exchange(master_is_lost_, false)) lose_master();
+        if (stop.stop_requested()) break; // after lose_master(), whose waits have no limit
         const bool waits = port_.is_awaited(io::monotonic_now()) && !port_.open(line_);
         note_heard(); // an answer that came between two questions
         const auto transaction = waits ? std::nullopt : poller_.next(io::monotonic_now());
@@ -80,6 +81,7 @@ void DriveThread::run(const std::stop_token& stop, io::EventFd& wake)
             wake.clear(); // a change and stop are looked at right after this
         }
     }
+    io::set_sign_of_this_thread(link_.sign.get()); // who has ended gives no sign, and is not judged any more
     write_safe_state();
     io::set_sign_of_this_thread(nullptr);
 }
@@ -287,7 +289,6 @@ void DriveThread::write_safe_state()
 {
     const Instant end = link_.ends_by.load(std::memory_order_relaxed);
     fetch();
-    note_stalls();
     // Usually the bus has said so; one that hangs or has failed has not.
     for (std::size_t i = 0; i < units_.size(); ++i) {
         poller_.left_data_exchange(i, {.generation = units_[i].layout()});
@@ -297,6 +298,7 @@ void DriveThread::write_safe_state()
         io::give_sign();
         link_.sign->end_waits(end); // of what is opened
         if (link_.sign->stall()) recover();
+        note_stalls();
         const Instant now = io::monotonic_now();
         std::int64_t waiting = 0;
         for (std::size_t i = 0; i < units_.size(); ++i) waiting += is_pending(i) ? 1 : 0;
