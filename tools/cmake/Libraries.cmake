@@ -61,18 +61,27 @@ if(NOT CMAKE_BUILD_TYPE STREQUAL "Debug" AND NOT CMAKE_CXX_FLAGS MATCHES "-O0")
   list(APPEND DPSLAVE_SMALL -Os)
 endif()
 
-# dpslave_library(NAME [FAST] SOURCES ... ALONE ...) makes dpslave_NAME, which links what the table lets it open.
+# dpslave_library(NAME [FAST] SOURCES ... FAST_SOURCES ... ALONE ...) makes dpslave_NAME, which links what the table lets it open.
 # FAST: a telegram or a drive waits for its code. It is made for speed, in the compiler's own order (M1 of tools/run bench).
+# FAST_SOURCES: for these alone a telegram or a drive waits.
 function(dpslave_library name)
-  cmake_parse_arguments(arg "FAST" "" "SOURCES;ALONE" ${ARGN})
+  cmake_parse_arguments(arg "FAST" "" "SOURCES;FAST_SOURCES;ALONE" ${ARGN})
   dpslave_alone(${arg_ALONE})
   add_library(dpslave_${name} STATIC ${arg_SOURCES})
-  target_include_directories(dpslave_${name} PUBLIC ${PROJECT_SOURCE_DIR}/include PRIVATE ${PROJECT_SOURCE_DIR}/src)
-  target_compile_options(dpslave_${name} PRIVATE ${DPSLAVE_FORTIFY})
-  target_link_libraries(dpslave_${name} PUBLIC ${dpslave_${name}_opens} PRIVATE dpslave_flags ${dpslave_${name}_outside})
   if(NOT arg_FAST)
     target_compile_options(dpslave_${name} PRIVATE ${DPSLAVE_SMALL})
   endif()
+  set(targets dpslave_${name})
+  if(arg_FAST_SOURCES)
+    add_library(dpslave_${name}_fast OBJECT ${arg_FAST_SOURCES})
+    target_sources(dpslave_${name} PRIVATE $<TARGET_OBJECTS:dpslave_${name}_fast>)
+    list(APPEND targets dpslave_${name}_fast)
+  endif()
+  foreach(target ${targets})
+    target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/include PRIVATE ${PROJECT_SOURCE_DIR}/src)
+    target_compile_options(${target} PRIVATE ${DPSLAVE_FORTIFY})
+    target_link_libraries(${target} PUBLIC ${dpslave_${name}_opens} PRIVATE dpslave_flags ${dpslave_${name}_outside})
+  endforeach()
 endfunction()
 
 # dpslave_program(NAME SOURCES ... LINKS ...): LINKS is its library, if it has one, and what the table says.

@@ -225,8 +225,7 @@ FoundIncidents find_incidents(const fs::path& folder)
     FoundIncidents found;
     std::error_code error;
     fs::create_directories(folder, error);
-    fs::directory_iterator entry;
-    if (!error) entry = fs::directory_iterator{folder, error};
+    auto entry = error ? fs::directory_iterator{} : fs::directory_iterator{folder, error};
     for (const fs::directory_iterator end; !error && entry != end; entry.increment(error)) {
         const fs::path path = entry->path();
         std::error_code ignored;
