@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dpctl/cli/cli.hpp"
 
+#include "dpslave/arguments/standard_descriptors.hpp"
+
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -58,6 +60,7 @@ std::size_t width_of_terminal()
 
 int main(int argc, char** argv)
 {
+    dpslave::arguments::fill_standard_descriptors();
     const bool tty = ::isatty(STDOUT_FILENO) == 1;
     const bool can_ask = ::isatty(STDIN_FILENO) == 1 && (tty || ::isatty(STDERR_FILENO) == 1);
     dpslave::dpctl::Terminal terminal{

@@ -5,6 +5,7 @@
 
 #include "dpslave/arguments/command_line.hpp"
 #include "dpslave/arguments/exit_status.hpp"
+#include "dpslave/arguments/standard_descriptors.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -30,6 +31,7 @@ constexpr const char* kExamples =
 int main(int argc, char** argv)
 {
     using namespace dpslave::sim;
+    dpslave::arguments::fill_standard_descriptors();
     CLI::App app{
         "Simulators for dpslaved: a serial line, a drive or instrument, a PROFIBUS-DP master and the replay of a capture, all without hardware",
         "dpsim"};

@@ -6,6 +6,7 @@
 #include "dpslave/app/version.hpp"
 #include "dpslave/arguments/command_line.hpp"
 #include "dpslave/arguments/options.hpp"
+#include "dpslave/arguments/standard_descriptors.hpp"
 #include "dpslave/config/config.hpp"
 
 #include <CLI/CLI.hpp>
@@ -63,6 +64,7 @@ int release_drivers(const std::string& file, const std::string& profiles)
 
 int main(int argc, char** argv)
 {
+    dpslave::arguments::fill_standard_descriptors();
     CLI::App app{"PROFIBUS-DP slave that replaces a drive's option board.", "dpslaved"};
     app.footer(kFooter);
     std::string file = "/etc/dpslaved/dpslaved.toml";

@@ -5,6 +5,7 @@
 #include "service_manager.hpp"
 #include "support/paths.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 namespace dpslave::test {
@@ -61,6 +62,24 @@ TEST(Notify, ReportsThatAReloadBeginsAndIsOverAlsoWhenItIsRefused)
         EXPECT_TRUE(manager.hears("RELOADING=1"));
         EXPECT_TRUE(manager.hears("MONOTONIC_USEC="));
         EXPECT_TRUE(manager.hears("READY=1"));
+    }
+}
+
+TEST(Start, WithoutStandardDescriptorsPutsNoOctetOnTheBus)
+{
+    for (const char* const closed : {"<&-", ">&- 2>&-", "<&- 2>&-", "<&- >&- 2>&-"}) {
+        Gateway gateway{{.started = false}};
+        Arguments command = gateway.daemon_command();
+        command.insert(command.begin(), {"/bin/sh", "-c", std::string{R"(exec "$0" "$@" )"} + closed});
+        const Process daemon{command};
+        ASSERT_TRUE(eventually([&] { return gateway.dpctl({"status"}).status == 0; })) << closed;
+
+        for (const int descriptor : {0, 1, 2}) {
+            const std::string link =
+                std::filesystem::read_symlink(fmt::format("/proc/{}/fd/{}", daemon.pid(), descriptor));
+            EXPECT_TRUE(link == "/dev/null" || link.starts_with("pipe:")) << closed << ": " << link;
+        }
+        EXPECT_EQ(gateway.spoken_on_the_bus(), "b to a: 0 octets") << closed;
     }
 }
 
