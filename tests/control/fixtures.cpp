@@ -11,19 +11,19 @@ using nlohmann::json;
 const char* const kBus =
     R"({"port":"/dev/ttyS1","baud":187500,"baud_state":"DP_Control","configured_baud":null,
                              "port_open":true,"driver_works":true,"listens":false,"unanswered":[],"stations":2,"exchanging":1,
-                             "last_telegram_age_ms":2.4,"trouble":null})";
+                             "last_telegram_age_ms":2.4,"trouble":null,"port_settings":null})";
 
 const char* const kStations = R"([
   {"name":"unwinder","address":5,"profile":"590","device":"590 with PROFIBUS-DP option board","state":"Data_Exch","master":2,
    "watchdog_ms":100,"min_tsdr":11,"groups":129,"sync":false,"freeze":false,"clear":false,"held":false,"held_because":null,"ride":null,"silent_because":null,"stat_diag":false,"diag_pending":false,"parameters":2,
    "demand_data":true,"left_count":1,"left_because":"watchdog expired","left_code":"watchdog",
    "drive":{"line":"p3","port":"/dev/ttyS2","protocol":"ei-ascii","unit":"00","link":"answers","port_open":true,"ever_answered":true,"baud":9600,"format":"7E1","direction":"none","timeout_ms":200,"cycle_ms":123.4,"reads":4000,
-            "writes":1,"silences":3,"refusals":0,"losses":1,"last_trouble":null,"not_zeroed":null,"stalled_ms":null,"stalled_in":null}},
+            "writes":1,"silences":3,"refusals":0,"losses":1,"last_trouble":null,"not_zeroed":null,"stalled_ms":null,"stalled_in":null,"port_settings":null}},
   {"name":"rewinder","address":16,"profile":"590","device":"590 with PROFIBUS-DP option board","state":"Wait_Prm","master":null,
    "watchdog_ms":null,"min_tsdr":11,"groups":0,"sync":false,"freeze":false,"clear":false,"held":false,"held_because":null,"ride":null,"silent_because":null,"stat_diag":true,"diag_pending":true,"parameters":0,
    "demand_data":false,"left_count":0,"left_because":null,"left_code":null,
    "drive":{"line":"p3","port":"/dev/ttyS2","protocol":"ei-ascii","unit":"01","link":"silent","port_open":true,"ever_answered":false,"baud":9600,"format":"7E1","direction":"none","timeout_ms":200,"cycle_ms":null,"reads":0,
-            "writes":0,"silences":12,"refusals":0,"losses":0,"last_trouble":"no answer","not_zeroed":null,"stalled_ms":null,"stalled_in":null}}])";
+            "writes":0,"silences":12,"refusals":0,"losses":0,"last_trouble":"no answer","not_zeroed":null,"stalled_ms":null,"stalled_in":null,"port_settings":null}}])";
 
 const char* const kWords = R"([
   {"tag":7,"name":"SPEED FEEDBACK","direction":"in","octet":8,"raw":5000,"value":"50.00","state":"good","answer":null,"age_ms":12.0},

@@ -230,6 +230,21 @@ TEST_F(Doctor, NamesALineThatStallsAndNotADriveThatCannotBeAsked)
     EXPECT_THAT(found(), Not(Contains("drive.silent")));
 }
 
+TEST_F(Doctor, NamesWhatAnotherProgramHasChangedOfAPort)
+{
+    bus().port_settings = "ECHO is on, 9600 instead of 187500 bit/s";
+    count("settings_changed", 2);
+    station().drive.port_settings = "ISTRIP is on";
+    count_of_station("line_settings_changed", 1);
+
+    EXPECT_THAT(found(), ElementsAre("bus.settings", "drive.settings"));
+    EXPECT_EQ(
+        evidence("bus.settings"),
+        "settings of /dev/ttyS1 were changed 2 times in the last minute: ECHO is on, 9600 instead of 187500 bit/s");
+    EXPECT_EQ(evidence("drive.settings"),
+              "settings of /dev/ttyS2 were changed 1 time in the last minute: ISTRIP is on");
+}
+
 TEST_F(Doctor, SaysWhyTheBusPortCannotBeHad)
 {
     bus().port_open = false;
@@ -492,6 +507,8 @@ INSTANTIATE_TEST_SUITE_P(
             "WrittenLate", "too_late", 100, 99, "bus.late",
             "0 replies were suppressed because MaxTsdr had passed, 100 begun in time and written too late, 0 "
             "requests dropped because something followed them, in the last minute"},
+        Counted{"Settings", "settings_changed", 1, 0, "bus.settings",
+                "settings of /dev/ttyS1 were changed 1 time in the last minute: dpslaved does not say which"},
         Counted{"DriverFails", "driver_errors", 1, 0, "bus.driver",
                 "1 edge failed, and the guard released the driver 0 times in the last minute"},
         Counted{"DriverStays", "driver_guarded", 1, 0, "bus.driver",

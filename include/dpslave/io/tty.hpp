@@ -6,6 +6,7 @@
 #include "dpslave/base/bytes.hpp"
 #include "dpslave/base/result.hpp"
 #include "dpslave/base/units.hpp"
+#include "dpslave/io/changed_settings.hpp"
 #include "dpslave/io/fd.hpp"
 
 #include <bitset>
@@ -53,7 +54,8 @@ struct TtyBauds {
 /// changed on the line.
 std::optional<std::string> port_trouble(const std::string& path);
 
-struct Uart; // src/io/tty/uart.hpp
+class KeptSettings; // src/io/tty/kept_settings.hpp
+struct Uart;        // src/io/tty/uart.hpp
 
 class Tty {
 public:
@@ -82,6 +84,14 @@ public:
     std::optional<std::string> set_baud(std::uint32_t baud);
     /// Tries all of them and goes back to the present one. Octets that come meanwhile are lost.
     TtyBauds bauds();
+
+    /// Returns how the settings differ from those that open() and set_baud() made: another program has
+    /// changed them. nullopt: they do not, or the port has gone. It waits for nothing but the change itself,
+    /// and allocates nothing.
+    std::optional<ChangedSettings> changed_settings() const noexcept;
+    /// Sets them again. If octets were harmed, those that have come are discarded, and what waits to be sent.
+    /// An error: the driver does not take them.
+    std::error_code set_again(const ChangedSettings& changed) noexcept;
 
     /// It never waits. `out` has at least one place. After a hang-up (cable of a USB adapter pulled, other
     /// end of a pty closed) it always returns an error code.
@@ -120,6 +130,7 @@ private:
     Fd fd_;
     TtySettings settings_;
     std::unique_ptr<Uart> uart_;
+    std::unique_ptr<KeptSettings> kept_;
     std::vector<std::string> warnings_;
     std::chrono::nanoseconds character_{};
     mutable bool reports_empty_ = true;

@@ -29,11 +29,12 @@ struct Drive {
     std::int64_t reads = 0, writes = 0, silences = 0, refusals = 0, losses = 0;
     std::optional<std::string> last_trouble{};
     std::optional<std::int64_t> not_zeroed{};
-    std::optional<double> stalled_ms{};      ///< the line; null: it goes round
-    std::optional<std::string> stalled_in{}; ///< the call of the port that it is in
+    std::optional<double> stalled_ms{};         ///< the line; null: it goes round
+    std::optional<std::string> stalled_in{};    ///< the call of the port that it is in
+    std::optional<std::string> port_settings{}; ///< what another program has changed of them last
     DPSLAVE_FIELDS(line, port, protocol, unit, link, port_open, ever_answered, baud, format, direction,
                    timeout_ms, cycle_ms, reads, writes, silences, refusals, losses, last_trouble, not_zeroed,
-                   stalled_ms, stalled_in)
+                   stalled_ms, stalled_in, port_settings)
 };
 struct Ride {
     std::optional<double> ends_in_ms{};
@@ -74,8 +75,9 @@ struct Bus {
     std::int64_t stations = 0, exchanging = 0;
     std::optional<double> last_telegram_age_ms{};
     std::optional<std::string> trouble{}; ///< why the port or its driver enable cannot be had, a sentence
+    std::optional<std::string> port_settings{}; ///< what another program has changed of them last
     DPSLAVE_FIELDS(port, baud, baud_state, configured_baud, port_open, driver_works, listens, unanswered,
-                   stations, exchanging, last_telegram_age_ms, trouble)
+                   stations, exchanging, last_telegram_age_ms, trouble, port_settings)
 };
 /// Of something that comes again and again.
 struct Spacing {

@@ -176,6 +176,15 @@ void BusPort::check_driver_enable()
     if (!works) opener_.wake();
 }
 
+void BusPort::set_again(const io::ChangedSettings& changed)
+{
+    if (sender_ && changed.harms_octets) sender_->abort();
+    ++settings_changed_;
+    const std::error_code refused = port_->tty().set_again(changed);
+    link_.settings_changed.push(changed); // full: the log has enough of it
+    if (refused) lose();
+}
+
 void BusPort::lose()
 {
     detach();
@@ -196,6 +205,7 @@ void BusPort::write_state(BusSnapshot& snapshot) const
     snapshot.counters.late += late_;
     snapshot.counters.replies -= late_; // layer 2 had handed them over
     snapshot.unsent = unsent_;
+    snapshot.settings_changed = settings_changed_;
     snapshot.driver_works = driver_.works();
     snapshot.echo_broken = echo_.broken();
     snapshot.echo_missing = echo_.missing();

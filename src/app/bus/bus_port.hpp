@@ -64,6 +64,14 @@ public:
 
     /// Looks for a port that was opened, which `layer2` is told, and after a driver enable that has failed.
     void check(Instant now, fdl::Layer2& layer2);
+    /// What another program has changed of the settings of the port; nullopt: nothing.
+    std::optional<io::ChangedSettings> changed_settings() const
+    {
+        return is_open() ? port_->tty().changed_settings() : std::nullopt;
+    }
+    /// Sets them again, and reports it. A port that refuses them is closed.
+    void set_again(const io::ChangedSettings& changed);
+
     /// Its part of the snapshot.
     void write_state(BusSnapshot& snapshot) const;
 
@@ -98,6 +106,7 @@ private:
     std::uint64_t unsent_ = 0;
     std::uint64_t stuck_ = 0; ///< of these, taken by the port and not sent
     std::uint64_t late_ = 0;
+    std::uint64_t settings_changed_ = 0;
     bool was_open_ = false;
     bool driver_worked_ = true;
     bool guard_reported_ = false;

@@ -50,7 +50,7 @@ void BusThread::run(const std::stop_token& stop, io::EventFd& wake)
         if (layer2_.next_deadline() - io::monotonic_now() < kSpin) wait_for_window();
         send();
         port_.finish_sending(); // a short reply is over before anything else could be done
-        stations_.forward();
+        forward();
         port_.commit_trace(layer2_);
         port_.finish_sending();
         if (!layer2_.reply_waits()) monitor_.catch_up();
@@ -67,8 +67,36 @@ void BusThread::run(const std::stop_token& stop, io::EventFd& wake)
 void BusThread::update()
 {
     update_due_ = false;
-    stations_.update(io::monotonic_now());
+    const Instant now = io::monotonic_now();
+    look_at_settings(now);
+    stations_.update(now);
     if (stations_.main_silence() >= kProgramMayStall && link_.end_program != nullptr) link_.end_program();
+}
+
+/// What the stations were told is passed on if it is what the master has said. A port whose settings another
+/// program has changed may have taken the same bit from an octet and from its checksum.
+void BusThread::forward()
+{
+    if (stations_.has_heard())
+        if (const auto changed = port_.changed_settings(); changed && changed->harms_octets)
+            set_again(*changed, io::monotonic_now());
+    stations_.forward();
+}
+
+/// What harms no octet waits for the pause between two telegrams: the driver may stop the receiver for it.
+void BusThread::look_at_settings(Instant now)
+{
+    const auto changed = port_.changed_settings();
+    if (!changed) return;
+    const bool is_pause = now - port_.heard_at() >= duration_of(fdl::kTsyn, layer2_.baud());
+    if (changed->harms_octets || is_pause) set_again(*changed, now);
+}
+
+/// The bus is left first. With the next tick the stations come back, and start up again.
+void BusThread::set_again(const io::ChangedSettings& changed, Instant now)
+{
+    if (changed.harms_octets) stations_.leave(now);
+    port_.set_again(changed);
 }
 
 /// The last reply goes out whole, then every slave leaves with all that leaving means.
@@ -129,7 +157,7 @@ void BusThread::process(bool octets)
 void BusThread::wait_for_window()
 {
     const Instant opens = layer2_.next_deadline();
-    stations_.forward();
+    forward();
     port_.commit_trace(layer2_);
     while (io::monotonic_now() < opens - kLastLook) {
     }

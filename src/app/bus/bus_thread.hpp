@@ -56,6 +56,9 @@ private:
     void follow_memory();
     void publish_bus(Instant now);
     void update();
+    void forward();
+    void look_at_settings(Instant now);
+    void set_again(const io::ChangedSettings& changed, Instant now);
     void leave_bus();
 
     io::Epoll epoll_;

@@ -118,16 +118,31 @@ void StationSet::detach(std::size_t slot, Instant now)
     slots_[slot].address.reset();
 }
 
+bool StationSet::has_heard()
+{
+    heard_ |= layer2_.take_touched();
+    return heard_.any();
+}
+
 void StationSet::forward()
 {
-    const auto addresses = layer2_.take_touched();
-    if (addresses.none() && waiting_.none()) return;
+    if (!has_heard() && waiting_.none()) return;
+    const auto addresses = std::exchange(heard_, {});
     for_each(addresses, [this](std::size_t address) {
         if (!slot_at_[address]) return; // it was detached after its request, and has passed on everything
         waiting_.set(*slot_at_[address]);
         turns_.changed(*slot_at_[address]);
     });
     for_each(waiting_, [this](std::size_t slot) { waiting_.set(slot, !slots_[slot].station->forward()); });
+}
+
+/// A layout that ends takes with it what was not passed on.
+void StationSet::leave(Instant now)
+{
+    for (std::size_t i = 0; i < kSlots; ++i)
+        if (slots_[i].address) detach(i, now);
+    static_cast<void>(layer2_.take_touched());
+    heard_ = {};
 }
 
 void StationSet::publish(Instant now)

@@ -32,8 +32,12 @@ public:
     void update(Instant now);
     /// For how long the main thread has given no sign.
     std::chrono::nanoseconds main_silence() const { return main_silence_; }
+    /// A station had a request since the last forward().
+    bool has_heard();
     /// Passes on outputs, orders and events of the stations that had a request.
     void forward();
+    /// Every station leaves the bus until the next update(). What came since the last forward() is dropped.
+    void leave(Instant now);
     /// When publish() has something to do; kNever = nothing has changed.
     Instant next_publication() const { return turns_.next(); }
     /// Publishes the snapshot of one station, if one is due.
@@ -66,6 +70,7 @@ private:
     std::chrono::nanoseconds main_silence_{};
     std::array<Slot, kSlots> slots_{};
     std::array<std::optional<std::uint8_t>, kSlots> slot_at_{}; ///< by address
+    std::bitset<128> heard_;                                    ///< addresses that had a request
     std::bitset<kSlots> waiting_; ///< slots with an order that could not be passed on yet
     SnapshotSchedule turns_;
 };

@@ -124,29 +124,18 @@ void DriveThread::carry_out(const drive::Transaction& transaction)
     poller_.done(outcome, io::monotonic_now());
 }
 
+/// Through a port whose settings another program has changed nothing is asked, and nothing is believed.
 drive::Outcome DriveThread::exchange_with(const LineUnit& unit, const drive::Transaction& transaction)
 {
-    using Kind = drive::Transaction::Kind;
-    drive::Backend& backend = port_.backend()->backend();
-    const drive::UnitAddress address = unit.config->unit;
-    drive::Outcome outcome;
-    switch (transaction.kind) {
-        case Kind::read: {
-            const std::span<std::uint16_t> words = std::span{words_}.first(transaction.count);
-            outcome.error = backend.read(address, *transaction.tag, words);
-            outcome.words = words;
-            outcome.answer = backend.last_answer();
-            break;
-        }
-        case Kind::write:
-            outcome.error = transaction.once
-                                ? backend.write_once(address, *transaction.tag, transaction.words.first<1>())
-                                : backend.write(address, *transaction.tag, transaction.words);
-            outcome.sent = backend.has_sent();
-            break;
-        case Kind::probe: outcome.error = backend.probe(address); break;
+    static_cast<void>(port_.settings_hold(line_));
+    if (port_.backend() == nullptr) return {.error = AccessError::no_answer, .words = {}, .sent = false};
+    drive::Outcome outcome = port_.backend()->carry_out(unit.config->unit, transaction, words_);
+    if (!port_.settings_hold(line_)) {
+        outcome.error = AccessError::no_answer;
+        outcome.words = {};
+        return outcome;
     }
-    outcome.questions = backend.questions();
+    drive::Backend& backend = port_.backend()->backend();
     if (transaction.purpose == drive::Purpose::survey) {
         survey_trouble_ = backend.last_trouble();
         outcome.trouble = survey_trouble_;

@@ -69,6 +69,34 @@ Result<std::unique_ptr<LineBackend>, std::string> LineBackend::open(const config
     return made;
 }
 
+drive::Outcome LineBackend::carry_out(const drive::UnitAddress& drive, const drive::Transaction& transaction,
+                                      std::span<std::uint16_t> words)
+{
+    using Kind = drive::Transaction::Kind;
+    drive::Outcome outcome;
+    switch (transaction.kind) {
+        case Kind::read:
+            outcome.words = words.first(transaction.count);
+            outcome.error = backend_->read(drive, *transaction.tag, words.first(transaction.count));
+            outcome.answer = backend_->last_answer();
+            break;
+        case Kind::write:
+            outcome.error = transaction.once
+                                ? backend_->write_once(drive, *transaction.tag, transaction.words.first<1>())
+                                : backend_->write(drive, *transaction.tag, transaction.words);
+            outcome.sent = backend_->has_sent();
+            break;
+        case Kind::probe: outcome.error = backend_->probe(drive); break;
+    }
+    outcome.questions = backend_->questions();
+    return outcome;
+}
+
+std::optional<io::ChangedSettings> LineBackend::changed_settings() const
+{
+    return port().is_open() ? port().tty().changed_settings() : std::nullopt;
+}
+
 io::SwitchedPort& LineBackend::port() const
 {
     return tty_ ? tty_->port() : modbus_->port();
@@ -94,7 +122,9 @@ LineBackend::Listeners listeners_of(LineLink& link)
     return {.is_open = link.port_open,
             .transceiver = link.transceiver,
             .frames = *link.trace,
-            .happenings = link.happenings};
+            .happenings = link.happenings,
+            .settings_changed = link.settings_changed,
+            .changed_settings = link.changed_settings};
 }
 
 int LineBackend::fd() const

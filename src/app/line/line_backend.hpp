@@ -26,8 +26,10 @@ public:
         /// When the port vanishes and returns in service, not that it was opened now, which may be a trial.
         std::atomic<bool>& is_open;
         io::TransceiverCounts& transceiver;
-        drive::FrameListener& frames; ///< is told each frame
-        LineHappenings& happenings;   ///< is told what happens to the port
+        drive::FrameListener& frames;                 ///< is told each frame
+        LineHappenings& happenings;                   ///< is told what happens to the port
+        std::atomic<std::uint64_t>& settings_changed; ///< LineLink's, and the next one too
+        Mailbox<io::ChangedSettings>& changed_settings;
     };
     explicit LineBackend(const Listeners& listeners)
         : listeners_(listeners) {} ///< without a port: see open()
@@ -40,6 +42,13 @@ public:
     static drive::BlockRule block_rule(const config::LineConfig& line);
 
     drive::Backend& backend() { return *backend_; }
+    /// One transaction with a drive. Words that were read lie in `words`, which has room for them.
+    drive::Outcome carry_out(const drive::UnitAddress& drive, const drive::Transaction& transaction,
+                             std::span<std::uint16_t> words);
+    /// What another program has changed of the settings of the port; nullopt: nothing, or there is no port.
+    std::optional<io::ChangedSettings> changed_settings() const;
+    /// Sets them again; an error: the port does not take them.
+    std::error_code set_again(const io::ChangedSettings& changed) { return port().tty().set_again(changed); }
     /// Readable between two questions: Backend::listen() is due. -1: the port is gone.
     int fd() const;
     /// What happened to the port since the last call.

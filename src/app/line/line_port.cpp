@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "line_port.hpp"
 
+#include "app/links/port_words.hpp"
+
 #include "dpslave/io/clock.hpp"
 
 #include <fmt/format.h>
@@ -55,6 +57,18 @@ bool LinePort::open(const config::LineConfig& line)
                                    fmt::format("line {}: {} is open", line.name, line.port));
     log_driver(line);
     return true;
+}
+
+bool LinePort::settings_hold(const config::LineConfig& line)
+{
+    const auto changed = backend_->changed_settings();
+    if (!changed) return true;
+    listeners_.settings_changed.fetch_add(1, std::memory_order_relaxed);
+    listeners_.changed_settings.publish(*changed);
+    const auto [severity, text] = in_words(*changed, line.port, "What was read is thrown away");
+    listeners_.happenings.tell(severity, 0, fmt::format("line {}: {}", line.name, text));
+    if (backend_->set_again(*changed)) give_up();
+    return !changed->harms_octets && backend_ != nullptr;
 }
 
 /// Who switches the transceiver, unless it does so by itself.

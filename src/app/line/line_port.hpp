@@ -27,6 +27,11 @@ public:
     LineBackend* backend() { return backend_.get(); } ///< null: the port is not open yet
     /// True: there is a back-end. Tries to open the port when the time for that has come.
     bool open(const config::LineConfig& line);
+    /// Looks whether another program has changed settings of the port: they are set again, and that is told.
+    /// False: what was read since the last call may be other octets than those that came, or there is no
+    /// back-end any more.
+    /// Precondition: backend().
+    bool settings_hold(const config::LineConfig& line);
     /// Another line may still have the port: nothing is asked, and no failure is told.
     bool is_awaited(Instant now) const { return !backend_ && now < awaited_until_; }
     /// The next one is the new port, or the old one set in another way.

@@ -24,9 +24,12 @@ drive::Sight ask(const config::LineConfig& line, const drive::SearchQuestion& qu
     trial.format = question.setting.format;
     std::atomic<bool> is_open{false}; // a trial is no event of the port
     const auto unheard = std::make_unique<LineHappenings>();
-    const auto backend = LineBackend::open(
-        trial,
-        {.is_open = is_open, .transceiver = link.transceiver, .frames = *link.trace, .happenings = *unheard});
+    const auto backend = LineBackend::open(trial, {.is_open = is_open,
+                                                   .transceiver = link.transceiver,
+                                                   .frames = *link.trace,
+                                                   .happenings = *unheard,
+                                                   .settings_changed = link.settings_changed,
+                                                   .changed_settings = link.changed_settings});
     return backend ? (*backend)->backend().look(question.unit, question.look) : drive::Sight{};
 }
 

@@ -19,6 +19,7 @@
 #include "dpslave/dp/snapshot.hpp"
 #include "dpslave/drive/poller.hpp"
 #include "dpslave/fdl/layer2.hpp"
+#include "dpslave/io/changed_settings.hpp"
 #include "dpslave/io/switched_port.hpp"
 #include "dpslave/io/thread_sign.hpp"
 #include "dpslave/trace/samples.hpp"
@@ -139,7 +140,8 @@ struct BusSnapshot {
     fdl::Counters counters{};
     dp::BusMembers::UnansweredList unanswered{}; ///< addresses that do not answer, ours among them
     std::uint64_t write_errors = 0;
-    std::uint64_t unsent = 0; ///< replies not sent: write errors, no port, or no driver enable
+    std::uint64_t settings_changed = 0; ///< times that another program had changed the settings of the port
+    std::uint64_t unsent = 0;           ///< replies not sent: write errors, no port, or no driver enable
     /// Of each reply, from the read of the request's last octet to the end of the write: us, and T_bit of the
     /// rate of then.
     Histogram turnaround_us, turnaround_tbit;
@@ -165,6 +167,8 @@ struct BusLink {
     /// The stations from now on, main -> bus, and back the set of before.
     Handover<BusStations> stations;
     Ring<PortEvent, 8> port_events; ///< bus -> main
+    /// What other programs changed of the settings of the port, bus -> main. They are set right.
+    Ring<io::ChangedSettings, 4> settings_changed;
     /// Why the port is closed and stays so, or what it cannot do since it is open again, bus -> main.
     Handover<PortMessage> port_messages;
     std::atomic<Baud> baud{Baud::k9_6}; ///< the rate of replies, bus -> guard of the driver enable
@@ -239,6 +243,10 @@ struct LineLink {
     std::atomic<std::uint32_t> probe_ended{0};
     Mailbox<TroubleList> troubles; // drive -> main
     LineHappenings happenings;     // drive -> main
+    /// Drive -> main: what other programs changed of the settings of the port, and how often. They are set
+    /// right.
+    std::atomic<std::uint64_t> settings_changed{0};
+    Mailbox<io::ChangedSettings> changed_settings;
     /// Drive -> main. It counts as open until it could not be opened.
     std::atomic<bool> port_open{true};
     io::TransceiverCounts transceiver;          ///< of a line that the program switches, drive -> main

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "main_thread.hpp"
 
+#include "app/links/port_words.hpp"
 #include "app/state/device_news.hpp"
 #include "first_start.hpp"
 
@@ -344,26 +345,14 @@ void MainThread::tell_port_events()
     const auto say = [this](Severity severity, std::string text) {
         tell(Happened::port, severity, std::move(text));
     };
-    while (const auto news = bus_.port_events.pop()) {
-        switch (*news) {
-            case PortEvent::lost:
-                say(Severity::error, port + " is missing; it is opened again as soon as it returns");
-                break;
-            case PortEvent::back: say(Severity::info, port + " is back"); break;
-            case PortEvent::driver_lost:
-                say(Severity::error,
-                    "the driver enable of " + port +
-                        " cannot be switched: nothing is sent until it works again; check that the GPIO chip is still there");
-                break;
-            case PortEvent::driver_guarded:
-                say(Severity::warning,
-                    "the driver enable of " + port +
-                        " was made inactive by the guard time: the UART did not report in time that it has sent all; `dpctl counters` shows how often (driver_guarded)");
-                break;
-            case PortEvent::driver_back:
-                say(Severity::info, "the driver enable of " + port + " works again");
-                break;
-        }
+    while (const auto event = bus_.port_events.pop()) {
+        auto [severity, text] = in_words(*event, port);
+        say(severity, std::move(text));
+    }
+    while (const auto changed = bus_.settings_changed.pop()) {
+        monitor_.set_port_settings(changed->words.data());
+        auto [severity, text] = in_words(*changed, port, "Every station has left the bus");
+        say(severity, std::move(text));
     }
     if (std::unique_ptr<PortMessage> words; bus_.port_messages.take(words)) {
         if (!words->is_warning) monitor_.set_bus_trouble(words->text);

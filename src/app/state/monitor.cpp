@@ -97,11 +97,14 @@ void Monitor::refresh()
         if (link.drive_snapshot.fresh()) station.drive = link.drive_snapshot.latest();
         station.ever_answered = station.ever_answered || station.drive.answers;
         look_at_line(station);
-        const LineLink& line = station.drive_line->link;
+        LineLink& line = station.drive_line->link;
         station.line_open = line.port_open.load(std::memory_order_relaxed);
         station.late_releases = line.transceiver.late.load(std::memory_order_relaxed);
         station.guarded_releases = line.transceiver.guarded.load(std::memory_order_relaxed);
         station.driver_errors = line.transceiver.errors.load(std::memory_order_relaxed);
+        station.settings_changed = line.settings_changed.load(std::memory_order_relaxed);
+        static_cast<void>(line.changed_settings.fresh());
+        station.port_settings = line.changed_settings.latest().words.data();
         view_.lost_events += link.events.refused();
         refresh_troubles(station);
         update(station);

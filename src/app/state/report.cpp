@@ -66,6 +66,7 @@ report::Drive drive_report(const Station& station)
     if (station.line_stalled.count() != 0) result.stalled_ms = milliseconds(station.line_stalled);
     if (const std::string_view call = io::name(station.stalled_in); result.stalled_ms && !call.empty())
         result.stalled_in = call;
+    if (!station.port_settings.empty()) result.port_settings = station.port_settings;
     return result;
 }
 
@@ -145,6 +146,7 @@ report::Bus bus_report(const View& view, Instant now)
     result.exchanging = exchanging(view);
     result.last_telegram_age_ms = age(view.bus.last_telegram, now);
     if (!view.bus_trouble.empty()) result.trouble = view.bus_trouble;
+    if (!view.port_settings.empty()) result.port_settings = view.port_settings;
     return result;
 }
 

@@ -49,6 +49,8 @@ private:
 struct View {
     const config::Config* config = nullptr;
     BusSnapshot bus{};
+    /// What another program has changed last of the settings of the port of the bus; empty: nothing.
+    std::string port_settings;
     std::string bus_trouble; ///< why there is no port; empty: there is one, or the reason is not known
     dp::BusMembers::Table members{};
     std::span<const Station> stations; ///< in the order of config.stations

@@ -49,6 +49,8 @@ Group bus_counters(const View& view)
         "replies that the port did not accept, or did not send in time");
     add(c, "unsent", view.bus.unsent,
         "replies that did not go out: those, or the port was closed, or the driver enable did not work");
+    add(c, "settings_changed", view.bus.settings_changed,
+        "times another program had changed settings of the port, which are set again: dpctl doctor");
     add(c, "driver_errors", view.bus.driver_errors,
         "edges of the driver enable that failed: check gpio_chip, gpio_line and the log");
     add(c, "driver_guarded", view.bus.driver_guarded,
@@ -115,6 +117,8 @@ Group station_counters(const Station& station)
         "of the late answers: the longest since one came in time");
     add(c, "drive_needs_timeout_ms", static_cast<std::uint64_t>(drive::needed_timeout(drive.heard).count()),
         "not 0: the drive is always late, and timeout_ms has to be at least this");
+    add(c, "line_settings_changed", station.settings_changed,
+        "of its line: times another program had changed settings of the port, which are set again");
     add(c, "line_late_releases", station.late_releases,
         "of its line: the transceiver was released later than a character behind a request");
     add(c, "line_driver_guarded", station.guarded_releases,

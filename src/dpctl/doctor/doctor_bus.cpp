@@ -167,6 +167,13 @@ std::string seen_port(const Facts& f)
                        errors.minute == 1 ? "1 reply" : fmt::format("{} replies", errors.minute),
                        lately(errors));
 }
+std::string seen_settings(const Facts& f)
+{
+    const Count changed = counted(f.counters, "settings_changed");
+    if (changed.minute == 0) return {};
+    return fmt::format("settings of {} were changed {} {}: {}", f.bus.port, plural(changed.minute, "time"),
+                       lately(changed), f.bus.port_settings.value_or("dpslaved does not say which"));
+}
 std::string seen_driver(const Facts& f)
 {
     const Count failed = counted(f.counters, "driver_errors"),
@@ -223,6 +230,12 @@ constexpr std::array kBusRules = std::to_array<Rule>({
      "If another device has that address: switch it on or connect it. Then add this station to the master's "
      "project.",
      kGateway, seen_other_address},
+    {"bus.settings", Rank::recent, "another program has changed settings of the port of the bus",
+     "Another program uses the port of the bus",
+     "Find that program: sudo fuser -v PORT. A login prompt, a console, ModemManager and brltty do this.\n"
+     "Keep it away from this port: docs/guide/hardware.md. The gateway sets its settings again each time.\n"
+     "Check whether `settings_changed` still grows: dpctl counters",
+     kGateway, seen_settings},
     {"bus.driver", Rank::recent, "the driver enable cannot be switched, or is released too late",
      "The transceiver is not switched as configured", kDriverSteps, kGateway, seen_driver},
     {"bus.port", Rank::recent, "the port does not accept replies", "The port of the bus fails",

@@ -47,6 +47,14 @@ std::string seen_stalled(const Facts& f)
 {
     return f.station.drive.stalled_ms ? stall_text(f.station.drive) : std::string{};
 }
+std::string seen_line_settings(const Facts& f)
+{
+    const Count changed = counted(f.station_counters, "line_settings_changed");
+    const report::Drive& d = f.station.drive;
+    if (changed.minute == 0) return {};
+    return fmt::format("settings of {} were changed {} {}: {}", d.port, plural(changed.minute, "time"),
+                       lately(changed), d.port_settings.value_or("dpslaved does not say which"));
+}
 /// Do we hear ourselves? Then what else is heard says nothing of the drive.
 bool is_drive_echo(const Facts& f)
 {
@@ -294,6 +302,12 @@ constexpr std::array kDriveRules = std::to_array<Rule>({
      "Correct number: give the row of the tag fewer decimals. Then: dpctl reload\n"
      "Meanwhile the master has the last value that did fit: dpctl io",
      kGateway, seen_own_value},
+    {"drive.settings", Rank::recent, "another program has changed settings of the port of the drive line",
+     "Another program uses the port of the drive line",
+     "Find that program: sudo fuser -v PORT. A login prompt, a console, ModemManager and brltty do this.\n"
+     "Keep it away from this port: docs/guide/hardware.md. The gateway sets its settings again each time.\n"
+     "Check whether `line_settings_changed` still grows: dpctl counters",
+     kGateway, seen_line_settings},
     {"drive.driver", Rank::recent, "the driver enable of a drive line fails, or only the guard releases it",
      "The transceiver of the drive line is not switched as configured",
      "Run gpioinfo. Check that gpio_chip under [[line]] is there, and that no other program has gpio_line.\n"

@@ -18,6 +18,7 @@ constexpr std::array kOfBus = std::to_array<Named>({
     {"echo_missing", "replies whose echo did not come"},
     {"retries", "requests that the master repeated"},
     {"write_errors", "replies that the port did not accept"},
+    {"settings_changed", "times that another program had changed settings of the port"},
     {"driver_errors", "edges of the driver enable that failed"},
 });
 constexpr std::array kOfStation = std::to_array<Named>({
@@ -30,6 +31,7 @@ constexpr std::array kOfStation = std::to_array<Named>({
     {"drive_came_back", "requests to the drive that came back from the line"},
     {"drive_damaged", "answers of the drive that were damaged"},
     {"drive_noise", "times that noise came before an answer of the drive"},
+    {"line_settings_changed", "times that another program had changed settings of the line's port"},
     {"drive_not_accepted", "writes that the drive refused for a wrong checksum"},
     {"drive_not_understood", "requests that the drive could not take"},
 });

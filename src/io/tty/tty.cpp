@@ -2,6 +2,7 @@
 #include "dpslave/io/tty.hpp"
 
 #include "io/loop/timespec.hpp"
+#include "kept_settings.hpp"
 #include "parity_marks.hpp"
 #include "tty_settings.hpp"
 #include "uart.hpp"
@@ -115,9 +116,12 @@ Tty::Tty(Fd fd, const TtySettings& settings, std::unique_ptr<Uart> uart)
     : fd_(std::move(fd)),
       settings_(settings),
       uart_(std::move(uart)),
+      kept_(std::make_unique<KeptSettings>()),
       character_(character_time(settings)),
       marked_(settings.mark_errors ? std::make_unique<Marked>() : nullptr)
-{}
+{
+    kept_->note(fd_.get());
+}
 
 Tty::Tty(Tty&&) noexcept = default;
 Tty& Tty::operator=(Tty&&) noexcept = default;
@@ -125,6 +129,8 @@ Tty::~Tty()
 {
     if (!fd_) return;
     const InCall close{PortCall::close};
+    // Else the port stays exclusive as long as another program has it open, and cannot be opened again.
+    if (!uart_->pty) ::ioctl(fd_.get(), TIOCNXCL);
     fd_.reset();
 }
 
@@ -157,7 +163,9 @@ std::chrono::nanoseconds Tty::hold_back() const
 
 std::optional<std::string> Tty::set_baud(std::uint32_t baud)
 {
-    if (std::string trouble = change_rate(fd(), baud, *uart_); !trouble.empty()) return trouble;
+    std::string trouble = change_rate(fd(), baud, *uart_);
+    kept_->note(fd());
+    if (!trouble.empty()) return trouble;
     settings_.baud = baud;
     character_ = character_time(settings_);
     std::this_thread::sleep_for(2 * character_);
@@ -177,11 +185,23 @@ TtyBauds Tty::bauds()
             missing += (missing.empty() ? "" : ", ") + std::to_string(rate);
     }
     static_cast<void>(change_rate(fd(), settings_.baud, *uart_)); // it was possible before
+    kept_->note(fd());
     static_cast<void>(discard_input());
     if (!missing.empty())
         found.why_not =
             "this UART cannot do " + missing + " bit/s, which are not searched: " + rate_remedy(*uart_);
     return found;
+}
+
+std::optional<ChangedSettings> Tty::changed_settings() const noexcept
+{
+    return kept_->changed(fd());
+}
+
+std::error_code Tty::set_again(const ChangedSettings& changed) noexcept
+{
+    if (const auto error = kept_->set_again(fd(), settings_.baud)) return error;
+    return changed.harms_octets ? discard_input() : std::error_code{};
 }
 
 /// Returns the number of octets that came. Reading with VMIN 0 gives 0 if nothing is there, and also if the
