@@ -125,6 +125,8 @@ bool ModbusClient::Exchange::ask(std::uint8_t unit, Bytes request)
     const Instant begun = line_.now();
     if (!line_.send(unit, request)) {
         trouble_ = "the line does not accept the request";
+        has_sent_ = line_.may_have_left();
+        if (has_sent_) owed_.may_answer(question, line_.now());
         return false;
     }
     has_sent_ = true;

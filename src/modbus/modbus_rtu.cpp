@@ -41,6 +41,11 @@ int ModbusRtu::fd() const
     return line_->fd();
 }
 
+void ModbusRtu::reopen()
+{
+    line_->reopen();
+}
+
 io::SwitchedPort& ModbusRtu::port()
 {
     return line_->port();

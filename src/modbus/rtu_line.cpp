@@ -99,6 +99,12 @@ void RtuLine::lose()
     messages_.push_back({true, settings_.port + " is missing; it is opened again as soon as it returns"});
 }
 
+void RtuLine::reopen()
+{
+    port_.reopen(now());
+    is_open_.store(false, std::memory_order_relaxed);
+}
+
 Instant RtuLine::now() const
 {
     return io::monotonic_now();
@@ -133,6 +139,7 @@ bool RtuLine::send(std::uint8_t unit, Bytes pdu)
     const Bytes request = build(unit, pdu);
     if (request.empty()) return false;
     const std::error_code trouble = port_.write(request);
+    may_have_left_ = trouble == std::errc::timed_out;
     // A port that is only slow, or whose guard is at work, is still there.
     const bool is_there =
         !trouble || trouble == std::errc::timed_out || trouble == std::errc::resource_unavailable_try_again;

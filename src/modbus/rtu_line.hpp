@@ -31,6 +31,7 @@ public:
                                                               std::atomic<bool>& is_open);
 
     bool send(std::uint8_t unit, Bytes pdu) override;
+    bool may_have_left() const override { return may_have_left_; }
     Heard receive(Instant until) override;
     Bytes frame() const override { return receiver_.frame(); }
     Piece piece() const override
@@ -46,6 +47,8 @@ public:
 
     bool is_open() const { return port_.is_open(); }
     io::SwitchedPort& port() { return port_; }
+    /// The port has stalled: what it has not sent goes, and it is opened again.
+    void reopen();
     int fd() { return port_.is_open() ? port_.tty().fd() : -1; } ///< -1: the port is gone
     /// Returns what happened to the port since the last call, oldest first.
     std::vector<PortMessage> take_messages() { return std::exchange(messages_, {}); }
@@ -86,6 +89,7 @@ private:
     std::array<std::uint8_t, 256> buffer_{};
     std::chrono::nanoseconds character_; ///< its time on the line
     std::chrono::nanoseconds hold_back_{};
+    bool may_have_left_ = false;
     bool takes_wire_time_ = false; ///< the open port
     Bytes heard_;                  ///< read and not yet put together
     bool bad_behind_ = false;      ///< directly after it a bad character

@@ -2,9 +2,8 @@
 // Tests that no file gets the number of a standard descriptor that was closed when the program began (H1).
 #include "dpslave/arguments/standard_descriptors.hpp"
 
-#include <gtest/gtest.h>
-
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <array>

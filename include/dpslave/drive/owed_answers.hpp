@@ -98,6 +98,13 @@ public:
     bool take_ack();
     /// Ends the wait for the question asked last; its answer stays owed.
     void wait_is_over() { waits_ = false; }
+    /// A question of which it is not known whether it has left, by `at`: its answer is not waited for, and is
+    /// owed.
+    void may_answer(const Question& question, Instant at)
+    {
+        asked(question, at);
+        wait_is_over();
+    }
 
     /// Returns, before the next question, whether this drive owes an answer, or one of this form.
     bool owes(DriveNumber drive) const;

@@ -18,6 +18,9 @@ public:
     /// accept them (unplugged).
     virtual bool write(Bytes octets) = 0;
 
+    /// Of a write() that failed: octets of it may have left all the same, and a drive may answer them.
+    virtual bool may_have_left() const { return false; }
+
     /// Waits at most `timeout` for the first octet, then gives what is there, at least one and at most
     /// `into.size()`. The result is 0 if nothing came in this time, or the line is gone. Parity is removed;
     /// an octet with wrong parity comes as 00.

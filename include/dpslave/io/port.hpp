@@ -36,6 +36,8 @@ public:
     /// Closes it: it has gone. The waits begin anew if it was open for as long as the
     /// longest of them.
     void lose(Instant now);
+    /// Closes it without what it has not sent yet; ready() opens it again at once.
+    void reopen(Instant now);
     /// Closes it: it can be opened, and is of no use for the reason `why`, a sentence with the path. The
     /// waits go on to grow.
     void refuse(Instant now, std::string why);

@@ -55,10 +55,13 @@ public:
     bool ready(Instant now);
     /// It has gone. The driver is inactive.
     void lose(Instant now);
+    /// Port::reopen(). The driver is inactive.
+    void reopen(Instant now);
     /// Why it could not be opened again: a sentence with the path, each reason once.
     std::optional<std::string> take_trouble() { return port_.take_trouble(); }
 
-    /// Writes like Tty::write(). If the program switches the transceiver it returns when the driver is
+    /// Writes like Tty::write(); what an earlier call left in the kernel is discarded first, for its time is
+    /// over. If the program switches the transceiver it returns when the driver is
     /// inactive again. A driver enable that fails closes the port: is_open(), take_trouble(). An error of
     /// resource_unavailable_try_again: the guard is at work, and nothing was sent. timed_out also where the
     /// thread has stalled meanwhile (io/thread_sign.hpp): what has left is not known; and where

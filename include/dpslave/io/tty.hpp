@@ -109,6 +109,9 @@ public:
     /// Discards what was written and has not left the kernel. Returns true if there was something.
     bool discard_unsent();
 
+    /// The same, without the question: a pty never says that there is something.
+    void discard_output();
+
     /// Discards the octets that have come and were not read yet.
     std::error_code discard_input();
 

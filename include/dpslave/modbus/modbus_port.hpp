@@ -25,6 +25,9 @@ public:
     /// accept it (unplugged).
     virtual bool send(std::uint8_t unit, Bytes pdu) = 0;
 
+    /// Of a send() that failed: octets of it may have left all the same, and the unit may answer them.
+    virtual bool may_have_left() const { return false; }
+
     /// Waits for the next frame, at most until `until`; a frame that has come already is given at once.
     virtual Heard receive(Instant until) = 0;
 

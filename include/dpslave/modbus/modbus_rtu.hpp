@@ -79,6 +79,8 @@ public:
     std::vector<PortMessage> take_port_messages();
     int fd() const; ///< -1: the port is gone
     io::SwitchedPort& port();
+    /// The port has stalled: what it has not sent is discarded, and it is opened again. What units owe stays.
+    void reopen();
 
 private:
     ModbusRtu(const RtuSettings& settings, std::unique_ptr<RtuLine> line);

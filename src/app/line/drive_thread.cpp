@@ -184,7 +184,7 @@ void DriveThread::recover()
     const io::ThreadSign::Stall stall = *link_.sign->stall();
     link_.sign->clear_stall();
     if (stall.call == io::PortCall::open || stall.call == io::PortCall::close) return;
-    port_.give_up();
+    if (port_.backend() != nullptr) port_.backend()->reopen();
     link_.happenings.tell(
         Severity::error, 0,
         fmt::format(

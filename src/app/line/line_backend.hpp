@@ -45,6 +45,9 @@ public:
     /// One transaction with a drive. Words that were read lie in `words`, which has room for them.
     drive::Outcome carry_out(const drive::UnitAddress& drive, const drive::Transaction& transaction,
                              std::span<std::uint16_t> words);
+    /// The port has stalled: what it has not sent is discarded, and it is opened again at once. What the
+    /// drives still owe stays owed.
+    void reopen() { tty_ ? tty_->reopen() : modbus_->reopen(); }
     /// What another program has changed of the settings of the port; nullopt: nothing, or there is no port.
     std::optional<io::ChangedSettings> changed_settings() const;
     /// Sets them again; an error: the port does not take them.

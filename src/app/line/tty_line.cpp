@@ -40,10 +40,17 @@ void TtyLine::lose()
                      LineHappenings::Kind::port_missing);
 }
 
+void TtyLine::reopen()
+{
+    port_.reopen(now());
+    is_open_.store(false, std::memory_order_relaxed);
+}
+
 bool TtyLine::write(Bytes octets)
 {
     if (!ready()) return false;
     const std::error_code trouble = port_.write(octets);
+    may_have_left_ = trouble == std::errc::timed_out;
     // A port that is only slow, or whose guard is at work, is still there.
     const bool is_there =
         !trouble || trouble == std::errc::timed_out || trouble == std::errc::resource_unavailable_try_again;

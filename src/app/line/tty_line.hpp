@@ -26,8 +26,11 @@ public:
     Instant now() const override;
     void discard() override;
     bool takes_wire_time() const override { return takes_wire_time_; }
+    bool may_have_left() const override { return may_have_left_; }
 
     io::SwitchedPort& port() { return port_; }
+    /// The port has stalled: what it has not sent goes, and it is opened again.
+    void reopen();
     int fd() { return port_.is_open() ? port_.tty().fd() : -1; } ///< -1: the port is gone
 
 private:
@@ -39,6 +42,7 @@ private:
     bool takes_wire_time_; ///< the port as it was opened last
     std::atomic<bool>& is_open_;
     LineHappenings& happenings_;
+    bool may_have_left_ = false;
     bool is_untold_ = false; ///< the port is gone, and that was not told yet
 };
 

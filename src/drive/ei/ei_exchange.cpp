@@ -200,6 +200,8 @@ Exchange::End Exchange::ask(const Question& question, Bytes request, WaitsFor wh
     const Instant begun = line_.now();
     if (!line_.write(request)) {
         trouble_ = "the line does not accept the request";
+        has_sent_ = line_.may_have_left();
+        if (has_sent_) owed_.may_answer(question, line_.now());
         return End::silence;
     }
     has_sent_ = true;

@@ -56,6 +56,14 @@ void Port::lose(Instant now)
     wait(now);
 }
 
+void Port::reopen(Instant now)
+{
+    if (!tty_) return;
+    tty_->discard_output(); // else close() would wait until it has gone, and it would be old
+    lose(now);
+    next_try_ = now;
+}
+
 void Port::refuse(Instant now, std::string why)
 {
     tty_.reset();

@@ -100,8 +100,17 @@ void SwitchedPort::lose(Instant now)
     port_.lose(now);
 }
 
+void SwitchedPort::reopen(Instant now)
+{
+    transmission_.stop();
+    if (port_.is_open()) driver_.detach();
+    port_.reopen(now);
+}
+
 std::error_code SwitchedPort::write(Bytes octets)
 {
+    if (!this_thread_may_write()) return std::make_error_code(std::errc::timed_out);
+    port_.tty().discard_output();
     if (!this_thread_may_write()) return std::make_error_code(std::errc::timed_out);
     const std::error_code error = write_switched(octets);
     // The call came back long after it was made: nobody knows what has left and when.

@@ -282,8 +282,15 @@ bool Tty::discard_unsent()
     return true;
 }
 
+void Tty::discard_output()
+{
+    const InCall flush{PortCall::set};
+    flush_output(fd());
+}
+
 std::error_code Tty::discard_input()
 {
+    const InCall flush{PortCall::set};
     if (marked_) {
         marked_->begin = marked_->end = 0;
         marked_->filled = false;
