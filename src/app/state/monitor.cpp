@@ -102,6 +102,7 @@ void Monitor::refresh()
         station.late_releases = line.transceiver.late.load(std::memory_order_relaxed);
         station.guarded_releases = line.transceiver.guarded.load(std::memory_order_relaxed);
         station.driver_errors = line.transceiver.errors.load(std::memory_order_relaxed);
+        station.orders_dropped = link.orders_dropped.load(std::memory_order_relaxed);
         view_.lost_events += link.events.refused();
         refresh_troubles(station);
         update(station);

@@ -41,9 +41,10 @@ struct Station {
     io::PortCall stalled_in = io::PortCall::none;
     /// Of the transceiver of its line, where the program switches it (io::TransceiverCounts).
     std::uint64_t late_releases = 0, guarded_releases = 0, driver_errors = 0;
-    bool ever_answered = false;    ///< the drive, since the station was added
-    std::string silent_because;    ///< why it is silent on the bus (FAULT of TEC OPTION), and the remedy
-    std::vector<Trouble> troubles; ///< what the drive or the tag table refused, newest last
+    std::uint64_t orders_dropped = 0; ///< StationLink::orders_dropped
+    bool ever_answered = false;       ///< the drive, since the station was added
+    std::string silent_because;       ///< why it is silent on the bus (FAULT of TEC OPTION), and the remedy
+    std::vector<Trouble> troubles;    ///< what the drive or the tag table refused, newest last
 };
 
 } // namespace dpslave::app
