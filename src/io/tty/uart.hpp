@@ -19,7 +19,7 @@ struct Uart {
     std::string name;             ///< "ttyS1"; empty = sysfs does not know it
     std::string driver;           ///< "serial8250", as sysfs calls it; empty = not known
     std::filesystem::path folder; ///< of the tty in sysfs
-    /// Of note_triggers().
+    /// note_triggers() fills them.
     std::optional<long> latency_timer, receive_trigger;
 };
 
