@@ -2,18 +2,15 @@
 #include "log.hpp"
 
 #include "dpslave/base/printable.hpp"
+#include "dpslave/io/log_stream.hpp"
 
 #include <fmt/format.h>
-#include <poll.h>
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cerrno>
-#include <climits>
 #include <cstdlib>
 #include <memory>
 #include <mutex>
@@ -62,8 +59,7 @@ public:
     }
 };
 
-/// Standard error, which others may share and may have stopped to read: a pipe, the journal, a terminal. It
-/// stays blocking, for O_NONBLOCK would be theirs too.
+/// What cannot be written now is counted, and said later.
 class StandardError final : public spdlog::sinks::base_sink<std::mutex> {
 private:
     void sink_it_(const spdlog::details::log_msg& message) override
@@ -84,23 +80,15 @@ private:
     }
     void flush_() override {} // nothing is kept
 
-    /// False: there was no room for all of it. A pipe that can be written takes PIPE_BUF octets without a
-    /// wait (pipe(7)).
+    /// False: there was no room for all of it.
     bool put(std::string_view text)
     {
-        while (!text.empty()) {
-            pollfd there{STDERR_FILENO, POLLOUT, 0};
-            if (::poll(&there, 1, 0) != 1 || (there.revents & POLLOUT) == 0) return false;
-            const ssize_t taken =
-                ::write(STDERR_FILENO, text.data(), std::min<std::size_t>(text.size(), PIPE_BUF));
-            if (taken < 0 && errno == EINTR) continue;
-            if (taken <= 0) return false;
-            text.remove_prefix(static_cast<std::size_t>(taken));
-            is_cut_ = !text.empty();
-        }
-        return true;
+        const std::size_t taken = stream_.put(text);
+        is_cut_ = taken == text.size() ? false : is_cut_ || taken != 0;
+        return taken == text.size();
     }
 
+    io::LogStream stream_{STDERR_FILENO};
     std::uint64_t lost_ = 0;
     bool is_cut_ = false; ///< the last line has no end
 };

@@ -45,7 +45,7 @@ private:
 };
 
 struct Gates {
-    Gate disk, names, ports;
+    Gate disk, names, ports, links;
 };
 
 class ReloadBeside : public test::ConfigFile {
@@ -68,7 +68,7 @@ protected:
     }
     ~ReloadBeside() override
     {
-        for (Gate* const gate : {&gates->disk, &gates->names, &gates->ports}) gate->open();
+        for (Gate* const gate : {&gates->disk, &gates->names, &gates->ports, &gates->links}) gate->open();
         EXPECT_TRUE(file.settle(1min));
     }
 
@@ -135,6 +135,10 @@ protected:
         all->port_trouble = [gates](const auto&) -> std::optional<std::string> {
             gates->ports.pass();
             return std::nullopt;
+        };
+        all->canonical = [gates](const std::string& path) {
+            gates->links.pass();
+            return path == "/dev/serial/by-id/p3" ? std::string{"/dev/null-p3"} : path;
         };
         return all;
     }
@@ -206,6 +210,49 @@ TEST_F(ReloadBeside, BySignalThatHangsIsTold)
 
     EXPECT_TRUE(reload.is_idle());
     EXPECT_THAT(events.events().back().text, HasSubstr("the ports of the lines has not answered"));
+}
+
+TEST_F(ReloadBeside, WhoseLinkOfAPortHangsKeepsTheMainThreadNotAndChangesNothing)
+{
+    change_file();
+    gates->links.close();
+    auto caller = call();
+    ASSERT_TRUE(goes_round_until([&] { return gates->links.asked == 1; }));
+
+    now += Reload::kLongestReading + 1ms;
+
+    EXPECT_THAT(answer_to(caller).at("faults").at(0).get<std::string>(),
+                HasSubstr("the ports of the lines has not answered"));
+    EXPECT_FALSE(is_changed());
+}
+
+TEST_F(ReloadBeside, ToAnotherNameOfTheSamePortLeavesNoDrive)
+{
+    folder_.write("etc/dpslaved.toml", std::string{kGood}.replace(std::string{kGood}.find("/dev/null-p3"), 12,
+                                                                  "/dev/serial/by-id/p3"));
+    auto caller = call();
+    ASSERT_EQ(answer_to(caller).at("applied"), true);
+
+    std::unique_ptr<LineChange> change;
+    ASSERT_TRUE(plant.lines().front()->link.change.take(change));
+    EXPECT_TRUE(change->opens_port);
+    EXPECT_TRUE(change->is_held) << "the line itself has it still";
+    EXPECT_FALSE(change->is_other_port);
+    EXPECT_FALSE(change->leaves_drives);
+}
+
+TEST_F(ReloadBeside, ToAnotherPortLeavesTheDrivesOfTheOldOne)
+{
+    folder_.write("etc/dpslaved.toml",
+                  std::string{kGood}.replace(std::string{kGood}.find("/dev/null-p3"), 12, "/dev/null-p4"));
+    auto caller = call();
+    ASSERT_EQ(answer_to(caller).at("applied"), true);
+
+    std::unique_ptr<LineChange> change;
+    ASSERT_TRUE(plant.lines().front()->link.change.take(change));
+    EXPECT_FALSE(change->is_held);
+    EXPECT_TRUE(change->is_other_port);
+    EXPECT_TRUE(change->leaves_drives);
 }
 
 TEST_F(ReloadBeside, ThatComesWhileOneHangsIsAnsweredWithItAndSoIsADryRun)

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 namespace dpslave::app {
 namespace {
 
@@ -153,6 +155,24 @@ TEST(CountersReport, HasTheDelayOfADriveThatIsAlwaysLateAndTheTimeOutThatItNeeds
     EXPECT_EQ(value("drive_foreign"), 3);
     EXPECT_EQ(value("drive_delay_ms"), 420);
     EXPECT_EQ(value("drive_needs_timeout_ms"), 525) << "a quarter more";
+}
+
+TEST(CountersReport, HasTheDemandDataThatWasDroppedWhileTheLineStalled)
+{
+    config::StationConfig config;
+    config.name = "unwinder";
+    View view;
+    Station station{};
+    station.config = std::make_shared<const config::StationConfig>(config);
+    station.orders_dropped = 3;       // by the bus thread
+    station.drive.orders_dropped = 5; // by the line itself
+    view.stations = {&station, 1};
+    const json group = json_of(counters_report(view, Instant{})).at("groups").at(1);
+    std::map<std::string, int> values;
+    for (const json& one : group.at("counters")) values[one.at("name")] = one.at("value").get<int>();
+
+    EXPECT_EQ(values["line_orders_dropped"], 3);
+    EXPECT_EQ(values["drive_orders_dropped"], 5);
 }
 
 TEST(CountersReport, HasWhatWasCountedWithinTheLastMinuteAndSinceWhen)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests what the control socket shows of the device types.
+#include "app/state/report.hpp"
 #include "control/interface.hpp"
 #include "device_bench.hpp"
 

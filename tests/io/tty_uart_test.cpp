@@ -307,6 +307,21 @@ TEST(UartLatencyTimer, ThatCannotBeSetIsAWarning)
                                   HasSubstr("/sys/class/tty/ttyS1/device/latency_timer"))));
 }
 
+TEST(UartLatencyTimer, IsNotedWhenThePortIsOpenedAndNotReadAgain)
+{
+    const Pty cable;
+    const FakeSysfs sysfs{cable.path(), "ftdi_sio"};
+    sysfs.write("device/latency_timer", "4\n");
+    const Fd fd{::open(cable.path().c_str(), O_RDWR | O_NOCTTY)};
+    Uart uart = look_at(fd.get(), sysfs.root());
+    uart.pty = false;
+    note_triggers(uart);
+
+    sysfs.write("device/latency_timer", "16\n");
+
+    EXPECT_EQ(hold_back(uart, std::chrono::microseconds{1}), std::chrono::milliseconds{5});
+}
+
 TEST(UartFormat, OfAUartWithoutParityIsRefusedAlthoughItsDriverTakesIt)
 {
     Pty cable;

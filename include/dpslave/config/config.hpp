@@ -161,7 +161,8 @@ std::optional<gid_t> operator_group_of(const ControlConfig& control);
 /// Returns the message for an operator_group_of() that is nullopt.
 input::Fault without_operator_group(const Config& config);
 
-/// Returns the file that a path leads to, links followed, so that two names of one tty are the same.
+/// Returns the file that a path leads to, links followed, so that two names of one tty are the same. It asks
+/// the file system, which may take long.
 std::string canonical(const std::string& path);
 
 /// Reads and judges `file`; all faults of it, of the profiles and of the tag tables in one list.

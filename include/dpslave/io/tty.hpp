@@ -73,7 +73,8 @@ public:
     /// log.
     const std::vector<std::string>& warnings() const { return warnings_; }
     /// Returns how long a received octet may stay in the port before read() gives it, as far as is known; a
-    /// USB adapter keeps it for up to 16 ms unless its driver can shorten that.
+    /// USB adapter keeps it for up to 16 ms unless its driver can shorten that. As it was when the port was
+    /// opened.
     std::chrono::nanoseconds hold_back() const;
     bool is_pty() const;
 

@@ -83,6 +83,7 @@ void DriveThread::run(const std::stop_token& stop, io::EventFd& wake)
     }
     io::set_sign_of_this_thread(link_.sign.get()); // who has ended gives no sign, and is not judged any more
     write_safe_state();
+    port_.close(); // here: it may take long, and the main thread takes this object away
     io::set_sign_of_this_thread(nullptr);
 }
 

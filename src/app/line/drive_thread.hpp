@@ -37,7 +37,8 @@ public:
     DriveThread(config::LineConfig line, bool port_is_held, const std::vector<DriveUnit>& units,
                 LineLink& link, const ProgramSigns& signs);
 
-    /// Serves the drives until `stop`; then the outputs go to their safe state, until LineLink::ends_by.
+    /// Serves the drives until `stop`; then the outputs go to their safe state, until LineLink::ends_by, and
+    /// the port is closed.
     void run(const std::stop_token& stop, io::EventFd& wake);
 
 private:

@@ -13,12 +13,12 @@
 #include "dpslave/fdl/transmission.hpp"
 #include "dpslave/io/clock.hpp"
 #include "dpslave/io/driver_enable.hpp"
+#include "dpslave/io/log_stream.hpp"
 #include "dpslave/io/notify.hpp"
 #include "dpslave/io/realtime.hpp"
 #include "dpslave/io/signals.hpp"
 
 #include <fmt/format.h>
-#include <poll.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
@@ -94,13 +94,18 @@ std::chrono::milliseconds remaining(Instant until)
                     std::chrono::milliseconds{10});
 }
 
+/// What is said when nobody writes the log any more.
+io::LogStream& last_words()
+{
+    static io::LogStream stream{STDERR_FILENO};
+    return stream;
+}
+
 /// On the bus thread, when the main thread has stalled for too long. Nobody reads the log any more; the bus
 /// was left, and the drives have their safe state.
 void end_without_main_thread()
 {
-    constexpr std::string_view kWhy = "dpslaved: the main thread has stalled: the program ends\n";
-    pollfd taken{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
-    if (::poll(&taken, 1, 0) == 1) static_cast<void>(::write(STDERR_FILENO, kWhy.data(), kWhy.size()) < 0);
+    last_words().put("dpslaved: the main thread has stalled: the program ends\n");
     std::_Exit(static_cast<int>(ExitStatus::not_served));
 }
 
@@ -132,7 +137,10 @@ ExitStatus run_daemon(const config::Config& config, const std::filesystem::path&
     opener.start();
     constexpr std::chrono::seconds kUsually{1}; // a port that opens later is served then
     opener.await_first_try(kUsually);
-    if (!io::Notifier{}.watchdog_interval()) link.end_program = end_without_main_thread;
+    if (!io::Notifier{}.watchdog_interval()) {
+        last_words(); // is made here: the bus thread opens nothing
+        link.end_program = end_without_main_thread;
+    }
     BusThread bus(config.bus, opener, driver, plant.bus_stations(), link);
     guard.start(config.realtime.priority);
     io::EventFd bus_wake;

@@ -90,10 +90,11 @@ void ConfigFile::forget()
     std::erase_if(waiting_, [](const Piece& one) { return one.reading != 0; });
 }
 
-void ConfigFile::read(std::function<void(ReadConfig&)> then)
+void ConfigFile::read(std::vector<config::LineConfig> present, std::function<void(ReadConfig&)> then)
 {
     forget();
     then_ = std::move(then);
+    present_ = std::move(present);
     const unsigned reading = reading_;
     SideJob::Work work = [this, reading, sources = sources_, file = file_,
                           profiles = profiles_]() -> SideJob::Then {
@@ -121,9 +122,13 @@ void ConfigFile::look_at_ports(unsigned reading, const std::shared_ptr<ReadConfi
 {
     if (reading != reading_) return;
     begin("the folder with the ports of the lines",
-          [this, reading, read, sources = sources_]() -> SideJob::Then {
+          [this, reading, read, sources = sources_, present = present_]() -> SideJob::Then {
               for (const config::LineConfig& line : read->config->lines)
                   read->ports.push_back(sources->port_trouble(line.port));
+              for (const auto* const lines : {&present, &std::as_const(read->config->lines)})
+                  for (const config::LineConfig& line : *lines)
+                      for (const std::string& path : {line.port, line.driver_enable.gpio_chip})
+                          read->real_paths.add(path, sources->canonical);
               return [this, reading, read] {
                   if (reading == reading_) then_(*read);
               };

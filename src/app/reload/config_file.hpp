@@ -5,6 +5,7 @@
 #pragma once
 
 #include "app/job/side_job.hpp"
+#include "real_paths.hpp"
 
 #include "dpslave/app/service.hpp"
 #include "dpslave/base/units.hpp"
@@ -27,6 +28,7 @@ struct ReadConfig {
     Result<config::Config, input::Faults> config;
     std::optional<gid_t> group{};                    ///< of the operators; nothing: the system has none
     std::vector<std::optional<std::string>> ports{}; ///< of each line: io::port_trouble()
+    RealPaths real_paths{};                          ///< of the lines, of now and from now on
 };
 
 /// What may block. Called on a thread of its own.
@@ -34,6 +36,7 @@ struct ConfigSources {
     std::function<decltype(config::load_config)> load = config::load_config;
     std::function<decltype(config::operator_group_of)> group = config::operator_group_of;
     std::function<decltype(io::port_trouble)> port_trouble = io::port_trouble;
+    std::function<decltype(config::canonical)> canonical = config::canonical;
 };
 
 class ConfigFile {
@@ -47,8 +50,9 @@ public:
 
     const std::filesystem::path& path() const { return file_; }
     /// Has the whole of it read and judged, and calls `then` when that is over. One reading at a time: a
-    /// further one takes the place of the one before, whose `then` is not called.
-    void read(std::function<void(ReadConfig&)> then);
+    /// further one takes the place of the one before, whose `then` is not called. `present`: the lines that
+    /// it will be compared with.
+    void read(std::vector<config::LineConfig> present, std::function<void(ReadConfig&)> then);
     /// The result of read() is thrown away whenever it comes.
     void forget();
     /// Has the group of the operators looked up, and calls `then`.
@@ -91,8 +95,9 @@ private:
     Instant next_look_;
     std::filesystem::file_time_type written_{}; ///< when it was read by a look; the first look reads it
     std::map<std::string, std::uint8_t, std::less<>> addresses_;
-    unsigned reading_ = 0;                  ///< the newest
-    std::function<void(ReadConfig&)> then_; ///< of that one
+    unsigned reading_ = 0;                    ///< the newest
+    std::function<void(ReadConfig&)> then_;   ///< of that one
+    std::vector<config::LineConfig> present_; ///< of that one
     std::vector<Piece> waiting_;
     std::string running_; ///< Piece::what
     SideJob job_{"config", "the configuration file"};

@@ -140,29 +140,27 @@ struct Plant::Next {
     std::vector<Change> changes;
 };
 
-bool Plant::has_port(const std::string& port) const
+bool Plant::has_port(const std::string& port, const RealPaths& real) const
 {
-    const std::string wanted = config::canonical(port);
-    return std::any_of(lines_.begin(), lines_.end(), [&wanted](const auto& line) {
-        return config::canonical(line->config.port) == wanted;
-    });
+    return std::any_of(lines_.begin(), lines_.end(),
+                       [&](const auto& line) { return real.of(line->config.port) == real.of(port); });
 }
 
-bool Plant::has_gpio_line(const config::LineConfig& wanted) const
+bool Plant::has_gpio_line(const config::LineConfig& wanted, const RealPaths& real) const
 {
     const io::DriverEnableSettings& driver = wanted.driver_enable;
     return driver.direction == io::Direction::gpio &&
-           std::any_of(lines_.begin(), lines_.end(), [&driver](const auto& line) {
+           std::any_of(lines_.begin(), lines_.end(), [&](const auto& line) {
                const io::DriverEnableSettings& present = line->config.driver_enable;
                return present.direction == io::Direction::gpio && present.gpio_line == driver.gpio_line &&
-                      config::canonical(present.gpio_chip) == config::canonical(driver.gpio_chip);
+                      real.of(present.gpio_chip) == real.of(driver.gpio_chip);
            });
 }
 
 /// A present line has its port, or the GPIO line of its transceiver, and closes it first.
-bool Plant::is_held(const config::LineConfig& wanted) const
+bool Plant::is_held(const config::LineConfig& wanted, const RealPaths& real) const
 {
-    return has_port(wanted.port) || has_gpio_line(wanted);
+    return has_port(wanted.port, real) || has_gpio_line(wanted, real);
 }
 
 std::vector<std::string> Plant::missing_ports(const Plan& plan,
@@ -172,7 +170,7 @@ std::vector<std::string> Plant::missing_ports(const Plan& plan,
     for (std::size_t i = 0; i < plan.lines.size(); ++i) {
         const config::LineConfig& line = plan.config.lines[i];
         const bool is_opened = !plan.lines[i].before || plan.lines[i].is_opened_anew;
-        if (troubles[i] && is_opened && !is_held(line))
+        if (troubles[i] && is_opened && !is_held(line, plan.real_paths))
             missing.push_back(
                 fmt::format("{}[[line]] \"{}\": {}; its drives count as silent until it can be opened",
                             place(plan.config, line.port_line), line.name, *troubles[i]));
@@ -210,14 +208,14 @@ void Plant::plan_port(const Plan& plan, std::size_t index, LineChange& change) c
     if (!planned.is_changed) return;
     change.line = plan.config.lines[index];
     change.opens_port = planned.is_opened_anew;
-    change.is_held = is_held(*change.line);
-    const std::string old_port = config::canonical(lines_[*planned.before]->config.port);
-    change.is_other_port = config::canonical(change.line->port) != old_port;
+    const RealPaths& real = plan.real_paths;
+    change.is_held = is_held(*change.line, real);
+    const std::string& old_port = real.of(lines_[*planned.before]->config.port);
+    change.is_other_port = real.of(change.line->port) != old_port;
     change.leaves_drives =
-        change.is_other_port && std::none_of(plan.config.lines.begin(), plan.config.lines.end(),
-                                             [&old_port](const config::LineConfig& line) {
-                                                 return config::canonical(line.port) == old_port;
-                                             });
+        change.is_other_port &&
+        std::none_of(plan.config.lines.begin(), plan.config.lines.end(),
+                     [&](const config::LineConfig& line) { return real.of(line.port) == old_port; });
 }
 
 /// What is new for each line that goes on; lines that are new get their threads.
@@ -227,8 +225,8 @@ void Plant::make_changes(const Plan& plan, Next& next) const
         DriveLine& line = *next.lines[i];
         auto units = units_on(line, next.stations);
         if (!plan.lines[i].before) {
-            line.work = std::make_unique<DriveThread>(line.config, is_held(line.config), units, line.link,
-                                                      bus_.signs);
+            line.work = std::make_unique<DriveThread>(line.config, is_held(line.config, plan.real_paths),
+                                                      units, line.link, bus_.signs);
         } else if (plan.lines[i].is_changed || !are_same(units, units_on(line, stations_))) {
             auto change = std::make_unique<LineChange>();
             change->units = std::move(units);

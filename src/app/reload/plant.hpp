@@ -70,9 +70,9 @@ private:
     struct Next;
 
     Station new_station(const config::StationConfig& config, const std::shared_ptr<DriveLine>& line);
-    bool has_port(const std::string& port) const;
-    bool has_gpio_line(const config::LineConfig& wanted) const;
-    bool is_held(const config::LineConfig& wanted) const;
+    bool has_port(const std::string& port, const RealPaths& real) const;
+    bool has_gpio_line(const config::LineConfig& wanted, const RealPaths& real) const;
+    bool is_held(const config::LineConfig& wanted, const RealPaths& real) const;
     void make_lines(const Plan& plan, Next& next) const;
     void make_stations(const Plan& plan, Next& next);
     void plan_port(const Plan& plan, std::size_t index, LineChange& change) const;

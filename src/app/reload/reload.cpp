@@ -121,7 +121,7 @@ void Reload::start(Instant now)
     parts_.notifier.reloading(io::monotonic_now());
     spdlog::info("reading {} again", parts_.file.path().string());
     step_ = Step::reading;
-    parts_.file.read([this](ReadConfig& read) { carry_out(read); });
+    parts_.file.read(parts_.monitor.config().lines, [this](ReadConfig& read) { carry_out(read); });
 }
 
 void Reload::start_trial(Instant now)
@@ -129,7 +129,8 @@ void Reload::start_trial(Instant now)
     is_trial_ = true;
     trial_began_ = now;
     tried_ = std::exchange(trials_, {});
-    parts_.file.read([this](ReadConfig& read) { answer_trials(judge(read).outcome); });
+    parts_.file.read(parts_.monitor.config().lines,
+                     [this](ReadConfig& read) { answer_trials(judge(read).outcome); });
 }
 
 void Reload::answer_trials(const Outcome& outcome)
@@ -201,6 +202,7 @@ Reload::Judged Reload::judge(ReadConfig& read)
         outcome.faults = std::move(plan.refusals);
         return judged;
     }
+    plan.real_paths = std::move(read.real_paths);
     for (std::string& missing : parts_.plant.missing_ports(plan, read.ports))
         outcome.warnings.push_back(std::move(missing));
     outcome.changes = plan.changes;

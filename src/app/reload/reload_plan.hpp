@@ -3,6 +3,8 @@
 /// what has to wait for a restart, and why it cannot be done at all. Pure. Source: A-033.
 #pragma once
 
+#include "real_paths.hpp"
+
 #include "dpslave/config/config.hpp"
 
 #include <cstdint>
@@ -56,6 +58,7 @@ struct Plan {
     std::vector<Leaving> leaving;      ///< those of the present stations that leave the bus
     std::vector<std::string> pending;  ///< what waits for a restart of the service, each a sentence
     std::vector<std::string> refusals; ///< why none of it can be done, each a sentence; empty: it can
+    RealPaths real_paths{};            ///< of the present lines and of config.lines
 };
 
 /// From `present`, as the last Plan had it or the file at the start, to `wanted`. `in_force`: the stations of

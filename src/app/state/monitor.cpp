@@ -105,6 +105,7 @@ void Monitor::refresh()
         station.settings_changed = line.settings_changed.load(std::memory_order_relaxed);
         static_cast<void>(line.changed_settings.fresh());
         station.port_settings = line.changed_settings.latest().words.data();
+        station.orders_dropped = link.orders_dropped.load(std::memory_order_relaxed);
         view_.lost_events += link.events.refused();
         refresh_troubles(station);
         update(station);

@@ -128,6 +128,8 @@ Group station_counters(const Station& station)
     add(c, "demand_orders_lost", dp.orders_lost, "Demand Data orders that the bus side had no room for");
     add(c, "drive_orders_dropped", drive.orders_dropped,
         "Demand Data writes that the master withdrew before they could be carried out");
+    add(c, "line_orders_dropped", station.orders_dropped,
+        "Demand Data writes that were never made: newer orders came while the line stalled");
     return {station.number, station.config->name, std::move(c)};
 }
 

@@ -43,6 +43,7 @@ struct Station {
     std::uint64_t late_releases = 0, guarded_releases = 0, driver_errors = 0;
     std::uint64_t settings_changed = 0; ///< times that other programs had changed the settings of its line
     std::string port_settings;          ///< what they changed last
+    std::uint64_t orders_dropped = 0;   ///< StationLink::orders_dropped
     bool ever_answered = false;         ///< the drive, since the station was added
     std::string silent_because;         ///< why it is silent on the bus (FAULT of TEC OPTION), and the remedy
     std::vector<Trouble> troubles;      ///< what the drive or the tag table refused, newest last

@@ -148,6 +148,7 @@ Result<Tty, std::string> Tty::open(const std::string& path, const TtySettings& s
         return Failure{path + ": " + trouble};
     Tty tty{std::move(fd), settings, std::move(uart)};
     if (settings.prompt) tty.warnings_ = set_prompt(*tty.uart_);
+    note_triggers(*tty.uart_);
     return tty;
 }
 

@@ -202,16 +202,21 @@ std::vector<std::string> set_prompt(const Uart& uart)
     return warnings;
 }
 
+void note_triggers(Uart& uart)
+{
+    if (uart.folder.empty()) return;
+    uart.latency_timer = number_in(uart.folder / "device/latency_timer");
+    uart.receive_trigger = number_in(uart.folder / "rx_trig_bytes");
+}
+
 std::chrono::nanoseconds hold_back(const Uart& uart, std::chrono::nanoseconds bit_time)
 {
     constexpr std::chrono::milliseconds kUsbFrame{1};
     const UartKind kind = uart_kind(uart.driver);
     if (uart.folder.empty() || uart.pty) return {};
-    if (kind == UartKind::ftdi)
-        return std::chrono::milliseconds{number_in(uart.folder / "device/latency_timer").value_or(16)} +
-               kUsbFrame;
+    if (kind == UartKind::ftdi) return std::chrono::milliseconds{uart.latency_timer.value_or(16)} + kUsbFrame;
     if (is_usb(kind)) return kUsbFrame;
-    if (number_in(uart.folder / "rx_trig_bytes") == 1) return {};
+    if (uart.receive_trigger == 1) return {};
     return idle_wait(uart) * bit_time;
 }
 

@@ -19,6 +19,8 @@ struct Uart {
     std::string name;             ///< "ttyS1"; empty = sysfs does not know it
     std::string driver;           ///< "serial8250", as sysfs calls it; empty = not known
     std::filesystem::path folder; ///< of the tty in sysfs
+    /// note_triggers() fills them.
+    std::optional<long> latency_timer, receive_trigger;
 };
 
 /// `sysfs`: where it lies. Fields that cannot be found out stay empty.
@@ -44,7 +46,11 @@ std::string rate_remedy(const Uart& uart);
 /// bit times.
 std::vector<std::string> set_prompt(const Uart& uart);
 
-/// Returns how long an octet may stay in the port before a read gives it, after set_prompt(); 0 if not at
+/// Looks in sysfs when the driver hands on what it has received, for hold_back(): no thread that serves asks
+/// sysfs.
+void note_triggers(Uart& uart);
+
+/// Returns how long an octet may stay in the port before a read gives it, after note_triggers(); 0 if not at
 /// all, or if nothing is known about it. `bit_time` at the present rate.
 std::chrono::nanoseconds hold_back(const Uart& uart, std::chrono::nanoseconds bit_time);
 
