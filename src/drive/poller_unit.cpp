@@ -413,18 +413,19 @@ void Poller::Unit::lose(Instant now)
     orders_.drive_lost();
 }
 
-/// Nothing is written to it before it is back, as if it were gone: it may be.
+/// Its words are old, and nothing is written to it before it is back, as if it were gone: it may be.
 void Poller::Unit::not_asked(Instant now)
 {
     orders_.drop_superseded();
-    snapshot_.orders_dropped = orders_.dropped();
-    if (!presence().is_supervised()) return;
     if (!link().is_lost()) {
         link().lose();
         lose(now);
     }
-    presence().not_asked(now);
-    note_presence(now);
+    if (presence().is_supervised()) {
+        presence().not_asked(now);
+        note_presence(now);
+    }
+    show();
 }
 
 // ---- what can be seen

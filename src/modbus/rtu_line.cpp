@@ -139,7 +139,7 @@ bool RtuLine::send(std::uint8_t unit, Bytes pdu)
     const Bytes request = build(unit, pdu);
     if (request.empty()) return false;
     const std::error_code trouble = port_.write(request);
-    may_have_left_ = trouble == std::errc::timed_out;
+    may_have_left_ = trouble && io::this_thread_stalled(); // else only a part of it has gone, or nothing
     // A port that is only slow, or whose guard is at work, is still there.
     const bool is_there =
         !trouble || trouble == std::errc::timed_out || trouble == std::errc::resource_unavailable_try_again;

@@ -142,6 +142,22 @@ TEST_F(EiAnswers, WhatOneDriveOwesIsNotAskedOfAnother)
     EXPECT_EQ(read(kFirst, input), AccessError::none);
 }
 
+TEST_F(EiAnswers, TheAnswerToAQuestionThatLeftInACallThatStalledIsNotTakenForThatOfAnotherDrive)
+{
+    a.turnaround = 40ms;
+    line.stalls = true;
+    EXPECT_EQ(read(kFirst, input), AccessError::no_answer);
+    line.stalls = false;
+
+    EXPECT_NE(read(kSecond, input), AccessError::none) << "the other answer is still owed";
+    EXPECT_EQ(word, 0xDEAD);
+
+    line.time += 100ms;
+    client.listen();
+    EXPECT_EQ(read(kFirst, output), AccessError::none);
+    EXPECT_EQ(read(kSecond, input), AccessError::none);
+}
+
 TEST_F(EiAnswers, AValueOfAnotherMnemonicClearsTheDebt)
 {
     b.faults = {Fault::silent};

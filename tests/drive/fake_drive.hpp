@@ -214,6 +214,7 @@ public:
     std::vector<FakeDrive*> drives;
     Instant time{};
     bool unplugged = false;
+    bool stalls = false; ///< write() fails, and the request leaves all the same
     bool echoes = false; ///< the transceiver hears what it sends
     std::string sent;    ///< octets of all requests
     Instant asked_at{};  ///< begin of the last request
@@ -249,8 +250,9 @@ public:
             }
         }
         sent_until_ = at;
-        return true;
+        return !stalls;
     }
+    bool may_have_left() const override { return stalls; }
 
     std::size_t read(std::span<std::uint8_t> into, std::chrono::nanoseconds timeout) override
     {

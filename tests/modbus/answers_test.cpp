@@ -41,6 +41,7 @@ public:
     }
     void is_silent() { script_.emplace_back(); }
     bool echoes = false;
+    bool stalls = false; ///< send() fails, and the request leaves all the same
     Instant time{};
     std::vector<std::string> asked; ///< unit and request
 
@@ -50,11 +51,12 @@ public:
         request.insert(request.end(), pdu.begin(), pdu.end());
         asked.push_back(text(request));
         if (echoes) coming_.push_back({request, time + 1ms});
-        if (script_.empty()) return true;
+        if (script_.empty()) return !stalls;
         for (const Saying& one : script_.front()) coming_.push_back({octets(one.frame), time + one.after});
         script_.pop_front();
-        return true;
+        return !stalls;
     }
+    bool may_have_left() const override { return stalls; }
     Heard receive(Instant until) override
     {
         const auto next = std::min_element(coming_.begin(), coming_.end(),
@@ -151,6 +153,22 @@ TEST_F(ModbusAnswers, AnAnswerThatIs1300MsLateIsNotTakenForAnotherRegister)
     line.answers("01 03 02 22 22");
     EXPECT_EQ(read(2), AccessError::none) << "the late one has come";
     EXPECT_EQ(words[0], 0x2222);
+}
+
+TEST_F(ModbusAnswers, TheAnswerToARequestThatLeftInACallThatStalledIsNotTakenForAnotherRegister)
+{
+    line.answers("01 03 02 04 57", 40ms);
+    line.stalls = true;
+    EXPECT_EQ(read(1000), AccessError::no_answer);
+    line.stalls = false;
+
+    EXPECT_EQ(read(2000), AccessError::deferred) << "the other answer is still owed";
+
+    line.time += 100ms;
+    client->listen();
+    line.answers("01 03 02 08 AE");
+    EXPECT_EQ(read(2000), AccessError::none);
+    EXPECT_EQ(words[0], 0x08AE);
 }
 
 TEST_F(ModbusAnswers, ALateAnswerThatIsHeardEndsTheDebt)

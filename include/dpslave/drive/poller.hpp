@@ -261,9 +261,10 @@ public:
 
     const DriveSnapshot& snapshot(std::size_t unit) const;
 
-    /// Nothing is asked of the drive until next(), for longer than a station may wait: where something
-    /// follows from its loss (LossRule) it is gone at once. Orders of Demand Data that newer ones have taken
-    /// the place of are dropped. Precondition: no transaction is under way.
+    /// Nothing is asked of the drive until next(), for longer than a station may wait: its words are old
+    /// until it answers again, and where something follows from its loss (LossRule) it is gone at once.
+    /// Orders of Demand Data that newer ones have taken the place of are dropped. Precondition: no
+    /// transaction is under way.
     void not_asked(std::size_t unit, Instant now);
 
     /// The port is about to be another one, and no line has the present one any more: what was written goes

@@ -429,12 +429,19 @@ protected:
     HeldDrive() : GoneDrive(WhenLost::hold) {}
 };
 
-TEST_F(HeldDrive, NothingFollowsFromBeingAskedNothing)
+TEST_F(HeldDrive, ThatWasNotAskedStaysAndNoWordIsGoodBeforeItAnswersAgain)
 {
     exchanges();
     bench.poller.not_asked(0, bench.now);
     EXPECT_FALSE(is_away());
+    EXPECT_FALSE(seen().answers);
+    EXPECT_EQ(seen().states[1], WordState::stale);
+    ASSERT_TRUE(bench.poller.take_inputs(0));
+
+    bench.run(3s);
+    EXPECT_FALSE(is_away());
     EXPECT_TRUE(seen().answers);
+    EXPECT_EQ(seen().states[1], WordState::good);
 }
 
 TEST_F(HeldDrive, NothingFollowsFromALoss)

@@ -462,7 +462,7 @@ TEST_F(PollerOrders, OfDemandDataThatNewerOnesHaveTakenThePlaceOfAreDroppedWhere
     order(Kind::write, 20, 5);
     order(Kind::write, 21, 6);
     bench.poller.not_asked(0, bench.now);
-    bench.run(1s);
+    bench.run(3s);
     EXPECT_EQ(bench.drives[0].words[20], 1020);
     EXPECT_EQ(bench.drives[0].words[21], 6);
     EXPECT_EQ(bench.poller.snapshot(0).orders_dropped, 1u);
