@@ -43,6 +43,7 @@ void BusThread::run(const std::stop_token& stop, io::EventFd& wake)
     port_.check(io::monotonic_now(), layer2_);
     follow_rate(); // a search says where it begins
     follow_memory();
+    link_.signs.bus.give(io::monotonic_now()); // from now on it is judged, also in its first reply
 
     while (!stop.stop_requested()) {
         if (update_due_ && !port_.is_sending() && !layer2_.reply_waits()) update();

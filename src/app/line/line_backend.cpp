@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "line_backend.hpp"
 
+#include "dpslave/io/clock.hpp"
+
 #include <utility>
 
 namespace dpslave::app {
@@ -102,12 +104,15 @@ io::SwitchedPort& LineBackend::port() const
     return tty_ ? tty_->port() : modbus_->port();
 }
 
-/// A request may take seconds on a slow line: the guard knows how long the longest takes.
+/// A request may take seconds on a slow line: the guard knows how long the longest takes. At the end of the
+/// program a thread that hangs while it sends keeps no line active.
 void LineBackend::start_guard(const config::LineConfig& line, io::TransceiverCounts& counts)
 {
-    const auto longest = port().guard();
-    guard_.emplace(
-        port().driver(), [longest] { return longest; }, &counts.guarded);
+    const auto limit = [longest = port().guard(), &ends_by = listeners_.ends_by] {
+        return io::monotonic_now() < ends_by.load(std::memory_order_relaxed) ? longest
+                                                                            : std::chrono::nanoseconds{};
+    };
+    guard_.emplace(port().driver(), limit, &counts.guarded);
     guard_->start(line.sending_priority);
 }
 
@@ -124,7 +129,8 @@ LineBackend::Listeners listeners_of(LineLink& link)
             .frames = *link.trace,
             .happenings = link.happenings,
             .settings_changed = link.settings_changed,
-            .changed_settings = link.changed_settings};
+            .changed_settings = link.changed_settings,
+            .ends_by = link.ends_by};
 }
 
 int LineBackend::fd() const

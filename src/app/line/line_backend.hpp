@@ -30,6 +30,8 @@ public:
         LineHappenings& happenings;                   ///< is told what happens to the port
         std::atomic<std::uint64_t>& settings_changed; ///< LineLink's, and the next one too
         Mailbox<io::ChangedSettings>& changed_settings;
+        /// LineLink's: from then on the guard of the driver enable lets nothing be active.
+        const std::atomic<Instant>& ends_by;
     };
     explicit LineBackend(const Listeners& listeners)
         : listeners_(listeners) {} ///< without a port: see open()

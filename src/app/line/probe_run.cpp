@@ -29,7 +29,8 @@ drive::Sight ask(const config::LineConfig& line, const drive::SearchQuestion& qu
                                                    .frames = *link.trace,
                                                    .happenings = *unheard,
                                                    .settings_changed = link.settings_changed,
-                                                   .changed_settings = link.changed_settings});
+                                                   .changed_settings = link.changed_settings,
+                                                   .ends_by = link.ends_by});
     return backend ? (*backend)->backend().look(question.unit, question.look) : drive::Sight{};
 }
 

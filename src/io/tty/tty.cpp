@@ -278,6 +278,7 @@ std::error_code Tty::send(Bytes telegram)
 
 bool Tty::discard_unsent()
 {
+    const InCall flush{PortCall::set};
     if (!has_unsent(fd())) return false;
     flush_output(fd());
     return true;
