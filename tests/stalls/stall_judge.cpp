@@ -186,6 +186,10 @@ void StallJudge::is_on_the_bus(std::size_t drive, bool is_on, Instant now)
     if (record.is_on != is_on) trace(now, "station {} is {} the bus", drive, is_on ? "on" : "off");
     if (!record.is_on && is_on) record.attached_at = now;
     record.is_on = is_on;
+    if (!is_on) record.zeroed_at.reset();
+    if (record.zeroed_at && bus_thread.ran(*record.zeroed_at, now) > 2 * kLook)
+        report_violation(
+            now, fmt::format("an output of drive {} was set to 0, and its station has not left", drive));
     if (left) judge_leaving(drive, "leaves", now);
     if (is_on && main_thread.is_stalled() &&
         bus_thread.ran(main_thread.from(), now) > kMainIsLost + 2 * kLook)
@@ -330,6 +334,12 @@ void StallJudge::judge_output(std::size_t drive, std::uint16_t tag, std::uint16_
         return report_violation(handed, fmt::format("{:04X} was written to tag {} of drive {} and was never "
                                                     "wanted",
                                                     word, tag, drive));
+    if (word == 0 && zero_is_allowed(drive) && rules_[drive].when == drive::WhenLost::silent) {
+        if (is_overtaken(drive, *was_wanted, handed) && !records_[drive].zeroed_at)
+            records_[drive].zeroed_at =
+                handed; // the line may know that the drive is gone before the bus does
+        return;
+    }
     if (is_overtaken(drive, *was_wanted, handed))
         report_violation(handed,
                          fmt::format("{:04X} was written to tag {} of drive {}, {:.3f} s after it was "

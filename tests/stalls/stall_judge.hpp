@@ -92,8 +92,9 @@ private:
         bool is_on = false, asks = false;
         Instant attached_at{};
         Instant answered_at{};
-        std::deque<Instant> heard_at; ///< valid for certain, the newest last
-        Instant died_at{};            ///< it was dead then, the last time
+        std::optional<Instant> zeroed_at; ///< an output, where no zero was wanted: then it leaves at once
+        std::deque<Instant> heard_at;     ///< valid for certain, the newest last
+        Instant died_at{};                ///< it was dead then, the last time
         std::map<std::uint16_t, Output> outputs;
         std::map<std::uint16_t, std::size_t> shown; ///< place in the history of the tag
         std::vector<Demand> demands;
