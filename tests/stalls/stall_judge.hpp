@@ -69,6 +69,8 @@ public:
     void report_violation(Instant now, const std::string& text);
 
 private:
+    /// Threads look at one another at least this often, and give a sign as often.
+    static constexpr Time kLook = 100ms;
     static constexpr int kSafeState = -1; ///< the layout has ended: 0, or nothing at all
     struct Wanted {
         Instant from;

@@ -14,7 +14,7 @@
 namespace dpslave::stalls {
 namespace {
 
-constexpr std::uint64_t kHistories = 2000;
+constexpr std::uint64_t kHistories = 1000;
 
 void nothing_old_is_good_and_nothing_old_is_sent(bool is_modbus)
 {
