@@ -145,7 +145,7 @@ build_page() {
 # What tools/check runs. Unit tests that run with the sanitizers, and not a second time without; the others run as they are shipped.
 # The longest first.
 sanitized=(gsd drive dp fdl modbus profile base control input io direction pcapng)
-shipped=(dpctl configurator drive_line app_bus config app trace dpsim model drive_line_without_drives_apart report arguments tec led
+shipped=(dpctl configurator drive_line app_bus config app trace dpsim model drive_line_without_drives_apart stalls stalls_mutants report arguments tec led
     fdl_no_allocation dp_no_allocation simulated_captures)
 sanitized_programs=("${sanitized[@]/#/build/asan/tests/test_}")
 shipped_programs=("${shipped[@]/#/build/release/tests/test_}" 'build/release/tests/test_conformance=Simulated_*')

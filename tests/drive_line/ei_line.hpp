@@ -16,6 +16,7 @@ public:
     std::size_t read(std::span<std::uint8_t> into, std::chrono::nanoseconds timeout) override;
     Instant now() const override { return time; }
     void discard() override;
+    void lose_input() override { discard(); }
     bool takes_wire_time() const override { return rules().wire_time; }
 
 private:

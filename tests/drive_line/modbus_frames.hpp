@@ -24,6 +24,12 @@ public:
 
     bool send(std::uint8_t unit, Bytes pdu) override;
     Heard receive(Instant until) override;
+    void lose_input() override
+    {
+        pass_until(time);
+        while (!arrived_.empty() && arrived_.front().at <= time) arrived_.pop_front();
+        receiver_ = {};
+    }
     Bytes frame() const override { return receiver_.frame(); }
     Piece piece() const override
     {

@@ -70,6 +70,7 @@ public:
     /// A question on its way through the drive.
     struct Question {
         std::vector<std::uint8_t> octets;
+        Instant handed{};      ///< when a program handed it to its port
         Instant carried_out{}; ///< when the drive samples or writes
         Instant answered{};    ///< when the first octet of its answer leaves
         bool is_spoilt = false;

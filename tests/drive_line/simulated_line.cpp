@@ -19,6 +19,7 @@ void SimulatedLine::ask(std::size_t index, Octets octets, Instant heard)
     if (chance_.happens(faults.question_lost)) return trace("  the question is lost");
     SimulatedDrive::Question question;
     question.octets = std::move(octets);
+    question.handed = handed.value_or(time);
     question.is_spoilt = chance_.happens(faults.question_spoilt);
     Time delay = chance_.between(rules_.turnaround, rules_.turnaround * 2);
     if (chance_.happens(faults.late))
@@ -70,6 +71,7 @@ void SimulatedLine::happen(Instant at)
         const SimulatedDrive::Question question = std::move(drive.questions.front());
         drive.questions.pop_front();
         drive.live_until(question.carried_out, words_, chance_);
+        carried_out_handed_ = question.handed;
         auto answer = carry_out(i, question);
         if (chance_.happens(faults.noise)) say({question.answered, noise(), -1, true, false});
         if (!answer || question.answer_is_lost) {

@@ -53,6 +53,8 @@ public:
     std::vector<SimulatedDrive> drives;
     Faults faults;
     Instant time{std::chrono::hours{1}};
+    /// When the next question was handed to the port, where that was before it leaves; of none: then.
+    std::optional<Instant> handed;
     std::function<void(std::size_t drive, SimulatedTag& tag, std::uint16_t word, Instant at)> on_write;
     std::function<void(const std::string&)> on_trace; ///< empty: no trace
 
@@ -72,6 +74,10 @@ public:
     }
     bool traces() const { return static_cast<bool>(on_trace); }
     std::uint64_t questions() const { return questions_; }
+    /// Of the question that is carried out: when it was handed to the port. In on_write.
+    Instant carried_out_handed() const { return carried_out_handed_; }
+    /// What has come and was not read is lost, as when the port is closed.
+    virtual void lose_input() = 0;
 
 protected:
     /// Octets on the wire from `begins` on, each for its time.
@@ -117,6 +123,7 @@ private:
     Instant noise_ended_{};   ///< of what was no whole answer
     Instant question_ends_{}; ///< of the last one: its last octet has left
     std::uint64_t questions_ = 0;
+    Instant carried_out_handed_{};
 };
 
 } // namespace dpslave::drive_line

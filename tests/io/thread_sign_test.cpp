@@ -83,6 +83,15 @@ TEST_F(SignsOfThisThread, EndTheWaitOfAThreadThatStalled)
     EXPECT_TRUE(this_thread_stalled());
 }
 
+TEST_F(SignsOfThisThread, LetItWriteNothingBehindACallThatStalled)
+{
+    EXPECT_TRUE(this_thread_may_write());
+    stalls();
+    EXPECT_FALSE(this_thread_may_write()) << "what it would write now is older than the call";
+    sign.clear_stall();
+    EXPECT_TRUE(this_thread_may_write());
+}
+
 TEST_F(SignsOfThisThread, AreThoseOfNobodyWhereNoneIsSet)
 {
     set_sign_of_this_thread(nullptr);

@@ -75,7 +75,8 @@ void give_sign();
 bool this_thread_stalled();
 /// ThreadSign::end_waits(); kNever: it waits as long as it wants.
 Instant waits_of_this_thread_end();
-/// False: it was given up, or its waits have ended. What it would write now is not waited for any more.
+/// False: it was given up, one of its calls has stalled, or its waits have ended. What it would write now is
+/// older than that, or not waited for any more.
 bool this_thread_may_write();
 
 /// The calling thread is in this call, while the object lives.

@@ -107,7 +107,8 @@ bool BusStation::forward_orders()
     return !waiting_order_;
 }
 
-/// What the master has given up for a newer order is not carried out when the line goes round again.
+/// What the master has given up for a newer order is not carried out when the line goes round again, neither
+/// what is here nor what the line has fetched before it stalled.
 void BusStation::keep_newest_order()
 {
     while (const auto order = slave_.take_demand_order()) {
@@ -115,6 +116,7 @@ void BusStation::keep_newest_order()
             link_->orders_dropped.fetch_add(1, std::memory_order_relaxed);
         waiting_order_ = order;
     }
+    if (waiting_order_) link_->stands_from.store(waiting_order_->number, std::memory_order_release);
 }
 
 } // namespace dpslave::app

@@ -113,12 +113,6 @@ Result<std::optional<drive::MnemonicRule>, Error> rule_of(const Json& parameters
                           {"reason", "a rule is 590plus, ac, pno or none"}}}};
 }
 
-/// It only grows, in whatever order calls end. Numbers go round.
-void withdraw_until(std::uint32_t number, LineLink& line)
-{
-    if (static_cast<std::int32_t>(number - line.withdrawn.load()) > 0) line.withdrawn.store(number);
-}
-
 } // namespace
 
 /// Few accesses can wait for a drive: no user may take all places.
@@ -318,7 +312,7 @@ void PendingAccesses::answer(Instant now)
     withdraw_from_stalled_lines();
     waiting_.end_late(now, [this](std::uint32_t number, const Waiting::Call& call) {
         const Station* const station = monitor_.find(call.station);
-        if (station != nullptr) withdraw_until(number, station->drive_line->link);
+        if (station != nullptr) station->drive_line->answered_until(number);
         refuse(call, fmt::format("{} within {} minutes", report::kLineDidNotServe, kLongestWait.count()),
                "not known: its drive line did not come to it");
     });
@@ -330,8 +324,7 @@ void PendingAccesses::withdraw_from_stalled_lines()
         if (station.line_stalled.count() != 0) withdraw(*station.drive_line);
 }
 
-/// Its orders are answered here, and it carries none of them out later. It writes nothing from give_up() on;
-/// what it had begun before, nobody knows.
+/// Its orders are answered here.
 void PendingAccesses::withdraw(DriveLine& line)
 {
     const auto is_of_line = [&](const Waiting::Call& call) {
@@ -339,9 +332,7 @@ void PendingAccesses::withdraw(DriveLine& line)
         return station != nullptr && station->drive_line.get() == &line;
     };
     if (waiting_.count(is_of_line) == 0) return;
-    line.link.sign->give_up();
-    withdraw_until(waiting_.next_number() - 1, line.link);
-    const std::uint32_t under_way = line.link.operating.load();
+    const std::uint32_t under_way = line.withdraw(waiting_.next_number() - 1);
     const std::string stall = stall_words(line, line.silent_for);
     waiting_.end_where(is_of_line, [&](std::uint32_t number, const Waiting::Call& call) {
         const std::string_view outcome =

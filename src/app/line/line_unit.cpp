@@ -69,13 +69,20 @@ void LineUnit::fetch(drive::Poller& poller, std::size_t index)
         sampler_.set_layout(outputs->layout);
         layout_ = outputs->layout.generation;
     }
-    while (const auto order = link->demand_orders.pop()) poller.set_demand(index, *order);
+    while (const auto order = link->demand_orders.pop()) {
+        poller.set_demand(index, *order);
+        ordered_ = order->number;
+    }
 }
 
 bool LineUnit::note_stall(drive::Poller& poller, std::size_t index, Instant now)
 {
     const std::uint32_t all = link->stalls.load(std::memory_order_acquire);
     if (std::exchange(stalls_, all) == all) return false;
+    // A newer order waits at the bus: of those that are here none stands any more.
+    const std::uint32_t stands_from = link->stands_from.load(std::memory_order_acquire);
+    if (static_cast<std::int32_t>(stands_from - ordered_) > 0)
+        poller.set_demand(index, {.kind = DemandOrder::Kind::cancel});
     poller.not_asked(index, now);
     return true;
 }

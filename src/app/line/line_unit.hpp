@@ -54,6 +54,7 @@ private:
     bool is_away_;                   ///< the station is not on the bus, as StationLink::departures says
     Generation ended_ = 0;           ///< as the poller has it
     std::uint32_t stalls_ = 0;       ///< as the poller has them
+    std::uint32_t ordered_ = 0;      ///< the last Demand Data order that was fetched
     Generation layout_ = 0;
     Sampler sampler_;
     bool was_known_ = false, answered_ = false; ///< as told last

@@ -89,6 +89,9 @@ struct StationLink {
     // bus -> drive
     /// How often the drive counted as gone because its line stalled.
     std::atomic<std::uint32_t> stalls{0};
+    /// The newest order of Demand Data that came while its line stalled; none before it stands. Numbers go
+    /// round; 0: none came.
+    std::atomic<std::uint32_t> stands_from{0};
     /// Every layout up to this generation has ended. Stored before the outputs of the next layout are
     /// published, read after them: a thread that sees a new layout also sees the end of the old one. It only
     /// grows, so no end is overwritten.

@@ -68,7 +68,7 @@ Instant waits_of_this_thread_end()
 bool this_thread_may_write()
 {
     const ThreadSign* const sign = sign_of_this_thread;
-    return sign == nullptr || (!sign->is_given_up() && monotonic_now() < sign->waits_end());
+    return sign == nullptr || (!sign->is_given_up() && !sign->stall() && monotonic_now() < sign->waits_end());
 }
 
 InCall::InCall(PortCall call)

@@ -229,6 +229,22 @@ TEST_F(StationOfAStalledLine, LetsTheLineWriteNothingUntilItHasTakenNote)
     EXPECT_TRUE(one->is_wanted());
 }
 
+/// What the line has fetched before it stalled is overtaken, and only the bus knows it.
+TEST_F(StationOfAStalledLine, TellsTheLineFromWhichOrderOnTheyStand)
+{
+    config::StationConfig config = station_config(kStation);
+    config.loss = {.when = drive::WhenLost::hold, .after = 500ms};
+    links[kStation] = link;
+    start({}, {std::make_shared<app::BusStation>(config, link)});
+    start_up(kStation);
+    ASSERT_TRUE(eventually([&] { return link->stalls.load() > 0; }));
+    EXPECT_EQ(link->stands_from.load(), 0u);
+    const Octets write{0x20, 55, 0, 0, 0, 0, 0, 1}; // of tag 55
+    EXPECT_TRUE(master.ask(::test::sd2(kStation, 2, master.next_fc(), write)));
+    EXPECT_TRUE(eventually([&] { return link->stands_from.load() != 0; }));
+    EXPECT_EQ(link->demand_orders.pop(), std::nullopt);
+}
+
 TEST_F(StationOfAStalledLine, KeepsOfDemandDataTheNewestOrderUntilTheLineGoesRoundAgain)
 {
     config::StationConfig config = station_config(kStation);
