@@ -31,8 +31,12 @@ bool is_value_of_modbus(Bytes pdu)
 
 /// As io/switched_port does it.
 template <class Leave>
-bool write_as_the_program(World& world, bool& has_unsent, bool is_value, const Leave& leave)
+bool write_as_the_program(World& world, bool& has_unsent, unsigned& opened, bool is_value, const Leave& leave)
 {
+    if (std::exchange(opened, world.times_closed()) != world.times_closed()) {
+        has_unsent = false;
+        world.open();
+    }
     if (!io::this_thread_may_write()) return false;
     if (std::exchange(has_unsent, false)) world.judge().sent_on(world.now());
     {
@@ -57,7 +61,7 @@ Instant slice_end(const World& world, Instant until)
 
 bool EiPort::write(Bytes octets)
 {
-    return write_as_the_program(world_, has_unsent_, is_value(octets), [&] { line_.write(octets); });
+    return write_as_the_program(world_, has_unsent_, opened_, is_value(octets), [&] { line_.write(octets); });
 }
 
 std::size_t EiPort::read(std::span<std::uint8_t> into, std::chrono::nanoseconds timeout)
@@ -80,7 +84,8 @@ std::size_t EiPort::read(std::span<std::uint8_t> into, std::chrono::nanoseconds 
 
 bool FramesPort::send(std::uint8_t unit, Bytes pdu)
 {
-    return write_as_the_program(world_, has_unsent_, is_value_of_modbus(pdu), [&] { line_.send(unit, pdu); });
+    return write_as_the_program(world_, has_unsent_, opened_, is_value_of_modbus(pdu),
+                                [&] { line_.send(unit, pdu); });
 }
 
 modbus::ModbusPort::Heard FramesPort::receive(Instant until)
@@ -146,12 +151,30 @@ LineBackend::Listeners listeners_of(LineLink& link)
     return {.is_open = link.port_open,
             .transceiver = link.transceiver,
             .frames = *link.trace,
-            .happenings = link.happenings};
+            .happenings = link.happenings,
+            .settings_changed = link.settings_changed,
+            .changed_settings = link.changed_settings,
+            .ends_by = link.ends_by};
 }
 
 int LineBackend::fd() const
 {
     return 0; // ppoll() below knows it
+}
+
+void LineBackend::reopen()
+{
+    stalls::World::current()->close();
+}
+
+/// No other program has the port.
+std::optional<io::ChangedSettings> LineBackend::changed_settings() const
+{
+    return std::nullopt;
+}
+std::error_code LineBackend::set_again(const io::ChangedSettings&)
+{
+    return {};
 }
 
 void LineBackend::tell_port_messages() {}

@@ -290,6 +290,12 @@ bool World::writes(bool is_value, const std::function<void()>& leave)
 
 std::unique_ptr<drive::Backend> World::open_port()
 {
+    open();
+    return open_(*this);
+}
+
+void World::open()
+{
     const io::InCall open{io::PortCall::open};
     if (const auto length = std::exchange(open_stall_, std::nullopt)) {
         judge_.line_thread.stalls(now_);
@@ -297,7 +303,6 @@ std::unique_ptr<drive::Backend> World::open_port()
         judge_.line_thread.goes_on(now_);
     }
     line_.lose_input();
-    return open_(*this);
 }
 
 } // namespace dpslave::stalls

@@ -98,6 +98,11 @@ public:
     /// It is in the call of a write, which sends by `leave`. False: the octets are still in the port.
     bool writes(bool is_value, const std::function<void()>& leave);
     std::unique_ptr<drive::Backend> open_port();
+    /// The port is opened; what has come is lost.
+    void open();
+    /// It is closed, until its next write() opens it.
+    void close() { ++times_closed_; }
+    unsigned times_closed() const { return times_closed_; }
 
 private:
     struct Thread {
@@ -132,6 +137,7 @@ private:
     Thread bus_, main_;
     std::optional<LineStall> line_stall_;
     std::optional<Time> open_stall_;
+    unsigned times_closed_ = 0;
 
     app::ProgramSigns signs_;
     Handover<app::BusStations> next_;

@@ -4,6 +4,7 @@
 #include "probe_run.hpp"
 #include "transaction_log.hpp"
 
+#include "dpslave/drive/carry_out.hpp"
 #include "dpslave/io/clock.hpp"
 #include "dpslave/io/thread_sign.hpp"
 #include "dpslave/report/words.hpp"
@@ -130,13 +131,13 @@ drive::Outcome DriveThread::exchange_with(const LineUnit& unit, const drive::Tra
 {
     static_cast<void>(port_.settings_hold(line_));
     if (port_.backend() == nullptr) return {.error = AccessError::no_answer, .words = {}, .sent = false};
-    drive::Outcome outcome = port_.backend()->carry_out(unit.config->unit, transaction, words_);
-    if (!port_.settings_hold(line_)) {
+    drive::Backend& backend = port_.backend()->backend();
+    drive::Outcome outcome = drive::carry_out(transaction, backend, unit.config->unit, words_);
+    if (!port_.settings_hold(line_)) { // then there may be no back-end any more
         outcome.error = AccessError::no_answer;
         outcome.words = {};
         return outcome;
     }
-    drive::Backend& backend = port_.backend()->backend();
     if (transaction.purpose == drive::Purpose::survey) {
         survey_trouble_ = backend.last_trouble();
         outcome.trouble = survey_trouble_;

@@ -71,32 +71,19 @@ Result<std::unique_ptr<LineBackend>, std::string> LineBackend::open(const config
     return made;
 }
 
-drive::Outcome LineBackend::carry_out(const drive::UnitAddress& drive, const drive::Transaction& transaction,
-                                      std::span<std::uint16_t> words)
-{
-    using Kind = drive::Transaction::Kind;
-    drive::Outcome outcome;
-    switch (transaction.kind) {
-        case Kind::read:
-            outcome.words = words.first(transaction.count);
-            outcome.error = backend_->read(drive, *transaction.tag, words.first(transaction.count));
-            outcome.answer = backend_->last_answer();
-            break;
-        case Kind::write:
-            outcome.error = transaction.once
-                                ? backend_->write_once(drive, *transaction.tag, transaction.words.first<1>())
-                                : backend_->write(drive, *transaction.tag, transaction.words);
-            outcome.sent = backend_->has_sent();
-            break;
-        case Kind::probe: outcome.error = backend_->probe(drive); break;
-    }
-    outcome.questions = backend_->questions();
-    return outcome;
-}
-
 std::optional<io::ChangedSettings> LineBackend::changed_settings() const
 {
     return port().is_open() ? port().tty().changed_settings() : std::nullopt;
+}
+
+std::error_code LineBackend::set_again(const io::ChangedSettings& changed)
+{
+    return port().tty().set_again(changed);
+}
+
+void LineBackend::reopen()
+{
+    tty_ ? tty_->reopen() : modbus_->reopen();
 }
 
 io::SwitchedPort& LineBackend::port() const
@@ -110,7 +97,7 @@ void LineBackend::start_guard(const config::LineConfig& line, io::TransceiverCou
 {
     const auto limit = [longest = port().guard(), &ends_by = listeners_.ends_by] {
         return io::monotonic_now() < ends_by.load(std::memory_order_relaxed) ? longest
-                                                                            : std::chrono::nanoseconds{};
+                                                                             : std::chrono::nanoseconds{};
     };
     guard_.emplace(port().driver(), limit, &counts.guarded);
     guard_->start(line.sending_priority);

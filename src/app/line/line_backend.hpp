@@ -44,16 +44,13 @@ public:
     static drive::BlockRule block_rule(const config::LineConfig& line);
 
     drive::Backend& backend() { return *backend_; }
-    /// One transaction with a drive. Words that were read lie in `words`, which has room for them.
-    drive::Outcome carry_out(const drive::UnitAddress& drive, const drive::Transaction& transaction,
-                             std::span<std::uint16_t> words);
     /// The port has stalled: what it has not sent is discarded, and it is opened again at once. What the
     /// drives still owe stays owed.
-    void reopen() { tty_ ? tty_->reopen() : modbus_->reopen(); }
+    void reopen();
     /// What another program has changed of the settings of the port; nullopt: nothing, or there is no port.
     std::optional<io::ChangedSettings> changed_settings() const;
     /// Sets them again; an error: the port does not take them.
-    std::error_code set_again(const io::ChangedSettings& changed) { return port().tty().set_again(changed); }
+    std::error_code set_again(const io::ChangedSettings& changed);
     /// Readable between two questions: Backend::listen() is due. -1: the port is gone.
     int fd() const;
     /// What happened to the port since the last call.
