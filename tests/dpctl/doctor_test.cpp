@@ -509,6 +509,9 @@ INSTANTIATE_TEST_SUITE_P(
             "requests dropped because something followed them, in the last minute"},
         Counted{"Settings", "settings_changed", 1, 0, "bus.settings",
                 "settings of /dev/ttyS1 were changed 1 time in the last minute: dpslaved does not say which"},
+        Counted{
+            "Raised", "driver_raised", 2, 0, "bus.settings",
+            "RTS of /dev/ttyS1 was raised by another program 2 times in the last minute: the bus was blocked"},
         Counted{"DriverFails", "driver_errors", 1, 0, "bus.driver",
                 "1 edge failed, and the guard released the driver 0 times in the last minute"},
         Counted{"DriverStays", "driver_guarded", 1, 0, "bus.driver",

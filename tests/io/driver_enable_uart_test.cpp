@@ -149,6 +149,23 @@ TEST_F(OnAUart, TheGuardDropsRtsToo)
     EXPECT_FALSE(uart.rts);
 }
 
+TEST_F(OnAUart, RtsThatAnotherProgramHasRaisedByOpeningThePortIsReleasedAndNeverThatOfAReply)
+{
+    DriverEnable driver = opened(Direction::rts);
+    EXPECT_FALSE(driver.attach(*tty));
+    EXPECT_FALSE(driver.release_if_raised());
+
+    uart.rts = true;
+    EXPECT_TRUE(driver.release_if_raised());
+    EXPECT_FALSE(uart.rts);
+    EXPECT_FALSE(driver.release_if_raised());
+
+    EXPECT_FALSE(driver.set(true, kNow));
+    EXPECT_FALSE(driver.release_if_raised());
+    EXPECT_TRUE(uart.rts);
+    EXPECT_FALSE(driver.set(false, kNow));
+}
+
 TEST_F(OnAUart, TheSelfCheckOfRtsReportsWhatItDisturbsAndWhatWouldBeBetter)
 {
     uart.takes_rs485 = true;

@@ -95,6 +95,11 @@ public:
     /// never waits for the thread that calls set().
     bool drop_if_stuck(Instant now, std::chrono::nanoseconds limit) noexcept;
 
+    /// Direction::rts: the kernel raises RTS whenever another program opens the port. Makes the line inactive
+    /// if it should be and is not. Returns true if it was not. The same thread as that of drop_if_stuck()
+    /// calls it; it asks the driver of the UART, which of a USB adapter takes a millisecond.
+    bool release_if_raised() noexcept;
+
     /// Finds out whether the line can be switched, and how long an edge takes (the median of several,
     /// measured without making the line active: the bus may be in use). Call it at start, after attach() and
     /// before the first set(). The error is a sentence.

@@ -23,6 +23,7 @@ struct TransceiverCounts {
     std::atomic<std::uint64_t> late{0};     ///< of these, released later than SwitchedPort::late_after()
     std::atomic<std::uint64_t> guarded{0};  ///< released by a guard: the UART never said that it was empty
     std::atomic<std::uint64_t> errors{0};   ///< edges that failed
+    std::atomic<std::uint64_t> raised{0};   ///< by another program that opened the port, and released
 };
 
 struct TransceiverSettings {

@@ -23,11 +23,16 @@ void DriverGuard::watch(const std::stop_token& stop, int priority)
     io::name_thread("guard");
     for (const std::string& refused : io::enter_realtime(priority, -1))
         spdlog::warn("guard of the driver enable: {}", refused);
-    while (!stop.stop_requested()) {
+    const auto count = [](std::atomic<std::uint64_t>& one, std::atomic<std::uint64_t>* total) {
+        one.fetch_add(1, std::memory_order_relaxed);
+        if (total != nullptr) total->fetch_add(1, std::memory_order_relaxed);
+    };
+    for (unsigned looks = 0; !stop.stop_requested(); ++looks) {
         std::this_thread::sleep_for(kLook);
-        if (!driver_.drop_if_stuck(io::monotonic_now(), limit_())) continue;
-        dropped_.fetch_add(1, std::memory_order_relaxed);
-        if (total_ != nullptr) total_->fetch_add(1, std::memory_order_relaxed);
+        if (driver_.drop_if_stuck(io::monotonic_now(), limit_()))
+            count(dropped_, total_ != nullptr ? &total_->guarded : nullptr);
+        if (looks % kRaisedLook == 0 && driver_.release_if_raised())
+            count(raised_, total_ != nullptr ? &total_->raised : nullptr);
     }
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dpslave/io/driver_enable.hpp"
+#include "dpslave/io/switched_port.hpp"
 
 #include <atomic>
 #include <chrono>
@@ -17,12 +18,14 @@ class DriverGuard {
 public:
     /// How often it looks: a line that is stuck is active for the limit and this, at most.
     static constexpr std::chrono::milliseconds kLook{10};
+    /// Each time that it has looked so often it asks the UART whether another program has raised the line.
+    static constexpr unsigned kRaisedLook = 10;
 
     /// For how long the driver may be active now: twice the longest telegram or request.
     using Limit = std::function<std::chrono::nanoseconds()>;
-    /// `driver` outlives the guard, which does nothing before start(). `total`: counts as dropped() does,
-    /// over guards that come and go.
-    DriverGuard(io::DriverEnable& driver, Limit limit, std::atomic<std::uint64_t>* total = nullptr)
+    /// `driver` outlives the guard, which does nothing before start(). `total`: counts as dropped() and
+    /// raised() do, over guards that come and go.
+    DriverGuard(io::DriverEnable& driver, Limit limit, io::TransceiverCounts* total = nullptr)
         : driver_(driver), limit_(std::move(limit)), total_(total)
     {}
 
@@ -33,14 +36,16 @@ public:
 
     /// How often it made the driver enable inactive. Any thread may ask.
     std::uint64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }
+    /// How often another program had raised it (DriverEnable::release_if_raised()). Any thread may ask.
+    std::uint64_t raised() const { return raised_.load(std::memory_order_relaxed); }
 
 private:
     void watch(const std::stop_token& stop, int priority);
 
     io::DriverEnable& driver_;
     Limit limit_;
-    std::atomic<std::uint64_t>* total_;
-    std::atomic<std::uint64_t> dropped_{0};
+    io::TransceiverCounts* total_;
+    std::atomic<std::uint64_t> dropped_{0}, raised_{0};
     std::jthread thread_;
 };
 

@@ -99,7 +99,7 @@ void LineBackend::start_guard(const config::LineConfig& line, io::TransceiverCou
         return io::monotonic_now() < ends_by.load(std::memory_order_relaxed) ? longest
                                                                              : std::chrono::nanoseconds{};
     };
-    guard_.emplace(port().driver(), limit, &counts.guarded);
+    guard_.emplace(port().driver(), limit, &counts);
     guard_->start(line.sending_priority);
 }
 

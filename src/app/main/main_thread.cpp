@@ -358,6 +358,11 @@ void MainThread::tell_port_events()
         if (!words->is_warning) monitor_.set_bus_trouble(words->text);
         say(words->is_warning ? Severity::warning : Severity::error, words->text);
     }
+    monitor_.set_driver_raised(guard_.raised());
+    if (const std::uint64_t raised = guard_.raised(); std::exchange(raised_seen_, raised) != raised)
+        say(Severity::error,
+            "the driver enable of " + port +
+                " was raised by another program that opened the port; it is released. Find that program: dpctl doctor");
     if (const std::uint64_t dropped = guard_.dropped(); std::exchange(dropped_seen_, dropped) != dropped)
         say(Severity::error,
             "the driver enable of " + port +

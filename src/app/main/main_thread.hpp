@@ -87,8 +87,8 @@ private:
     Instant began_{};             ///< run()
     bool is_group_known_ = false; ///< of the operators
     bool serves_calls_ = false;
-    std::string status_sent_;        ///< to systemd
-    std::uint64_t dropped_seen_ = 0; ///< of the guard, as logged
+    std::string status_sent_;                          ///< to systemd
+    std::uint64_t dropped_seen_ = 0, raised_seen_ = 0; ///< of the guard, as logged
     StalledLines stalled_lines_;
     Silence bus_silence_;
     bool bus_stall_told_ = false;

@@ -101,6 +101,7 @@ void Monitor::refresh()
         station.line_open = line.port_open.load(std::memory_order_relaxed);
         station.late_releases = line.transceiver.late.load(std::memory_order_relaxed);
         station.guarded_releases = line.transceiver.guarded.load(std::memory_order_relaxed);
+        station.driver_raised = line.transceiver.raised.load(std::memory_order_relaxed);
         station.driver_errors = line.transceiver.errors.load(std::memory_order_relaxed);
         station.settings_changed = line.settings_changed.load(std::memory_order_relaxed);
         static_cast<void>(line.changed_settings.fresh());

@@ -41,6 +41,7 @@ public:
     void refresh();
     /// Why the port of the bus is closed, a sentence; it stands until the port is open.
     void set_port_settings(std::string changed) { view_.port_settings = std::move(changed); }
+    void set_driver_raised(std::uint64_t times) { view_.driver_raised = times; }
     void set_bus_trouble(std::string why) { view_.bus_trouble = std::move(why); }
     /// What the control socket has counted up to now.
     void set_calls(const control::ServerCounters& calls) { view_.calls = calls; }

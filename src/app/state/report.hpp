@@ -51,6 +51,7 @@ struct View {
     BusSnapshot bus{};
     /// What another program has changed last of the settings of the port of the bus; empty: nothing.
     std::string port_settings;
+    std::uint64_t driver_raised = 0; ///< times that another program had raised the driver enable of the bus
     std::string bus_trouble; ///< why there is no port; empty: there is one, or the reason is not known
     dp::BusMembers::Table members{};
     std::span<const Station> stations; ///< in the order of config.stations

@@ -51,6 +51,8 @@ Group bus_counters(const View& view)
         "replies that did not go out: those, or the port was closed, or the driver enable did not work");
     add(c, "settings_changed", view.bus.settings_changed,
         "times another program had changed settings of the port, which are set again: dpctl doctor");
+    add(c, "driver_raised", view.driver_raised,
+        "times another program had raised the driver enable by opening the port: dpctl doctor");
     add(c, "driver_errors", view.bus.driver_errors,
         "edges of the driver enable that failed: check gpio_chip, gpio_line and the log");
     add(c, "driver_guarded", view.bus.driver_guarded,
@@ -123,6 +125,8 @@ Group station_counters(const Station& station)
         "of its line: the transceiver was released later than a character behind a request");
     add(c, "line_driver_guarded", station.guarded_releases,
         "of its line: only a guard released the transceiver, the UART did not report that it had sent all");
+    add(c, "line_driver_raised", station.driver_raised,
+        "of its line: times another program had raised the driver enable by opening the port");
     add(c, "line_driver_errors", station.driver_errors,
         "of its line: edges of the driver enable that failed");
     add(c, "demand_orders_lost", dp.orders_lost, "Demand Data orders that the bus side had no room for");

@@ -40,7 +40,7 @@ struct Station {
     std::chrono::nanoseconds line_stalled{};
     io::PortCall stalled_in = io::PortCall::none;
     /// Of the transceiver of its line, where the program switches it (io::TransceiverCounts).
-    std::uint64_t late_releases = 0, guarded_releases = 0, driver_errors = 0;
+    std::uint64_t late_releases = 0, guarded_releases = 0, driver_errors = 0, driver_raised = 0;
     std::uint64_t settings_changed = 0; ///< times that other programs had changed the settings of its line
     std::string port_settings;          ///< what they changed last
     std::uint64_t orders_dropped = 0;   ///< StationLink::orders_dropped

@@ -169,7 +169,11 @@ std::string seen_port(const Facts& f)
 }
 std::string seen_settings(const Facts& f)
 {
-    const Count changed = counted(f.counters, "settings_changed");
+    const Count changed = counted(f.counters, "settings_changed"),
+                raised = counted(f.counters, "driver_raised");
+    if (raised.minute != 0)
+        return fmt::format("RTS of {} was raised by another program {} {}: the bus was blocked", f.bus.port,
+                           plural(raised.minute, "time"), lately(raised));
     if (changed.minute == 0) return {};
     return fmt::format("settings of {} were changed {} {}: {}", f.bus.port, plural(changed.minute, "time"),
                        lately(changed), f.bus.port_settings.value_or("dpslaved does not say which"));
@@ -230,7 +234,8 @@ constexpr std::array kBusRules = std::to_array<Rule>({
      "If another device has that address: switch it on or connect it. Then add this station to the master's "
      "project.",
      kGateway, seen_other_address},
-    {"bus.settings", Rank::recent, "another program has changed settings of the port of the bus",
+    {"bus.settings", Rank::recent,
+     "another program has changed settings of the port of the bus, or raised its RTS",
      "Another program uses the port of the bus",
      "Find that program: sudo fuser -v PORT. A login prompt, a console, ModemManager and brltty do this.\n"
      "Keep it away from this port: docs/guide/hardware.md. The gateway sets its settings again each time.\n"

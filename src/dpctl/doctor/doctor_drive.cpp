@@ -49,8 +49,12 @@ std::string seen_stalled(const Facts& f)
 }
 std::string seen_line_settings(const Facts& f)
 {
-    const Count changed = counted(f.station_counters, "line_settings_changed");
+    const Count changed = counted(f.station_counters, "line_settings_changed"),
+                raised = counted(f.station_counters, "line_driver_raised");
     const report::Drive& d = f.station.drive;
+    if (raised.minute != 0)
+        return fmt::format("RTS of {} was raised by another program {} {}: the line was blocked", d.port,
+                           plural(raised.minute, "time"), lately(raised));
     if (changed.minute == 0) return {};
     return fmt::format("settings of {} were changed {} {}: {}", d.port, plural(changed.minute, "time"),
                        lately(changed), d.port_settings.value_or("dpslaved does not say which"));
@@ -302,7 +306,8 @@ constexpr std::array kDriveRules = std::to_array<Rule>({
      "Correct number: give the row of the tag fewer decimals. Then: dpctl reload\n"
      "Meanwhile the master has the last value that did fit: dpctl io",
      kGateway, seen_own_value},
-    {"drive.settings", Rank::recent, "another program has changed settings of the port of the drive line",
+    {"drive.settings", Rank::recent,
+     "another program has changed settings of the port of the drive line, or raised its RTS",
      "Another program uses the port of the drive line",
      "Find that program: sudo fuser -v PORT. A login prompt, a console, ModemManager and brltty do this.\n"
      "Keep it away from this port: docs/guide/hardware.md. The gateway sets its settings again each time.\n"

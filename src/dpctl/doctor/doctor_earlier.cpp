@@ -19,6 +19,7 @@ constexpr std::array kOfBus = std::to_array<Named>({
     {"retries", "requests that the master repeated"},
     {"write_errors", "replies that the port did not accept"},
     {"settings_changed", "times that another program had changed settings of the port"},
+    {"driver_raised", "times that another program had raised RTS of the port"},
     {"driver_errors", "edges of the driver enable that failed"},
 });
 constexpr std::array kOfStation = std::to_array<Named>({

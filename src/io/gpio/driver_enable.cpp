@@ -15,7 +15,6 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
-#include <cstdio>
 #include <limits>
 #include <mutex>
 
@@ -45,24 +44,6 @@ GpioRequest request_of(const DriverEnableSettings& settings)
             .line = settings.gpio_line,
             .active_low = settings.active_low,
             .consumer = "dpslaved driver enable"};
-}
-
-std::string cannot_switch(const DriverEnableSettings& settings, const std::error_code& error)
-{
-    const std::string how = error.message();
-    if (settings.direction != Direction::gpio)
-        return "driver enable: RTS cannot be switched (" + how + "): choose another way, `direction`";
-    return "driver enable: line " + std::to_string(settings.gpio_line) + " of GPIO chip " +
-           settings.gpio_chip + " cannot be switched (" + how +
-           "): look at the chip and its bus, or choose another line";
-}
-
-std::string microseconds(std::chrono::nanoseconds time)
-{
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.1f us",
-                  std::chrono::duration<double, std::micro>{time}.count());
-    return text.data();
 }
 
 } // namespace
@@ -331,6 +312,24 @@ bool DriverEnable::drop_if_stuck(Instant now, std::chrono::nanoseconds limit) no
     const bool dropped = !h.edge(false);
     h.since.store(dropped ? kInactive : seen, std::memory_order_release);
     return dropped;
+}
+
+bool DriverEnable::release_if_raised() noexcept
+{
+    Held& h = *held_;
+    if (h.settings.direction != Direction::rts) return false;
+    const std::unique_lock lock(h.exchange_mutex, std::try_to_lock);
+    if (!lock || h.port == kNoPort) return false;
+    const auto is_inactive = [&h] {
+        return rts(h.port).value_or(h.settings.active_low) == h.settings.active_low;
+    };
+    if (h.since.load(std::memory_order_acquire) != kInactive || is_inactive()) return false;
+    std::int64_t seen = kInactive; // no reply begins meanwhile
+    if (!h.since.compare_exchange_strong(seen, kGuardAtWork, std::memory_order_acq_rel)) return false;
+    const bool is_raised = !is_inactive(); // or a reply has begun and ended
+    if (is_raised) static_cast<void>(h.edge(false));
+    h.since.store(kInactive, std::memory_order_release);
+    return is_raised;
 }
 
 std::optional<std::string> DriverEnable::self_check()

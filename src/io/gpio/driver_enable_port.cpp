@@ -6,7 +6,9 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
+#include <cstdio>
 
 namespace dpslave::io {
 namespace {
@@ -130,6 +132,24 @@ std::string cannot(int fd, Direction direction, const std::string& why)
 {
     return name_of_port(fd) + " cannot do direction = \"" + std::string{text(direction)} + "\" (" + why +
            "); it can do: " + other_ways(fd, direction);
+}
+
+std::string cannot_switch(const DriverEnableSettings& settings, const std::error_code& error)
+{
+    const std::string how = error.message();
+    if (settings.direction != Direction::gpio)
+        return "driver enable: RTS cannot be switched (" + how + "): choose another way, `direction`";
+    return "driver enable: line " + std::to_string(settings.gpio_line) + " of GPIO chip " +
+           settings.gpio_chip + " cannot be switched (" + how +
+           "): look at the chip and its bus, or choose another line";
+}
+
+std::string microseconds(std::chrono::nanoseconds time)
+{
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.1f us",
+                  std::chrono::duration<double, std::micro>{time}.count());
+    return text.data();
 }
 
 } // namespace dpslave::io

@@ -43,4 +43,9 @@ std::string other_ways(int fd, Direction but);
 /// A sentence: the port cannot do `direction`, why, and what it can do.
 std::string cannot(int fd, Direction direction, const std::string& why);
 
+/// A sentence: the line cannot be switched, why, and what to do.
+std::string cannot_switch(const DriverEnableSettings& settings, const std::error_code& error);
+/// "12.3 us"
+std::string microseconds(std::chrono::nanoseconds time);
+
 } // namespace dpslave::io
