@@ -18,7 +18,7 @@ public:
     /// accept them (unplugged).
     virtual bool write(Bytes octets) = 0;
 
-    /// Of a write() that failed: octets of it may have left all the same, and a drive may answer them.
+    /// Returns true if octets of a write() that failed may have left all the same: a drive may answer them.
     virtual bool may_have_left() const { return false; }
 
     /// Waits at most `timeout` for the first octet, then gives what is there, at least one and at most

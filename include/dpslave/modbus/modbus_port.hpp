@@ -25,7 +25,7 @@ public:
     /// accept it (unplugged).
     virtual bool send(std::uint8_t unit, Bytes pdu) = 0;
 
-    /// Of a send() that failed: octets of it may have left all the same, and the unit may answer them.
+    /// Returns true if octets of a send() that failed may have left all the same: the unit may answer them.
     virtual bool may_have_left() const { return false; }
 
     /// Waits for the next frame, at most until `until`; a frame that has come already is given at once.
