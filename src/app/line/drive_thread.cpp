@@ -311,6 +311,7 @@ std::string DriveThread::not_written(std::size_t unit) const
 void DriveThread::take_change()
 {
     if (next_ || !link_.change.take(next_)) return;
+    next_->begins_at(line_.port);
     leave_until_ = io::monotonic_now() + kSafeStateLimit;
     for (std::size_t i = 0; i < units_.size(); ++i) {
         units_[i].leaves = find_unit(next_->units, units_[i].number) == next_->units.end();

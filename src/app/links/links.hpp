@@ -213,6 +213,21 @@ struct LineChange {
     bool is_other_port = false;             ///< with `opens_port`: standing outputs are written there at once
     bool leaves_drives = false; ///< with `is_other_port`: the drives at the old one go to the safe state
     bool is_held = false;       ///< with `opens_port`: another line has it still, and will close it
+
+    /// It comes in place of `older`, which the line has not taken: both are one.
+    void replaces(LineChange older)
+    {
+        if (!line) line = std::move(older.line);
+        if (older.is_other_port) leaves_drives = older.leaves_drives; // the line is still where it was then
+        if (!opens_port) is_held = older.is_held;
+        opens_port = opens_port || older.opens_port;
+        is_other_port = is_other_port || older.is_other_port;
+    }
+    /// `port`: the one that the line has. Two changes in one may lead back to it.
+    void begins_at(const std::string& port)
+    {
+        if (line && line->port == port) is_other_port = leaves_drives = false;
+    }
 };
 
 /// An order of `dpctl`; its `unit` is found by the number of the station.
