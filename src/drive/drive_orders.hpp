@@ -30,7 +30,7 @@ public:
     void end(Generation generation) { demand_.end(generation); }
     void drive_lost();
     void drop_superseded() { demand_.drop_superseded(); }
-    /// What is left of this order of dpctl is dropped without an answer.
+    /// Drops what is left of this order of dpctl, without an answer.
     void withdraw(std::uint32_t number)
     {
         operates_.withdraw(number);

@@ -40,7 +40,7 @@ public:
     /// row says `once`.
     void done(const Transaction& transaction, const Outcome& outcome, bool proven_by_reading, int retries);
     void drive_lost(); ///< each is answered
-    /// What is left of it is dropped without an answer.
+    /// Drops what is left of this order, without an answer.
     void withdraw(std::uint32_t number)
     {
         std::erase_if(entries_, [number](const Entry& entry) { return entry.order.number == number; });
