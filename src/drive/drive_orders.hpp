@@ -30,11 +30,11 @@ public:
     void end(Generation generation) { demand_.end(generation); }
     void drive_lost();
     void drop_superseded() { demand_.drop_superseded(); }
-    /// Orders of dpctl up to this number are dropped without an answer.
-    void withdraw(std::uint32_t until)
+    /// Drops what is left of this order of dpctl, without an answer.
+    void withdraw(std::uint32_t number)
     {
-        operates_.withdraw(until);
-        survey_.withdraw(until);
+        operates_.withdraw(number);
+        survey_.withdraw(number);
     }
     /// The row of each order is now the one that `row_of` makes of it.
     template <class RowOf>

@@ -2,9 +2,9 @@
 /// The orders of `dpctl read` and `dpctl write` for one drive, each done once, in order.
 #pragma once
 
-#include "generations.hpp"
 #include "transactions.hpp"
 
+#include <cstdint>
 #include <deque>
 #include <optional>
 
@@ -40,10 +40,10 @@ public:
     /// row says `once`.
     void done(const Transaction& transaction, const Outcome& outcome, bool proven_by_reading, int retries);
     void drive_lost(); ///< each is answered
-    /// Those up to this number are dropped without an answer. Numbers go round.
-    void withdraw(std::uint32_t until)
+    /// Drops what is left of this order, without an answer.
+    void withdraw(std::uint32_t number)
     {
-        std::erase_if(entries_, [until](const Entry& entry) { return !is_newer(entry.order.number, until); });
+        std::erase_if(entries_, [number](const Entry& entry) { return entry.order.number == number; });
     }
     std::optional<OperateAnswer> take_answer();
 

@@ -69,9 +69,9 @@ bool Poller::survey(std::size_t unit, std::uint32_t number, std::uint16_t tag,
     return unit < units_.size() && units_[unit]->survey(number, tag, rule);
 }
 
-void Poller::withdraw(std::uint32_t until)
+void Poller::withdraw(std::uint32_t number)
 {
-    for (const auto& unit : units_) unit->withdraw(until);
+    for (const auto& unit : units_) unit->withdraw(number);
 }
 
 /// One transaction a turn, the drives in a circle: what one of them costs, the others do not pay. Between two

@@ -24,7 +24,7 @@ public:
     void set_demand(const DemandOrder& order);
     bool operate(const OperateOrder& order);
     void not_asked(Instant now);
-    void withdraw(std::uint32_t until) { orders_.withdraw(until); }
+    void withdraw(std::uint32_t number) { orders_.withdraw(number); }
     bool survey(std::uint32_t number, std::uint16_t tag, std::optional<MnemonicRule> rule);
 
     void set_zero_after(ZeroAfter after) { safe_state_.set_zero_after(after); }

@@ -2,8 +2,6 @@
 /// Holds the survey read that a drive still has to do, and its result.
 #pragma once
 
-#include "generations.hpp"
-
 #include "dpslave/drive/poller.hpp"
 
 #include <chrono>
@@ -49,9 +47,9 @@ public:
     }
 
     /// OperateQueue::withdraw().
-    void withdraw(std::uint32_t until)
+    void withdraw(std::uint32_t number)
     {
-        if (order_ && !is_newer(*order_, until)) order_.reset();
+        if (order_ == number) order_.reset();
     }
     std::uint32_t number() const { return order_.value_or(0); } ///< of the waiting order; 0: none
 

@@ -70,18 +70,23 @@ protected:
     {
         EXPECT_TRUE(
             lines[line]->link.answers.push({.number = number, .error = AccessError::none, .word = word}));
+        lines[line]->link.order_states.remove(number);
     }
-    /// The line gives no sign; `under_way`: the number of the order that it had begun, 0: none.
-    void stalls(Line line, std::uint32_t under_way = 0)
+    /// The line sends the order, for the first time or again.
+    bool begins(Line line, std::uint32_t number) { return lines[line]->link.order_states.begin(number); }
+    bool has_ended(Line line, std::uint32_t number) const
     {
-        lines[line]->link.operating = under_way;
+        return lines[line]->link.order_states.has_ended(number);
+    }
+    /// The line gives no sign.
+    void stalls(Line line)
+    {
         lines[line]->silent_for = 3s;
         for (Station& station : stations)
             if (station.drive_line == lines[line]) station.line_stalled = 3s;
     }
     void goes_round_again(Line line)
     {
-        lines[line]->link.operating = 0;
         lines[line]->silent_for = {};
         for (Station& station : stations)
             if (station.drive_line == lines[line]) station.line_stalled = {};
@@ -181,17 +186,17 @@ TEST_F(PendingAccess, GivesEachCallerItsOwnAnswerInWhateverOrderTheLinesAnswer)
     EXPECT_TRUE(accesses.empty());
 }
 
-TEST_F(PendingAccess, OfALineThatAnswersIsNotWithdrawn)
+TEST_F(PendingAccess, OfALineThatAnswersDoesNotEnd)
 {
     RawCaller& caller = writes("unwinder", "700");
     accesses.answer(io::monotonic_now());
 
     EXPECT_FALSE(is_answered(caller));
-    EXPECT_EQ(lines[p3]->link.withdrawn, 0u);
+    EXPECT_FALSE(has_ended(p3, 1));
     EXPECT_FALSE(lines[p3]->link.sign->is_given_up());
 }
 
-TEST_F(PendingAccess, OfAStalledLineIsAnsweredAsNotCarriedOutAndWithdrawn)
+TEST_F(PendingAccess, OfAStalledLineIsAnsweredAsNotCarriedOutAndNeverBegun)
 {
     RawCaller& first = writes("unwinder", "700");
     RawCaller& second = writes("winder", "800");
@@ -200,7 +205,8 @@ TEST_F(PendingAccess, OfAStalledLineIsAnsweredAsNotCarriedOutAndWithdrawn)
 
     for (RawCaller* const caller : {&first, &second})
         EXPECT_EQ(reason(*caller), "line p3 has stalled for 3.0 s: it was not carried out");
-    EXPECT_EQ(lines[p3]->link.withdrawn, 2u) << "the line drops both when it goes round again";
+    EXPECT_FALSE(begins(p3, 1)) << "nor when it goes round again";
+    EXPECT_FALSE(begins(p3, 2));
     EXPECT_TRUE(lines[p3]->link.sign->is_given_up()) << "until then it writes nothing";
     EXPECT_TRUE(accesses.empty());
 }
@@ -212,32 +218,71 @@ TEST_F(PendingAccess, ThatTheStalledLineHadBegunIsNotKnownToBeDone)
     RawCaller& behind = writes("winder", "800");
     ASSERT_THAT(takes(p3), ElementsAre(1, 2, 3));
     answers(p3, 1, 600);
-    stalls(p3, 2);
+    ASSERT_TRUE(begins(p3, 2));
+    stalls(p3);
     accesses.answer(io::monotonic_now());
 
     EXPECT_EQ(reply(before).at("parameters").at("raw"), 600) << "its answer had come before";
     EXPECT_THAT(reason(begun), HasSubstr("not known whether it was done"));
     EXPECT_THAT(reason(behind), HasSubstr("it was not carried out"));
     EXPECT_THAT(told(), ElementsAre(AllOf(HasSubstr("unwinder: tag 55 set to 600"), HasSubstr(": done")),
-                                    AllOf(HasSubstr("winder: tag 55 set to 800"),
-                                          HasSubstr("it was not carried out")),
                                     AllOf(HasSubstr("unwinder: tag 55 set to 700"),
-                                          HasSubstr("not known whether it was done"))))
-        << "the newest first";
+                                          HasSubstr("not known whether it was done")),
+                                    AllOf(HasSubstr("winder: tag 55 set to 800"),
+                                          HasSubstr("it was not carried out"))));
+    EXPECT_FALSE(begins(p3, 2)) << "it is not sent again";
 }
 
-TEST_F(PendingAccess, ThatWasWithdrawnDropsALateAnswerAndTheNextOneHasItsOwn)
+/// Between a write and the read that proves it the line has other transactions, and behind a silence.
+TEST_F(PendingAccess, ThatWasSentAndIsNotProvenWhenTheLineStallsIsNotKnownToBeDone)
+{
+    RawCaller& written = writes("unwinder", "700");
+    ASSERT_TRUE(begins(p3, 1));
+    lines[p3]->link.sign->give(io::monotonic_now()); // the transaction is over, and others have come
+    stalls(p3);
+    accesses.answer(io::monotonic_now());
+
+    EXPECT_EQ(reason(written), "line p3 has stalled for 3.0 s: not known whether it was done");
+}
+
+TEST_F(PendingAccess, OfWhichNothingCouldBeSentWasNotCarriedOut)
+{
+    RawCaller& written = writes("unwinder", "700");
+    ASSERT_TRUE(begins(p3, 1));
+    lines[p3]->link.order_states.not_sent(1); // as where the port is missing
+    stalls(p3);
+    accesses.answer(io::monotonic_now());
+
+    EXPECT_THAT(reason(written), HasSubstr("it was not carried out"));
+}
+
+TEST_F(PendingAccess, ThatTheLineHasJustAnsweredGetsThatAnswerAlthoughTheLineStalls)
+{
+    RawCaller& written = writes("unwinder", "700");
+    ASSERT_TRUE(begins(p3, 1));
+    lines[p3]->link.order_states.remove(1); // its answer comes between the two looks
+    stalls(p3);
+    accesses.answer(io::monotonic_now());
+    EXPECT_FALSE(is_answered(written));
+
+    answers(p3, 1, 700);
+    accesses.answer(io::monotonic_now());
+    EXPECT_EQ(reply(written).at("parameters").at("raw"), 700);
+}
+
+TEST_F(PendingAccess, ThatHasEndedDropsALateAnswerAndTheNextOneHasItsOwn)
 {
     RawCaller& late = reads("unwinder");
     ASSERT_THAT(takes(p3), ElementsAre(1));
-    stalls(p3, 1);
+    ASSERT_TRUE(begins(p3, 1));
+    stalls(p3);
     accesses.answer(io::monotonic_now());
     EXPECT_TRUE(is_answered(late));
 
     goes_round_again(p3);
     RawCaller& next = reads("unwinder");
     ASSERT_THAT(takes(p3), ElementsAre(2)) << "no number is given twice";
-    EXPECT_EQ(lines[p3]->link.withdrawn, 1u) << "the new one is not withdrawn";
+    EXPECT_FALSE(has_ended(p3, 2));
     answers(p3, 1, 11);
     accesses.answer(io::monotonic_now());
     EXPECT_FALSE(is_answered(late));
@@ -258,7 +303,7 @@ TEST_F(PendingAccess, OfAnotherLineGoesOn)
 
     EXPECT_TRUE(is_answered(of_unwinder));
     EXPECT_FALSE(is_answered(of_pump));
-    EXPECT_EQ(lines[p4]->link.withdrawn, 0u);
+    EXPECT_FALSE(has_ended(p4, 2));
     EXPECT_FALSE(lines[p4]->link.sign->is_given_up());
     answers(p4, 2, 22);
     accesses.answer(io::monotonic_now());
@@ -284,12 +329,12 @@ TEST_F(PendingAccess, EndsAfterFiveMinutesAlthoughItsLineSaysNothing)
     accesses.answer(before + kLongestWait - 1ns);
     EXPECT_FALSE(is_answered(caller));
     accesses.answer(behind + kLongestWait);
-    EXPECT_EQ(reason(caller), "the drive line has not come to it within 5 minutes");
-    EXPECT_EQ(lines[p3]->link.withdrawn, 1u) << "and it is not carried out later";
-    EXPECT_THAT(told(), ElementsAre(HasSubstr("not known: its drive line did not come to it")));
+    EXPECT_EQ(reason(caller), "the drive line has not come to it within 5 minutes: it was not carried out");
+    EXPECT_FALSE(begins(p3, 1)) << "and it is not carried out later";
+    EXPECT_THAT(told(), ElementsAre(HasSubstr("within 5 minutes: it was not carried out")));
 }
 
-TEST_F(PendingAccess, ThatEndsLateWithdrawsNoneThatIsYounger)
+TEST_F(PendingAccess, ThatEndsLateEndsNoneThatIsYounger)
 {
     reads("unwinder");
     const Instant behind = io::monotonic_now();
@@ -298,7 +343,7 @@ TEST_F(PendingAccess, ThatEndsLateWithdrawsNoneThatIsYounger)
     RawCaller& younger = reads("unwinder");
     accesses.answer(behind + kLongestWait);
 
-    EXPECT_EQ(lines[p3]->link.withdrawn, 1u);
+    EXPECT_TRUE(has_ended(p3, 1));
     EXPECT_FALSE(is_answered(younger));
     ASSERT_THAT(takes(p3), ElementsAre(1, 2));
     answers(p3, 2, 22);
@@ -306,11 +351,29 @@ TEST_F(PendingAccess, ThatEndsLateWithdrawsNoneThatIsYounger)
     EXPECT_EQ(reply(younger).at("parameters").at("raw"), 22);
 }
 
-TEST_F(PendingAccess, WhoseCallerHasGoneIsStillToldToTheLog)
+TEST_F(PendingAccess, WhoseCallerGoesBeforeItsTurnIsNotCarriedOut)
 {
-    writes("unwinder", "700").close();
+    RawCaller& caller = writes("unwinder", "700");
+    accesses.answer(io::monotonic_now());
+    ASSERT_FALSE(has_ended(p3, 1)) << "its caller waits";
+    caller.close();
     control.settle();
-    ASSERT_THAT(takes(p3), ElementsAre(1));
+    accesses.answer(io::monotonic_now());
+
+    EXPECT_FALSE(begins(p3, 1));
+    EXPECT_THAT(told(),
+                ElementsAre(HasSubstr("its caller has gone before its turn: it was not carried out")));
+    EXPECT_TRUE(accesses.empty());
+}
+
+TEST_F(PendingAccess, ThatHasBegunWhenItsCallerGoesIsStillToldToTheLog)
+{
+    RawCaller& caller = writes("unwinder", "700");
+    ASSERT_TRUE(begins(p3, 1));
+    caller.close();
+    control.settle();
+    accesses.answer(io::monotonic_now());
+    EXPECT_THAT(told(), SizeIs(0));
     answers(p3, 1, 700);
     accesses.answer(io::monotonic_now());
 
@@ -318,19 +381,38 @@ TEST_F(PendingAccess, WhoseCallerHasGoneIsStillToldToTheLog)
     EXPECT_TRUE(accesses.empty());
 }
 
-TEST_F(PendingAccess, OfAStationThatLeftByAReloadIsRefusedAndDropsItsAnswer)
+TEST_F(PendingAccess, OfAStationThatLeftByAReloadIsRefusedAndNotCarriedOut)
 {
-    RawCaller& of_unwinder = writes("unwinder", "700");
+    RawCaller& begun = writes("unwinder", "700");
     RawCaller& of_winder = reads("winder");
-    ASSERT_THAT(takes(p3), ElementsAre(1, 2));
+    RawCaller& waits = writes("unwinder", "701");
+    ASSERT_THAT(takes(p3), ElementsAre(1, 2, 3));
+    ASSERT_TRUE(begins(p3, 1));
     accesses.refuse({stations.front()});
 
-    EXPECT_THAT(reason(of_unwinder), HasSubstr("station unwinder has just been changed or removed"));
+    EXPECT_THAT(reason(begun), AllOf(HasSubstr("station unwinder has just been changed or removed"),
+                                     HasSubstr("not known whether it was done")));
+    EXPECT_THAT(reason(waits), HasSubstr("it was not carried out"));
+    EXPECT_FALSE(begins(p3, 1));
+    EXPECT_FALSE(begins(p3, 3));
     answers(p3, 1, 700);
     answers(p3, 2, 22);
     accesses.answer(io::monotonic_now());
-    EXPECT_FALSE(is_answered(of_unwinder));
+    EXPECT_FALSE(is_answered(begun));
     EXPECT_EQ(reply(of_winder).at("parameters").at("raw"), 22);
+}
+
+TEST_F(PendingAccess, AtTheEndOfTheProgramIsNotCarriedOutAndToldAsWhatIsKnown)
+{
+    for (const char* const value : {"700", "701", "702"}) writes("unwinder", value);
+    ASSERT_THAT(takes(p3), ElementsAre(1, 2, 3));
+    answers(p3, 1, 700);
+    ASSERT_TRUE(begins(p3, 2));
+    accesses.end();
+
+    EXPECT_FALSE(begins(p3, 3)) << "between the zeros of the safe state";
+    EXPECT_THAT(told(), ElementsAre(HasSubstr(": done"), HasSubstr("not known whether it was done"),
+                                    HasSubstr("it was not carried out")));
 }
 
 TEST_F(PendingAccess, ThatFindsNoPlaceIsBusyAndTheOthersWait)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // X-49 in words: what holds a station, what reads 0, and what to do.
+#include "app/state/report.hpp"
 #include "device_bench.hpp"
 
 #include <gmock/gmock.h>

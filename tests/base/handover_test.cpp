@@ -51,6 +51,52 @@ TEST(Handover, ShowsWhatIsOfferedBeforeItIsTaken)
     EXPECT_FALSE(handover.taken());
 }
 
+TEST(Handover, GivesBackToTheGiverWhatWasNotTakenYet)
+{
+    Handover<Thing> handover;
+    auto present = std::make_unique<Thing>(1), next = std::make_unique<Thing>(2);
+    EXPECT_EQ(handover.withdraw(), nullptr) << "nothing was offered";
+    ASSERT_TRUE(handover.offer(next));
+
+    next = handover.withdraw();
+
+    ASSERT_NE(next, nullptr);
+    EXPECT_EQ(next->number, 2);
+    EXPECT_TRUE(handover.taken());
+    EXPECT_FALSE(handover.take(present));
+    ASSERT_TRUE(handover.offer(next));
+    ASSERT_TRUE(handover.take(present));
+    EXPECT_EQ(present->number, 2);
+    EXPECT_EQ(handover.withdraw(), nullptr) << "it was taken";
+}
+
+TEST(Handover, GivesEachOfferToOneOfBothWhenItIsTakenAndWithdrawnAtOnce)
+{
+    constexpr int kOffers = 20'000;
+    Handover<Thing> handover;
+    std::atomic<bool> is_over{false};
+    int taken = 0;
+    std::thread user([&] {
+        std::unique_ptr<Thing> present;
+        while (!is_over)
+            if (handover.take(present)) {
+                taken += present->number == present->check ? 1 : 0;
+                present.reset();
+            }
+    });
+    int withdrawn = 0;
+    for (int i = 0; i < kOffers; ++i) {
+        auto next = std::make_unique<Thing>(i);
+        while (!handover.offer(next)) handover.collect();
+        withdrawn += handover.withdraw() ? 1 : 0;
+    }
+    while (!handover.taken()) std::this_thread::yield();
+    is_over = true;
+    user.join();
+    EXPECT_EQ(taken + withdrawn, kOffers);
+    EXPECT_EQ(Thing::alive, 0);
+}
+
 TEST(Handover, GivesBackWhatWasPresent)
 {
     Handover<Thing> handover;

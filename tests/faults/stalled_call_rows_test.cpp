@@ -173,6 +173,35 @@ TEST_F(RowOfAStalledBusPort, F40_WhoseOpenDoesNotComeBackKeepsNeitherDrivesNorCa
     recovered();
 }
 
+TEST_F(StalledCall, F39_OfADriveLineIsNamedByEachReloadAndTheLineTakesTheNewestBehindIt)
+{
+    begins_with(wiring_with("drive-gateway", "write"));
+    ASSERT_TRUE(master_wants(7));
+    ASSERT_TRUE(drive_takes(7));
+    const std::string before = gateway->config_text();
+    const std::string key = "protocol = \"ei-ascii\"\n";
+    stalls();
+    ASSERT_TRUE(has_stalled());
+    for (const char* const retries : {"retries = 1\n", "retries = 5\n"}) {
+        std::string text = before;
+        write_file(gateway->config(), text.insert(text.find(key), retries));
+        const Outcome reload = gateway->dpctl({"reload"});
+        EXPECT_EQ(reload.status, 0) << reload.err;
+        EXPECT_THAT(reload.out, HasSubstr("line p3: retries"));
+        EXPECT_THAT(reload.out, HasSubstr("line p3 has stalled in write for "));
+        EXPECT_THAT(reload.out, HasSubstr("and has not taken the new configuration yet"));
+    }
+
+    fault_ends();
+    comes_back();
+    ASSERT_TRUE(master_wants(9));
+    EXPECT_TRUE(drive_takes(9));
+    recovered();
+    const Outcome last = gateway->dpctl({"reload"});
+    EXPECT_THAT(last.out, ::testing::Not(HasSubstr("has stalled")));
+    EXPECT_TRUE(never_an_older_one(seen()));
+}
+
 TEST_F(StalledCall, F41_OfADriveLineIsNamedAtTheEndWhichTheOtherLinesAndTheBusDoNotWaitFor)
 {
     begins_with(wiring_with("drive-gateway", "write"));

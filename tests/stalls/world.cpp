@@ -192,16 +192,25 @@ void World::main_turn()
 void World::fail_orders()
 {
     if (waiting_.empty()) return;
-    const std::uint32_t under_way = drive_line_.withdraw(orders_);
-    for (const std::uint32_t one : std::exchange(waiting_, {})) judge_.fails(one, one != under_way, now_);
+    using End = app::OrderStates::End;
+    for (const std::uint32_t one : std::exchange(waiting_, {})) {
+        const End end = drive_line_.link.order_states.end(one);
+        if (end == End::answered)
+            waiting_.push_back(one);
+        else
+            judge_.fails(one, end == End::not_begun, now_);
+    }
+    drive_line_.link.sign->give_up();
 }
 
 void World::order(std::size_t drive, std::uint16_t tag, std::optional<std::uint16_t> word)
 {
     if (view_is_old_[drive] || judge_.main_thread.is_stalled()) return;
+    if (!drive_line_.link.order_states.add(orders_ + 1)) return;
     const drive::OperateOrder order{
         .number = ++orders_, .unit = 0, .is_write = word.has_value(), .tag = tag, .word = word.value_or(0)};
-    if (!drive_line_.link.orders.push({.station = units_[drive].number, .order = order})) return;
+    if (!drive_line_.link.orders.push({.station = units_[drive].number, .order = order}))
+        return drive_line_.link.order_states.take_back(orders_);
     judge_.orders(orders_, drive, word);
     waiting_.push_back(orders_);
 }

@@ -35,6 +35,15 @@ public:
     {
         return std::unique_ptr<T>{used_up_.exchange(nullptr, std::memory_order_acquire)};
     }
+    /// Giver: takes back what was offered; nullptr: there is nothing, or the user takes it at this moment.
+    /// Only where the user never calls offered().
+    std::unique_ptr<T> withdraw() noexcept
+    {
+        T* offer = offered_.load(std::memory_order_acquire);
+        const bool is_mine = offer != nullptr && offer != being_taken() &&
+                             offered_.compare_exchange_strong(offer, nullptr, std::memory_order_acq_rel);
+        return std::unique_ptr<T>{is_mine ? offer : nullptr};
+    }
     /// Giver: true if the user has taken the last offer.
     bool taken() const noexcept { return offered_.load(std::memory_order_acquire) == nullptr; }
 
@@ -45,15 +54,20 @@ public:
     /// back to the giver, which may destroy it at once.
     bool take(std::unique_ptr<T>& present) noexcept
     {
-        std::unique_ptr<T> next{offered_.load(std::memory_order_acquire)};
-        if (!next) return false;
+        T* next = offered_.load(std::memory_order_acquire);
+        if (next == nullptr) return false;
+        if (!offered_.compare_exchange_strong(next, being_taken(), std::memory_order_acq_rel))
+            return false; // it was withdrawn
         used_up_.store(present.release(), std::memory_order_release);
-        present = std::move(next);
+        present.reset(next);
         offered_.store(nullptr, std::memory_order_release); // last: the giver may offer again from here on
         return true;
     }
 
 private:
+    /// Stands for an object that the user takes at this moment; no object has this address.
+    T* being_taken() noexcept { return static_cast<T*>(static_cast<void*>(this)); }
+
     std::atomic<T*> offered_{nullptr};
     std::atomic<T*> used_up_{nullptr};
 };

@@ -235,10 +235,9 @@ public:
     bool survey(std::size_t unit, std::uint32_t number, std::uint16_t tag,
                 std::optional<MnemonicRule> rule = std::nullopt);
 
-    /// Orders of operate() and survey() up to this number were answered by somebody else, of any drive:
-    /// those that wait are dropped without an answer. Numbers go round. Precondition: no transaction is under
-    /// way.
-    void withdraw(std::uint32_t until);
+    /// The order of operate() or survey() with this number was answered by somebody else, whatever its drive:
+    /// what is left of it is dropped without an answer. Precondition: no transaction is under way.
+    void withdraw(std::uint32_t number);
 
     /// What to do now; nothing = wait until next_deadline() or until something new is set. Then also what can
     /// be seen may have changed: that a drive is gone is not shown behind one more question.

@@ -9,6 +9,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <set>
 
 namespace dpslave::app {
 
@@ -113,6 +114,12 @@ Result<std::optional<drive::MnemonicRule>, Error> rule_of(const Json& parameters
                           {"reason", "a rule is 590plus, ac, pno or none"}}}};
 }
 
+/// What is known of an order that is ended without its answer.
+std::string_view outcome_of(OrderStates::End end)
+{
+    return end == OrderStates::End::begun ? "not known whether it was done" : "it was not carried out";
+}
+
 } // namespace
 
 /// Few accesses can wait for a drive: no user may take all places.
@@ -138,10 +145,15 @@ Reply PendingAccesses::order(const Station& station, Access access)
                                     .is_write = access.is_write,
                                     .tag = access.tag,
                                     .word = access.word};
-    if (!has_place_for(access.caller) ||
-        !station.drive_line->link.orders.push({station.number, order, access.is_survey, access.rule}))
+    LineLink& link = station.drive_line->link;
+    if (!has_place_for(access.caller) || !link.order_states.add(order.number))
         return Error{"Busy", Json::object()};
+    if (!link.orders.push({station.number, order, access.is_survey, access.rule})) {
+        link.order_states.take_back(order.number);
+        return Error{"Busy", Json::object()};
+    }
     access.config = station.config;
+    access.line = station.drive_line;
     const control::ReplyTo to = access.caller.reply_to;
     waiting_.add({.to = to,
                   .station = station.number,
@@ -232,10 +244,14 @@ void PendingAccesses::log_write(const Access& access, std::string_view outcome) 
                      io::monotonic_now());
 }
 
-void PendingAccesses::log_unanswered()
+void PendingAccesses::end()
 {
-    waiting_.each([this](std::uint32_t, const Waiting::Call& call) {
-        if (call.what.is_write) log_write(call.what, "the program ended before the drive answered");
+    take_answers();
+    waiting_.each([this](std::uint32_t number, const Waiting::Call& call) {
+        const OrderStates::End end = call.what.line->link.order_states.end(number);
+        if (call.what.is_write)
+            log_write(call.what,
+                      fmt::format("the program ended before the drive answered: {}", outcome_of(end)));
     });
 }
 
@@ -299,7 +315,21 @@ control::LastReply PendingAccesses::survey_reply(const Waiting::Call& call,
 
 void PendingAccesses::answer(Instant now)
 {
-    for (const auto& line : lines_) {
+    take_answers();
+    end_of_stalled_lines();
+    end_of_callers_gone();
+    waiting_.end_late(now, [this](std::uint32_t number, const Waiting::Call& call) {
+        return refuse(number, call,
+                      fmt::format("{} within {} minutes", report::kLineDidNotServe, kLongestWait.count()));
+    });
+}
+
+/// Also those of lines that have left by a reload.
+void PendingAccesses::take_answers()
+{
+    std::set<std::shared_ptr<DriveLine>> lines{lines_.begin(), lines_.end()};
+    waiting_.each([&](std::uint32_t, const Waiting::Call& call) { lines.insert(call.what.line); });
+    for (const auto& line : lines) {
         while (const auto answer = line->link.answers.pop()) {
             const auto call = waiting_.take(answer->number);
             if (!call) continue;
@@ -309,52 +339,57 @@ void PendingAccesses::answer(Instant now)
             call->to.end(call->what.is_survey ? survey_reply(*call, *answer) : reply(*call, *answer));
         }
     }
-    withdraw_from_stalled_lines();
-    waiting_.end_late(now, [this](std::uint32_t number, const Waiting::Call& call) {
-        const Station* const station = monitor_.find(call.station);
-        if (station != nullptr) station->drive_line->answered_until(number);
-        refuse(call, fmt::format("{} within {} minutes", report::kLineDidNotServe, kLongestWait.count()),
-               "not known: its drive line did not come to it");
-    });
 }
 
-void PendingAccesses::withdraw_from_stalled_lines()
+void PendingAccesses::end_of_stalled_lines()
 {
     for (const Station& station : monitor_.view().stations)
-        if (station.line_stalled.count() != 0) withdraw(*station.drive_line);
+        if (station.line_stalled.count() != 0) end_of(*station.drive_line);
 }
 
-/// Its orders are answered here.
-void PendingAccesses::withdraw(DriveLine& line)
+/// Its orders are answered here, and it carries none of them out later. It writes nothing from give_up() on,
+/// until it has seen that they have ended.
+void PendingAccesses::end_of(DriveLine& line)
 {
-    const auto is_of_line = [&](const Waiting::Call& call) {
-        const Station* const station = monitor_.find(call.station);
-        return station != nullptr && station->drive_line.get() == &line;
-    };
+    const auto is_of_line = [&](const Waiting::Call& call) { return call.what.line.get() == &line; };
     if (waiting_.count(is_of_line) == 0) return;
-    const std::uint32_t under_way = line.withdraw(waiting_.next_number() - 1);
     const std::string stall = stall_words(line, line.silent_for);
     waiting_.end_where(is_of_line, [&](std::uint32_t number, const Waiting::Call& call) {
-        const std::string_view outcome =
-            number == under_way ? "not known whether it was done" : "it was not carried out";
-        refuse(call, fmt::format("{}: {}", stall, outcome), fmt::format("{}: {}", stall, outcome));
+        return refuse(number, call, stall);
+    });
+    line.link.sign->give_up();
+}
+
+/// Nobody expects it any more. What has begun goes on: the log says what has become of it.
+void PendingAccesses::end_of_callers_gone()
+{
+    const auto has_gone = [](const Waiting::Call& call) { return !call.to.is_open(); };
+    waiting_.end_where(has_gone, [this](std::uint32_t number, const Waiting::Call& call) {
+        if (!call.what.line->link.order_states.end_unless_begun(number)) return false;
+        if (call.what.is_write)
+            log_write(call.what, "its caller has gone before its turn: it was not carried out");
+        return true;
     });
 }
 
-/// `outcome`: what the log says of a write.
-void PendingAccesses::refuse(const Waiting::Call& call, const std::string& reason,
-                             std::string_view outcome) const
+/// False: it was not refused, for the line has just answered it.
+bool PendingAccesses::refuse(std::uint32_t number, const Waiting::Call& call, const std::string& reason) const
 {
-    if (call.what.is_write) log_write(call.what, outcome);
-    call.to.end(Error{"DriveRefused", {{"tag", call.what.tag}, {"reason", reason}, {"code", nullptr}}});
+    const OrderStates::End end = call.what.line->link.order_states.end(number);
+    if (end == OrderStates::End::answered) return false;
+    const std::string words = fmt::format("{}: {}", reason, outcome_of(end));
+    if (call.what.is_write) log_write(call.what, words);
+    call.to.end(Error{"DriveRefused", {{"tag", call.what.tag}, {"reason", words}, {"code", nullptr}}});
+    return true;
 }
 
 void PendingAccesses::refuse(const std::vector<Station>& left)
 {
-    waiting_.end_of(left, [this](std::uint32_t, const Waiting::Call& call) {
-        refuse(call,
-               fmt::format("station {} has just been changed or removed by a reload", call.what.config->name),
-               "the station was changed or removed by a reload");
+    take_answers();
+    waiting_.end_of(left, [this](std::uint32_t number, const Waiting::Call& call) {
+        return refuse(
+            number, call,
+            fmt::format("station {} has just been changed or removed by a reload", call.what.config->name));
     });
 }
 

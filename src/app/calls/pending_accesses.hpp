@@ -32,16 +32,18 @@ public:
                           const control::Caller& caller);
 
     bool empty() const { return waiting_.empty(); }
-    /// Sends what the drives have answered since the last call, and refuses what has waited too long.
+    /// Sends what the drives have answered since the last call, and refuses what has waited too long. What
+    /// has not begun when its caller goes is not carried out.
     void answer(Instant now);
     /// Refuses those of stations that left by a reload.
     void refuse(const std::vector<Station>& left);
-    /// Logs each write whose answer has not come before the end of the program.
-    void log_unanswered();
+    /// The program ends: nothing that waits is carried out. Logs each write.
+    void end();
 
 private:
     struct Access {
         std::shared_ptr<const config::StationConfig> config;
+        std::shared_ptr<DriveLine> line; ///< that has the order
         std::uint16_t tag = 0;
         std::uint16_t word = 0;
         bool is_write = false;
@@ -53,10 +55,12 @@ private:
     };
 
     using Waiting = WaitingCalls<Access>;
-    void refuse(const Waiting::Call& call, const std::string& reason, std::string_view outcome) const;
+    bool refuse(std::uint32_t number, const Waiting::Call& call, const std::string& reason) const;
     control::Reply order(const Station& station, Access access);
-    void withdraw_from_stalled_lines();
-    void withdraw(DriveLine& line);
+    void take_answers();
+    void end_of_stalled_lines();
+    void end_of(DriveLine& line);
+    void end_of_callers_gone();
     bool has_place_for(const control::Caller& caller) const;
     control::LastReply reply(const Waiting::Call& call, const drive::OperateAnswer& answer) const;
     control::LastReply survey_reply(const Waiting::Call& call, const drive::OperateAnswer& answer) const;

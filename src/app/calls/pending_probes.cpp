@@ -9,6 +9,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace dpslave::app {
@@ -46,6 +47,10 @@ report::ProbeDriveReply PendingProbes::progress(const Probe& probe, std::uint32_
 Reply PendingProbes::start(const Station& station, const Json& parameters, const control::Caller& caller)
 {
     const config::LineConfig& line = *station.line;
+    if (station.line_stalled.count() != 0)
+        return Error{"ProbeEnded",
+                     {{"station", station.config->name},
+                      {"reason", stall_words(*station.drive_line, station.line_stalled)}}};
     const bool is_confirmed = parameters.value("yes", false);
     Json exchanging = Json::array();
     for (const Station& one : monitor_.view().stations)
@@ -53,9 +58,13 @@ Reply PendingProbes::start(const Station& station, const Json& parameters, const
             exchanging.push_back(one.config->name);
     if (!exchanging.empty() && !is_confirmed)
         return Error{"LineInUse", {{"line", line.name}, {"stations", std::move(exchanging)}}};
-    if (waiting_.size() >= kMaxProbes ||
-        !station.drive_line->link.probes.push({.number = waiting_.next_number(), .station = station.number}))
+    LineLink& link = station.drive_line->link;
+    const std::uint32_t number = waiting_.next_number();
+    if (waiting_.size() >= kMaxProbes || !link.probe_states.add(number)) return Error{"Busy", Json::object()};
+    if (!link.probes.push({.number = number, .station = station.number})) {
+        link.probe_states.take_back(number);
         return Error{"Busy", Json::object()};
+    }
     spdlog::info("{}: search for the drive on line {}, started by {}", station.config->name, line.name,
                  words_of(caller));
     const drive::LineSearch search = probe_search(line, *station.config, {});
@@ -83,41 +92,68 @@ void PendingProbes::answer(const ProbeReport& report)
     call->to.end(Done{json_of(reply)});
 }
 
-/// The line stops asking, if it has not begun or not ended.
-void PendingProbes::end(std::uint32_t number, const Waiting::Call& call, std::string_view reason)
+/// The line stops asking, or does not begin. False: the line has come to an end, and its report is there.
+bool PendingProbes::end(std::uint32_t number, const Waiting::Call& call, std::string_view reason)
 {
-    call.what.drive_line->link.probe_ended.store(number, std::memory_order_relaxed);
+    if (call.what.drive_line->link.probe_states.end(number) == OrderStates::End::answered) return false;
     call.to.end(Error{"ProbeEnded", {{"station", call.what.config->name}, {"reason", reason}}});
+    return true;
 }
 
 void PendingProbes::refuse(const std::vector<Station>& left)
 {
+    take_reports();
     waiting_.end_of(left, [](std::uint32_t number, const Waiting::Call& call) {
-        end(number, call, "the station was changed or removed by a reload");
+        return end(number, call, "the station was changed or removed by a reload");
     });
 }
 
-/// The first probe of a line is the one that it carries out.
-void PendingProbes::answer(DriveLine& line)
+/// A line that stalls asks nothing, and does not begin when it goes round again.
+void PendingProbes::end_of_stalled_lines()
 {
-    LineLink& link = line.link;
-    while (const auto report = link.probe_reports.pop()) answer(*report);
-    const std::uint32_t tried = link.probe_tried.load(std::memory_order_relaxed);
-    bool is_first = true;
-    waiting_.each([&](std::uint32_t number, Waiting::Call& call) {
-        if (call.what.drive_line.get() != &line || !std::exchange(is_first, false)) return;
-        if (!call.to.is_open())
-            link.probe_ended.store(number, std::memory_order_relaxed);
-        else if (std::exchange(call.what.sent, tried) != tried)
-            call.to.send(json_of(progress(call.what, tried)));
+    for (const Station& station : monitor_.view().stations) {
+        if (station.line_stalled.count() == 0) continue;
+        const auto is_of_line = [&](const Waiting::Call& call) {
+            return call.what.drive_line == station.drive_line;
+        };
+        waiting_.end_where(is_of_line, [&](std::uint32_t number, const Waiting::Call& call) {
+            return end(number, call, stall_words(*station.drive_line, station.line_stalled));
+        });
+    }
+}
+
+/// Also those of lines that have left by a reload.
+void PendingProbes::take_reports()
+{
+    std::set<std::shared_ptr<DriveLine>> lines{lines_.begin(), lines_.end()};
+    waiting_.each([&](std::uint32_t, const Waiting::Call& call) { lines.insert(call.what.drive_line); });
+    for (const auto& line : lines)
+        while (const auto report = line->link.probe_reports.pop()) answer(*report);
+}
+
+/// The first probe of a line is the one that it carries out.
+void PendingProbes::send_progress()
+{
+    std::set<const DriveLine*> told;
+    waiting_.each([&](std::uint32_t, Waiting::Call& call) {
+        const DriveLine* const line = call.what.drive_line.get();
+        if (!told.insert(line).second) return;
+        const std::uint32_t tried = line->link.probe_tried.load(std::memory_order_relaxed);
+        if (std::exchange(call.what.sent, tried) != tried) call.to.send(json_of(progress(call.what, tried)));
     });
 }
 
 void PendingProbes::answer(Instant now)
 {
-    for (const auto& line : lines_) answer(*line);
+    take_reports();
+    send_progress();
+    waiting_.end_where([](const Waiting::Call& call) { return !call.to.is_open(); },
+                       [](std::uint32_t number, const Waiting::Call& call) {
+                           return end(number, call, "its caller has gone");
+                       });
+    end_of_stalled_lines();
     waiting_.end_late(now, [](std::uint32_t number, const Waiting::Call& call) {
-        end(number, call, "its drive line did not come to an end");
+        return end(number, call, "its drive line did not come to an end");
     });
 }
 

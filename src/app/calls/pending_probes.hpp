@@ -23,7 +23,8 @@ public:
     /// A call with "more" gets the progress. The probe ends when its caller goes.
     control::Reply start(const Station& station, const control::Json& parameters,
                          const control::Caller& caller);
-    /// Sends progress and results, and ends the probes whose callers have gone or that have taken too long.
+    /// Sends progress and results, and ends the probes whose callers have gone, whose lines stall, or that
+    /// have taken too long.
     void answer(Instant now);
     /// Ends those of stations that left by a reload: what their line has found reaches nobody.
     void refuse(const std::vector<Station>& left);
@@ -41,8 +42,10 @@ private:
     using Waiting = WaitingCalls<Probe>;
     static report::ProbeDriveReply progress(const Probe& probe, std::uint32_t tried);
     void answer(const ProbeReport& report);
-    static void end(std::uint32_t number, const Waiting::Call& call, std::string_view reason);
-    void answer(DriveLine& line);
+    static bool end(std::uint32_t number, const Waiting::Call& call, std::string_view reason);
+    void take_reports();
+    void send_progress();
+    void end_of_stalled_lines();
 
     const Monitor& monitor_;
     const DriveLines& lines_;

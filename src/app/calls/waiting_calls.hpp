@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <utility>
@@ -52,13 +53,14 @@ public:
         return static_cast<std::size_t>(
             std::count_if(calls_.begin(), calls_.end(), [&](const auto& one) { return has(one.second); }));
     }
-    /// Those that are due wait no longer. `end(number, call)` sends their last replies.
+    /// Those that are due wait no longer. `end(number, call)` sends their last replies; false: it waits on,
+    /// for the line has just answered it.
     template <class End>
     void end_late(Instant now, End end)
     {
         end_if([now](const Call& call) { return call.due <= now; }, end);
     }
-    /// The same for the calls of stations that left by a reload: their lines answer nobody.
+    /// The same for the calls of stations that left by a reload.
     template <class End>
     void end_of(const std::vector<Station>& left, End end)
     {
@@ -77,15 +79,12 @@ public:
     }
 
 private:
-    /// The newest first, so that a line is told last to end the order that it carries out.
     template <class Is, class End>
     void end_if(Is is, End end)
     {
-        for (auto one = calls_.end(); one != calls_.begin();) {
-            --one;
-            if (!is(one->second)) continue;
-            end(one->first, one->second);
-            one = calls_.erase(one);
+        for (auto one = calls_.begin(); one != calls_.end();) {
+            const bool ends = is(one->second) && end(one->first, one->second);
+            one = ends ? calls_.erase(one) : std::next(one);
         }
     }
 

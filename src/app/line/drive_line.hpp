@@ -39,13 +39,6 @@ struct DriveLine {
     /// Silence::kLongestLook.
     std::chrono::nanoseconds look(Instant now) { return silent_for = silence.look(link.sign->last(), now); }
 
-    /// Orders up to this number are answered without it, and it does not carry them out later. It only grows,
-    /// in whatever order calls end; numbers go round.
-    void answered_until(std::uint32_t number);
-    /// The same of a line that stalls: it writes nothing until it has taken note. Returns the order of which
-    /// nobody knows whether it was carried out, since it had been begun before; 0: none.
-    std::uint32_t withdraw(std::uint32_t until);
-
     config::LineConfig config;
     LineLink link;
     Silence silence;

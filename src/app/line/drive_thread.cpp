@@ -29,12 +29,6 @@ bool is_refusal(AccessError error)
     return error != AccessError::none && error != AccessError::no_answer && error != AccessError::deferred;
 }
 
-/// Numbers go round.
-bool is_withdrawn(std::uint32_t order, std::uint32_t until)
-{
-    return static_cast<std::int32_t>(order - until) <= 0;
-}
-
 template <class Units>
 auto find_unit(Units& units, std::uint32_t number)
 {
@@ -52,6 +46,7 @@ DriveThread::DriveThread(config::LineConfig line, bool port_is_held, const std::
       port_(port_is_held, listeners_of(link)),
       units_(units.begin(), units.end()),
       poller_(poller_settings(units, line_), LineBackend::block_rule(line_)),
+      orders_(link, poller_, units_),
       troubles_(link.happenings, link.troubles),
       words_(LineBackend::block_rule(line_).max_tags)
 {
@@ -88,39 +83,22 @@ void DriveThread::run(const std::stop_token& stop, io::EventFd& wake)
     io::set_sign_of_this_thread(nullptr);
 }
 
-/// An order for a drive that is about to come waits for it: the highest numbers are the newest.
 void DriveThread::fetch()
 {
     for (std::size_t i = 0; i < units_.size(); ++i) units_[i].fetch(poller_, i);
-    while (const auto order = link_.orders.pop()) {
-        if (is_withdrawn(order->order.number, link_.withdrawn.load())) continue;
-        const bool is_early = std::all_of(units_.begin(), units_.end(),
-                                          [&](const LineUnit& unit) { return unit.number < order->station; });
-        if (is_early)
-            early_orders_.push_back(*order);
-        else
-            apply(*order);
-    }
+    orders_.fetch();
 }
 
-void DriveThread::apply(LineOrder order)
-{
-    order.order.unit = static_cast<std::size_t>(find_unit(units_, order.station) - units_.begin());
-    const bool taken = order.is_survey
-                           ? poller_.survey(order.order.unit, order.order.number, order.order.tag, order.rule)
-                           : poller_.operate(order.order);
-    if (!taken) // also where the station has left the line in the meantime
-        link_.answers.push({.number = order.order.number, .error = AccessError::no_answer, .word = 0});
-}
-
+/// An order that has just ended is not sent: the poller forgets it in the next round.
 void DriveThread::carry_out(const drive::Transaction& transaction)
 {
     const LineUnit& unit = units_[transaction.unit];
-    link_.operating.store(transaction.order); // before the port is asked whether this thread was given up
-    const drive::Outcome outcome =
-        port_.open(line_) ? exchange_with(unit, transaction)
-                          : drive::Outcome{.error = AccessError::no_answer, .words = {}, .sent = false};
-    link_.operating.store(0);
+    drive::Outcome outcome{.error = AccessError::no_answer, .words = {}, .sent = false};
+    if (transaction.order != 0 && !orders_.begin(transaction.order))
+        outcome.error = AccessError::deferred;
+    else if (port_.open(line_))
+        outcome = exchange_with(unit, transaction);
+    if (transaction.order != 0) orders_.done(transaction.order, outcome.sent);
     log_transaction(line_.name, unit, transaction, outcome);
     note_heard();
     poller_.done(outcome, io::monotonic_now());
@@ -163,7 +141,7 @@ void DriveThread::publish()
         units_[i].publish(poller_, i, heard);
         units_[i].sample(poller_.snapshot(i), link_.samples);
     }
-    while (const auto answer = poller_.take_operate_answer()) link_.answers.push(*answer);
+    orders_.answer();
     if (backend != nullptr) backend->tell_port_messages();
     for (std::size_t i = 0; i < units_.size(); ++i) units_[i].tell(poller_.snapshot(i), link_.happenings);
 }
@@ -200,7 +178,7 @@ void DriveThread::recover()
 void DriveThread::note_stalls()
 {
     link_.sign->clear_given_up();
-    poller_.withdraw(link_.withdrawn.load());
+    orders_.drop_ended(); // behind clear_given_up(): what was ended before that is seen
     bool is_new = false;
     for (std::size_t i = 0; i < units_.size(); ++i)
         if (units_[i].note_stall(poller_, i, io::monotonic_now())) is_new = true;
@@ -234,19 +212,24 @@ void DriveThread::lose_master()
             line_.name, others_.which()));
 }
 
-/// The line does nothing else meanwhile; its own port is closed for it and opened again like one that was not
-/// there.
+/// The line does nothing else meanwhile, unless outputs have to go to their safe state; its own port is
+/// closed for it and opened again like one that was not there.
 void DriveThread::probe(const ProbeOrder& order, const std::stop_token& stop)
 {
     link_.probe_tried.store(0, std::memory_order_relaxed);
     ProbeReport report{.number = order.number, .tried = 0, .answers = {}, .count = 0};
-    if (const auto unit = find_unit(units_, order.station); unit != units_.end() && !unit->leaves) {
+    const auto unit = find_unit(units_, order.station);
+    const bool is_wanted = link_.probe_states.begin(order.number); // its caller may have gone since
+    if (is_wanted && unit != units_.end() && !unit->leaves) {
         port_.close();
         for (std::size_t i = 0; i < units_.size(); ++i) poller_.not_asked(i, io::monotonic_now());
         publish();
-        report = run_probe(order, line_, *unit, units_, link_, stop);
+        report = run_probe(order, line_, *unit, units_, link_, [&] {
+            return stop.stop_requested() || master_is_lost_ || link_.probe_states.has_ended(order.number);
+        });
     }
     link_.probe_reports.push(report);
+    link_.probe_states.remove(order.number);
 }
 
 /// Until the next deadline, but not longer than an order of the master may wait.
@@ -280,6 +263,7 @@ void DriveThread::write_safe_state()
 {
     const Instant end = link_.ends_by.load(std::memory_order_relaxed);
     fetch();
+    orders_.drop_all();
     // Usually the bus has said so; one that hangs or has failed has not.
     for (std::size_t i = 0; i < units_.size(); ++i) {
         poller_.left_data_exchange(i, {.generation = units_[i].layout()});
@@ -328,6 +312,7 @@ std::string DriveThread::not_written(std::size_t unit) const
 void DriveThread::take_change()
 {
     if (next_ || !link_.change.take(next_)) return;
+    next_->begins_at(line_.port);
     leave_until_ = io::monotonic_now() + kSafeStateLimit;
     for (std::size_t i = 0; i < units_.size(); ++i) {
         units_[i].leaves = find_unit(next_->units, units_[i].number) == next_->units.end();
@@ -382,7 +367,7 @@ void DriveThread::apply_change()
     port_.set_units(next_->units);
     words_.resize(std::max<std::size_t>(words_.size(), rule.max_tags)); // those that stay keep their rule
     troubles_.keep_only(next_->units);
-    for (const LineOrder& order : std::exchange(early_orders_, {})) apply(order);
+    orders_.on_other_drives();
     next_.reset();
     link_.changes_done.fetch_add(1, std::memory_order_release);
 }

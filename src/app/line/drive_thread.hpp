@@ -6,6 +6,7 @@
 
 #include "app/links/links.hpp"
 #include "app/log/limited_log.hpp"
+#include "line_orders.hpp"
 #include "line_port.hpp"
 #include "line_unit.hpp"
 #include "other_threads.hpp"
@@ -49,7 +50,6 @@ private:
     static_assert(LinePort::kPatience > kSafeStateLimit, "a line that leaves a port writes there first");
 
     void fetch();
-    void apply(LineOrder order);
     void carry_out(const drive::Transaction& transaction);
     drive::Outcome exchange_with(const LineUnit& unit, const drive::Transaction& transaction);
     void publish();
@@ -77,9 +77,9 @@ private:
     LinePort port_;
     std::vector<LineUnit> units_;
     drive::Poller poller_;
+    LineOrders orders_;
     std::unique_ptr<LineChange> next_; ///< applied when the drives that leave are in their safe state
     Instant leave_until_{};
-    std::vector<LineOrder> early_orders_; ///< for drives that are among the next ones
     TroubleLog troubles_;
     std::vector<std::uint16_t> words_;
     std::string survey_trouble_; ///< of the survey read under way

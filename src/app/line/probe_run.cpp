@@ -37,7 +37,8 @@ drive::Sight ask(const config::LineConfig& line, const drive::SearchQuestion& qu
 } // namespace
 
 ProbeReport run_probe(const ProbeOrder& order, const config::LineConfig& line, const LineUnit& unit,
-                      const std::vector<LineUnit>& units, LineLink& link, const std::stop_token& stop)
+                      const std::vector<LineUnit>& units, LineLink& link,
+                      const std::function<bool()>& has_to_end)
 {
     spdlog::info("{}: searching for the drive on {} with other rates, formats and units", unit.config->name,
                  line.port);
@@ -48,7 +49,7 @@ ProbeReport run_probe(const ProbeOrder& order, const config::LineConfig& line, c
     const Instant ends = io::monotonic_now() + search.longest();
     bool is_ended = false;
     while (const auto question = search.next()) {
-        is_ended = stop.stop_requested() || link.probe_ended.load(std::memory_order_relaxed) == order.number;
+        is_ended = has_to_end();
         if (is_ended || io::monotonic_now() >= ends) break;
         link.probe_tried.store(search.asked() + 1, std::memory_order_relaxed);
         drive::Sight sight = ask(line, *question, link);

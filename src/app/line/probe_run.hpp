@@ -7,15 +7,16 @@
 
 #include "dpslave/config/config.hpp"
 
-#include <stop_token>
+#include <functional>
 #include <vector>
 
 namespace dpslave::app {
 
 /// Looks for the drive of `unit` on `line` with other rates, formats and units, until it answers, all was
-/// asked, LineLink::probe_ended has the order's number, or `stop`. No back-end of the line has the port
+/// asked, or `has_to_end()`, which is called before each question. No back-end of the line has the port
 /// meanwhile. `units`: all of the line; the address of another one is not asked.
 ProbeReport run_probe(const ProbeOrder& order, const config::LineConfig& line, const LineUnit& unit,
-                      const std::vector<LineUnit>& units, LineLink& link, const std::stop_token& stop);
+                      const std::vector<LineUnit>& units, LineLink& link,
+                      const std::function<bool()>& has_to_end);
 
 } // namespace dpslave::app

@@ -6,6 +6,7 @@
 
 #include "line_happenings.hpp"
 #include "line_trace.hpp"
+#include "order_states.hpp"
 #include "probe_report.hpp"
 
 #include "dpslave/base/handover.hpp"
@@ -215,6 +216,21 @@ struct LineChange {
     bool is_other_port = false;             ///< with `opens_port`: standing outputs are written there at once
     bool leaves_drives = false; ///< with `is_other_port`: the drives at the old one go to the safe state
     bool is_held = false;       ///< with `opens_port`: another line has it still, and will close it
+
+    /// It comes in place of `older`, which the line has not taken: both are one.
+    void replaces(LineChange older)
+    {
+        if (!line) line = std::move(older.line);
+        if (older.is_other_port) leaves_drives = older.leaves_drives; // the line is still where it was then
+        if (!opens_port) is_held = older.is_held;
+        opens_port = opens_port || older.opens_port;
+        is_other_port = is_other_port || older.is_other_port;
+    }
+    /// `port`: the one that the line has. Two changes in one may lead back to it.
+    void begins_at(const std::string& port)
+    {
+        if (line && line->port == port) is_other_port = leaves_drives = false;
+    }
 };
 
 /// An order of `dpctl`; its `unit` is found by the number of the station.
@@ -233,19 +249,15 @@ struct LineLink {
         : samples(sample_octets), trace(std::make_shared<LineTrace>(trace_octets))
     {}
 
-    Ring<LineOrder, 16> orders;             // main -> drive
-    Ring<drive::OperateAnswer, 16> answers; // drive -> main
-    /// Main -> drive: orders up to this number were answered without the drive, and are not carried out.
-    std::atomic<std::uint32_t> withdrawn{0};
-    /// Drive -> main: the number of the order that is carried out now; 0: none.
-    std::atomic<std::uint32_t> operating{0};
+    Ring<LineOrder, 16> orders;                // main -> drive
+    Ring<drive::OperateAnswer, 16> answers;    // drive -> main
+    OrderStates order_states;                  ///< of these orders, main and drive
     Ring<ProbeOrder, 2> probes;                // main -> drive
     Ring<ProbeReport, 2> probe_reports;        // drive -> main
     std::atomic<std::uint32_t> probe_tried{0}; ///< drive -> main: questions of the probe that runs
-    /// main -> drive: the number of a probe whose caller has gone.
-    std::atomic<std::uint32_t> probe_ended{0};
-    Mailbox<TroubleList> troubles; // drive -> main
-    LineHappenings happenings;     // drive -> main
+    OrderStates probe_states;                  ///< of these orders, main and drive
+    Mailbox<TroubleList> troubles;             // drive -> main
+    LineHappenings happenings;                 // drive -> main
     /// Drive -> main: what other programs changed of the settings of the port, and how often. They are set
     /// right.
     std::atomic<std::uint64_t> settings_changed{0};

@@ -140,7 +140,10 @@ bool MainThread::run(const std::string& begin)
     for (;;) {
         const Instant now = io::monotonic_now();
         bus_.signs.main.give(now);
-        if (bus_.failed.load(std::memory_order_relaxed) || bus_has_stalled(now)) return false;
+        if (bus_.failed.load(std::memory_order_relaxed) || bus_has_stalled(now)) {
+            accesses_.end();
+            return false;
+        }
         if (now >= next_tick) {
             tick(now);
             next_tick = now + tick_length();
@@ -152,7 +155,7 @@ bool MainThread::run(const std::string& begin)
         for (const epoll_event& event : epoll_.wait(ready, wake - io::monotonic_now())) {
             if (event.data.u64 == kSignalKey && is_end_signalled()) {
                 notifier_.stopping();
-                accesses_.log_unanswered();
+                accesses_.end();
                 return true;
             }
             if (event.data.u64 == kServerKey) {

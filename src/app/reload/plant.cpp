@@ -11,6 +11,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace dpslave::app {
 
@@ -35,6 +36,24 @@ bool are_same(const std::vector<DriveUnit>& a, const std::vector<DriveUnit>& b)
                       [](const DriveUnit& one, const DriveUnit& other) {
                           return one.number == other.number && one.config == other.config;
                       });
+}
+
+bool has_ended(const DriveLine& line)
+{
+    return line.link.ended.load(std::memory_order_acquire);
+}
+
+/// One that has given no sign yet has not begun.
+std::chrono::nanoseconds silence_of(const DriveLine& line, Instant now)
+{
+    const Instant last = line.link.sign->last();
+    return last == Instant{} ? std::chrono::nanoseconds{} : now - last;
+}
+
+/// Soon: this decides only who is waited for, and what is said.
+bool is_stalled(const DriveLine& line, Instant now)
+{
+    return silence_of(line, now) >= io::ThreadSign::kStall;
 }
 
 } // namespace
@@ -67,9 +86,9 @@ std::vector<std::string> Plant::end(Instant limit)
     for (auto* const lines : {&lines_, &leaving_lines_})
         for (const auto& line : *lines) {
             if (!line->thread.joinable()) continue;
-            while (!line->link.ended.load(std::memory_order_acquire) && io::monotonic_now() < limit)
+            while (!has_ended(*line) && io::monotonic_now() < limit)
                 std::this_thread::sleep_for(std::chrono::milliseconds{1});
-            if (line->link.ended.load(std::memory_order_acquire))
+            if (has_ended(*line))
                 line->thread.join();
             else
                 hanging.push_back(stall_words(*line, io::monotonic_now() - line->link.sign->last()));
@@ -266,36 +285,105 @@ void Plant::commit(const Plan& plan, Next next)
         if (!stays[i]) leaving_stations_.push_back(std::move(stations_[i]));
     lines_ = std::move(next.lines);
     stations_ = std::move(next.stations);
-    changes_ = std::move(next.changes);
+    for (Change& older : std::exchange(changes_, std::move(next.changes))) { // that could not be offered yet
+        const auto newer = std::find_if(changes_.begin(), changes_.end(),
+                                        [&](const Change& one) { return one.line == older.line; });
+        if (newer != changes_.end())
+            newer->change->replaces(std::move(*older.change));
+        else
+            changes_.push_back(std::move(older));
+    }
 }
 
 void Plant::finish()
 {
-    for (Change& one : changes_) {
-        ++one.line->changes_offered;
-        one.line->link.change.offer(one.change);
-        one.line->wake.ring();
-    }
-    changes_.clear();
+    std::erase_if(changes_, [](Change& one) {
+        DriveLine& line = *one.line;
+        if (const auto older = line.link.change.withdraw()) {
+            one.change->replaces(std::move(*older));
+            --line.changes_offered;
+        }
+        if (!line.link.change.offer(one.change)) return false; // the line takes the older one at this moment
+        ++line.changes_offered;
+        line.wake.ring();
+        return true;
+    });
     const Instant now = io::monotonic_now();
-    for (const auto& line : leaving_lines_) line->request_stop(now, now + DriveThread::kSafeStateLimit);
+    for (const auto& line : leaving_lines_)
+        if (!line->thread.get_stop_token().stop_requested())
+            line->request_stop(now, now + DriveThread::kSafeStateLimit);
 }
 
-bool Plant::is_settled()
+bool Plant::has_taken(const DriveLine& line) const
 {
-    const bool have_ended = std::all_of(leaving_lines_.begin(), leaving_lines_.end(), [](const auto& line) {
-        return line->link.ended.load(std::memory_order_acquire);
+    return line.link.change.taken() && std::none_of(changes_.begin(), changes_.end(), [&](const Change& one) {
+               return one.line.get() == &line;
+           });
+}
+
+bool Plant::is_done(const DriveLine& line) const
+{
+    return has_taken(line) && line.link.changes_done.load(std::memory_order_acquire) == line.changes_offered;
+}
+
+bool Plant::have_taken(Instant now) const
+{
+    return std::all_of(lines_.begin(), lines_.end(),
+                       [&](const auto& line) { return has_taken(*line) || is_stalled(*line, now); });
+}
+
+bool Plant::is_settled(Instant now) const
+{
+    const bool are_done = std::all_of(lines_.begin(), lines_.end(), [&](const auto& line) {
+        return is_done(*line) || is_stalled(*line, now);
     });
-    const bool done = std::all_of(lines_.begin(), lines_.end(), [](const auto& line) {
-        return line->link.changes_done.load(std::memory_order_acquire) == line->changes_offered;
-    });
-    return done && have_ended && changes_.empty();
+    return are_done && std::all_of(leaving_lines_.begin(), leaving_lines_.end(), [&](const auto& line) {
+               return has_ended(*line) || is_stalled(*line, now);
+           });
+}
+
+std::vector<std::string> Plant::late(Instant now) const
+{
+    std::vector<std::string> sentences;
+    for (const auto& line : lines_) {
+        if (is_done(*line) || (has_taken(*line) && !is_stalled(*line, now))) continue;
+        const std::string who = is_stalled(*line, now)
+                                    ? stall_words(*line, silence_of(*line, now)) + " and"
+                                    : fmt::format("line {} is busy and", line->config.name);
+        sentences.push_back(fmt::format("{} has not {} the new configuration yet", who,
+                                        has_taken(*line) ? "carried out" : "taken"));
+    }
+    for (const auto& line : leaving_lines_)
+        if (!has_ended(*line) && is_stalled(*line, now))
+            sentences.push_back(fmt::format("{} and ends when its call comes back",
+                                            stall_words(*line, silence_of(*line, now))));
+    return sentences;
+}
+
+/// Its line does not have it any more.
+bool Plant::has_left(const Station& station) const
+{
+    const bool stays = std::find(lines_.begin(), lines_.end(), station.drive_line) != lines_.end();
+    return stays ? is_done(*station.drive_line) : has_ended(*station.drive_line);
+}
+
+bool Plant::one_has_left() const
+{
+    return std::any_of(leaving_lines_.begin(), leaving_lines_.end(),
+                       [](const auto& line) { return has_ended(*line); }) ||
+           std::any_of(leaving_stations_.begin(), leaving_stations_.end(),
+                       [this](const Station& station) { return has_left(station); });
 }
 
 std::vector<Station> Plant::take_leaving()
 {
-    leaving_lines_.clear();
-    return std::exchange(leaving_stations_, {});
+    const auto stays = std::stable_partition(leaving_stations_.begin(), leaving_stations_.end(),
+                                             [this](const Station& station) { return has_left(station); });
+    std::vector<Station> left(std::make_move_iterator(leaving_stations_.begin()),
+                              std::make_move_iterator(stays));
+    leaving_stations_.erase(leaving_stations_.begin(), stays);
+    std::erase_if(leaving_lines_, [](const auto& line) { return has_ended(*line); });
+    return left;
 }
 
 } // namespace dpslave::app

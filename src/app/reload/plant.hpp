@@ -40,27 +40,34 @@ public:
     /// In the order of the configuration. The main thread keeps in them what it knows.
     std::vector<Station>& stations() { return stations_; }
     const std::vector<Station>& stations() const { return stations_; }
-    /// Stations and lines that bus and drives are not yet done with. They are kept until take_leaving(),
-    /// which is due when is_settled().
+    /// Stations and lines that bus and drives are not yet done with, also those of former reloads: a line
+    /// that stalls keeps them. take_leaving() is due when one_has_left(), and returns stations that have.
     const std::vector<Station>& leaving() const { return leaving_stations_; }
     const DriveLines& leaving_lines() const { return leaving_lines_; }
+    bool one_has_left() const;
     std::vector<Station> take_leaving();
     const DriveLines& lines() const { return lines_; }
     /// For the bus: those that are there now.
     std::unique_ptr<BusStations> bus_stations() const;
 
     /// Makes what `plan` asks for and takes over what stays: stations() and lines() are the new ones, and
-    /// finish() is due when the bus has removed the stations that left. Precondition: is_settled().
+    /// finish() is due when the bus has removed the stations that left. A line that has not taken its change
+    /// of before gets both in one.
     void exchange(const Plan& plan);
     /// A sentence for each port of `plan` that cannot be opened; but for those that the present lines have.
     /// `troubles`: io::port_trouble() of each line of the plan.
     std::vector<std::string> missing_ports(const Plan& plan,
                                            const std::vector<std::optional<std::string>>& troubles) const;
     /// The bus has removed the stations that left: the lines write the safe state of drives that left, then
-    /// they ask the new drives. Does not wait.
+    /// they ask the new drives. Does not wait: call it again until have_taken().
     void finish();
-    /// True: every line has carried out its change, and the threads of lines that left have ended.
-    bool is_settled();
+    /// True: every line has taken its change, but for those that stall.
+    bool have_taken(Instant now) const;
+    /// True: every line has carried out its change, and the threads of lines that left have ended, but for
+    /// those that stall.
+    bool is_settled(Instant now) const;
+    /// A sentence for each line that has not taken what it is to do, or that stalls before it is done.
+    std::vector<std::string> late(Instant now) const;
 
 private:
     struct Change {
@@ -79,6 +86,9 @@ private:
     void make_changes(const Plan& plan, Next& next) const;
     void commit(const Plan& plan, Next next);
     void start(DriveLine& line);
+    bool has_taken(const DriveLine& line) const;
+    bool is_done(const DriveLine& line) const;
+    bool has_left(const Station& station) const;
 
     BusLink& bus_;
     bool self_test_passed_;

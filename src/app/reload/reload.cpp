@@ -52,19 +52,28 @@ Reply Reload::request(bool dry_run, const control::Caller& caller)
 
 void Reload::advance(Instant now)
 {
+    now_ = now;
     switch (step_) {
         case Step::idle:
-            if (wanted_ && !is_trial_) start(now);
+            if (wanted_ && !is_trial_)
+                start(now);
+            else if (parts_.plant.one_has_left()) // a line that had stalled
+                step_ = Step::told;
             break;
         case Step::reading: break;
         case Step::bus:
             if (!bus_has_taken()) break;
+            offered_ = now;
+            step_ = Step::lines;
+            [[fallthrough]];
+        case Step::lines:
             parts_.plant.finish();
+            if (!parts_.plant.have_taken(now) && now <= offered_ + kLongestTaking) break;
             step_ = Step::drives;
             answer();
             break;
         case Step::drives:
-            if (parts_.plant.is_settled()) step_ = Step::told;
+            if (parts_.plant.is_settled(now) || now > offered_ + kLongestLeaving) step_ = Step::told;
             break;
         case Step::told: // by the tick before this one
             for (const Station& left : parts_.plant.take_leaving())
@@ -100,7 +109,7 @@ void Reload::give_up_reading(Instant now)
     answer();
 }
 
-/// A bus thread or a drive line that hangs keeps no caller: the reload itself goes on when it can.
+/// A bus thread that hangs keeps no caller: the reload itself goes on when it can.
 void Reload::answer_late(Instant now)
 {
     constexpr std::chrono::minutes kLongestWait{5}; // a search for a drive ends before
@@ -240,11 +249,13 @@ void Reload::apply(Plan plan, std::optional<gid_t> group)
     parts_.applied(parts_.plant.leaving(), group);
 }
 
-/// Lines that leave have their driver enables for a moment still.
+/// Lines that leave have their driver enables for a moment still; one that stalls, until it has ended.
 void Reload::keep_drivers(const config::Config& before, const config::Config& now)
 {
     std::vector<DriverInUse> drivers = drivers_of(now);
-    for (const DriverInUse& one : drivers_of(before))
+    config::Config left = before;
+    for (const auto& line : parts_.plant.leaving_lines()) left.lines.push_back(line->config);
+    for (const DriverInUse& one : drivers_of(left))
         if (std::find(drivers.begin(), drivers.end(), one) == drivers.end()) drivers.push_back(one);
     parts_.file.keep(std::move(drivers));
 }
@@ -257,8 +268,14 @@ bool Reload::bus_has_taken()
     return parts_.bus.stations.taken();
 }
 
+/// Also what lines still owe of this reload, or of one before.
 void Reload::answer()
 {
+    if (outcome_.applied) {
+        const std::vector<std::string> late = parts_.plant.late(now_);
+        tell("reload: ", Severity::warning, late);
+        outcome_.warnings.insert(outcome_.warnings.end(), late.begin(), late.end());
+    }
     parts_.notifier.ready(status_line(parts_.monitor.view()));
     for (const control::ReplyTo& caller : std::exchange(current_, {})) caller.end(Done{reply_of(outcome_)});
 }

@@ -41,6 +41,9 @@ public:
     void advance(Instant now);
 
     static constexpr std::chrono::seconds kLongestReading{4}; ///< dpctl waits 5 s for an answer
+    /// How long the answer waits for lines that are busy, and the next reload for drives that leave. Lines
+    /// that stall are not waited for.
+    static constexpr std::chrono::milliseconds kLongestTaking{500}, kLongestLeaving{3000};
 
 private:
     /// The bus removes the stations that leave before their drives get the safe state, and only then stations
@@ -49,6 +52,7 @@ private:
         idle,
         reading, ///< the file, the name service and the ports
         bus,     ///< the bus has not yet taken its new stations
+        lines,   ///< the lines have not yet taken what is new for them
         drives,  ///< the drives of stations that left get the safe state
         told     ///< what happened to them is told
     };
@@ -88,6 +92,8 @@ private:
     std::vector<control::ReplyTo> current_; ///< and for the one in progress
     Instant waits_since_{};                 ///< the first of those that wait for the next one
     Instant began_{};                       ///< the one in progress
+    Instant offered_{};                     ///< when its lines were told what is new for them
+    Instant now_{};                         ///< of the last advance()
     std::vector<control::ReplyTo> trials_;  ///< callers of a dry run that wait for the next one
     std::vector<control::ReplyTo> tried_;   ///< and for the one in progress
     bool is_trial_ = false;                 ///< one is read for

@@ -442,6 +442,7 @@ TEST_F(PollerOrders, OfDpctlThatAreWithdrawnAreNeitherCarriedOutNorAnswered)
         ASSERT_TRUE(bench.poller.operate({n, 0, true, static_cast<std::uint16_t>(20 + n), 5}));
     bench.poller.survey(0, 4, 30);
     bench.poller.withdraw(2);
+    bench.poller.withdraw(1);
     bench.run(1s);
 
     std::vector<std::uint32_t> answered;
@@ -454,6 +455,19 @@ TEST_F(PollerOrders, OfDpctlThatAreWithdrawnAreNeitherCarriedOutNorAnswered)
     bench.poller.survey(0, 5, 30);
     bench.poller.withdraw(5);
     bench.run(1s);
+    EXPECT_FALSE(bench.poller.take_operate_answer());
+}
+
+TEST_F(PollerOrders, OfDpctlThatIsWithdrawnBetweenItsWriteAndTheProofIsNotSentAgain)
+{
+    bench.drives[0].not_kept.insert(21);
+    ASSERT_TRUE(bench.poller.operate({1, 0, true, 21, 5}));
+    while (bench.writes_of(21) == 0) bench.step();
+    bench.poller.withdraw(1);
+    bench.run(1s);
+
+    EXPECT_EQ(bench.writes_of(21), 1u);
+    EXPECT_EQ(bench.reads_of(21), 0u);
     EXPECT_FALSE(bench.poller.take_operate_answer());
 }
 
