@@ -196,11 +196,13 @@ TtyBauds Tty::bauds()
 
 std::optional<ChangedSettings> Tty::changed_settings() const noexcept
 {
+    const InCall look{PortCall::set};
     return kept_->changed(fd());
 }
 
 std::error_code Tty::set_again(const ChangedSettings& changed) noexcept
 {
+    const InCall set{PortCall::set};
     if (const auto error = kept_->set_again(fd(), settings_.baud)) return error;
     return changed.harms_octets ? discard_input() : std::error_code{};
 }
