@@ -2,6 +2,9 @@
 /// The port itself: not there at the start, pulled in service, plugged in again.
 #include "scripted_slave.hpp"
 
+#include "dpslave/io/clock.hpp"
+#include "dpslave/io/thread_sign.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -138,6 +141,31 @@ TEST(ModbusPort, ThatDoesNotTakeTheRequestIsStillThere)
     EXPECT_EQ((*drive)->read({.unit = 1}, number(2), {&word, 1}), AccessError::none);
     EXPECT_EQ(word, 183);
     EXPECT_EQ(socket.slave().requested().size(), 1U);
+}
+
+/// Nothing is written behind a call that has stalled: a word that goes out once is still to go, and no answer
+/// is owed.
+TEST(ModbusPort, ThatMayNotBeWrittenToHasSentNothing)
+{
+    Socket socket;
+    std::atomic<bool> is_open{true};
+    const auto drive = ModbusRtu::open({.port = socket.path(), .timeout = 60s}, is_open);
+    ASSERT_TRUE(drive) << drive.error();
+    io::ThreadSign sign;
+    sign.enter(io::PortCall::open, io::monotonic_now() - 1h);
+    sign.leave(io::monotonic_now());
+    io::set_sign_of_this_thread(&sign);
+    std::uint16_t word = 7;
+
+    EXPECT_EQ((*drive)->write({.unit = 1}, number(1), {&word, 1}), AccessError::no_answer);
+    EXPECT_FALSE((*drive)->has_sent());
+    EXPECT_EQ((*drive)->read({.unit = 1}, number(1), {&word, 1}), AccessError::no_answer);
+    EXPECT_TRUE(is_open);
+
+    io::set_sign_of_this_thread(nullptr);
+    socket.slave().answers("01 03 02 00 B7");
+    EXPECT_EQ((*drive)->read({.unit = 1}, number(2), {&word, 1}), AccessError::none);
+    EXPECT_EQ(word, 183);
 }
 
 TEST(ModbusPort, IsUsedAgainWhenItReturns)

@@ -6,6 +6,7 @@
 #include "app/line/line_backend.hpp"
 
 #include "dpslave/io/clock.hpp"
+#include "dpslave/io/thread_sign.hpp"
 #include "dpslave/modbus/modbus_client.hpp"
 
 #include <poll.h>
@@ -31,8 +32,10 @@ bool is_value_of_modbus(Bytes pdu)
 
 /// As io/switched_port does it.
 template <class Leave>
-bool write_as_the_program(World& world, bool& has_unsent, unsigned& opened, bool is_value, const Leave& leave)
+bool write_as_the_program(World& world, bool& has_unsent, bool& may_have_left, unsigned& opened,
+                          bool is_value, const Leave& leave)
 {
+    may_have_left = false;
     if (std::exchange(opened, world.times_closed()) != world.times_closed()) {
         has_unsent = false;
         world.open();
@@ -47,7 +50,8 @@ bool write_as_the_program(World& world, bool& has_unsent, unsigned& opened, bool
         const io::InCall drain{io::PortCall::drain};
         world.may_stall(Where::drain);
     }
-    return !io::this_thread_stalled();
+    may_have_left = io::this_thread_stalled();
+    return !may_have_left;
 }
 
 /// The end of the slice of a wait.
@@ -61,7 +65,8 @@ Instant slice_end(const World& world, Instant until)
 
 bool EiPort::write(Bytes octets)
 {
-    return write_as_the_program(world_, has_unsent_, opened_, is_value(octets), [&] { line_.write(octets); });
+    return write_as_the_program(world_, has_unsent_, may_have_left_, opened_, is_value(octets),
+                                [&] { line_.write(octets); });
 }
 
 std::size_t EiPort::read(std::span<std::uint8_t> into, std::chrono::nanoseconds timeout)
@@ -84,7 +89,7 @@ std::size_t EiPort::read(std::span<std::uint8_t> into, std::chrono::nanoseconds 
 
 bool FramesPort::send(std::uint8_t unit, Bytes pdu)
 {
-    return write_as_the_program(world_, has_unsent_, opened_, is_value_of_modbus(pdu),
+    return write_as_the_program(world_, has_unsent_, may_have_left_, opened_, is_value_of_modbus(pdu),
                                 [&] { line_.send(unit, pdu); });
 }
 
@@ -144,17 +149,6 @@ Result<std::unique_ptr<LineBackend>, std::string> LineBackend::open(const config
     auto made = std::make_unique<LineBackend>(listeners);
     made->backend_ = stalls::World::current()->open_port();
     return made;
-}
-
-LineBackend::Listeners listeners_of(LineLink& link)
-{
-    return {.is_open = link.port_open,
-            .transceiver = link.transceiver,
-            .frames = *link.trace,
-            .happenings = link.happenings,
-            .settings_changed = link.settings_changed,
-            .changed_settings = link.changed_settings,
-            .ends_by = link.ends_by};
 }
 
 int LineBackend::fd() const

@@ -8,7 +8,6 @@
 #include "world.hpp"
 
 #include "dpslave/drive/backend.hpp"
-#include "dpslave/io/thread_sign.hpp"
 
 namespace dpslave::stalls {
 
@@ -17,7 +16,7 @@ public:
     EiPort(World& world, drive_line::EiLine& line) : world_(world), line_(line) {}
 
     bool write(Bytes octets) override;
-    bool may_have_left() const override { return io::this_thread_stalled(); }
+    bool may_have_left() const override { return may_have_left_; }
     std::size_t read(std::span<std::uint8_t> into, std::chrono::nanoseconds timeout) override;
     Instant now() const override { return world_.now(); }
     void discard() override { line_.discard(); }
@@ -27,6 +26,7 @@ private:
     World& world_;
     drive_line::EiLine& line_;
     bool has_unsent_ = false;
+    bool may_have_left_ = false;
     unsigned opened_ = world_.times_closed();
 };
 
@@ -35,7 +35,7 @@ public:
     FramesPort(World& world, drive_line::ModbusFrames& line) : world_(world), line_(line) {}
 
     bool send(std::uint8_t unit, Bytes pdu) override;
-    bool may_have_left() const override { return io::this_thread_stalled(); }
+    bool may_have_left() const override { return may_have_left_; }
     Heard receive(Instant until) override;
     Bytes frame() const override { return line_.frame(); }
     Piece piece() const override { return line_.piece(); }
@@ -46,6 +46,7 @@ private:
     World& world_;
     drive_line::ModbusFrames& line_;
     bool has_unsent_ = false;
+    bool may_have_left_ = false;
     unsigned opened_ = world_.times_closed();
 };
 

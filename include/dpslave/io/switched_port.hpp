@@ -64,9 +64,9 @@ public:
     /// Writes like Tty::write(); what an earlier call left in the kernel is discarded first, for its time is
     /// over. If the program switches the transceiver it returns when the driver is
     /// inactive again. A driver enable that fails closes the port: is_open(), take_trouble(). An error of
-    /// resource_unavailable_try_again: the guard is at work, and nothing was sent. timed_out also where the
-    /// thread has stalled meanwhile (io/thread_sign.hpp): what has left is not known; and where
-    /// this_thread_may_write() says no: nothing has left.
+    /// resource_unavailable_try_again: the guard is at work, and nothing was sent. operation_canceled:
+    /// this_thread_may_write() says no, and nothing was sent. timed_out also where the thread has stalled
+    /// meanwhile (io/thread_sign.hpp): what has left is not known.
     /// Precondition: is_open().
     std::error_code write(Bytes octets);
 

@@ -109,17 +109,6 @@ std::string LineBackend::driver_in_words() const
     return driver.direction() == io::Direction::none ? std::string{} : driver.in_words();
 }
 
-LineBackend::Listeners listeners_of(LineLink& link)
-{
-    return {.is_open = link.port_open,
-            .transceiver = link.transceiver,
-            .frames = *link.trace,
-            .happenings = link.happenings,
-            .settings_changed = link.settings_changed,
-            .changed_settings = link.changed_settings,
-            .ends_by = link.ends_by};
-}
-
 int LineBackend::fd() const
 {
     return tty_ ? tty_->fd() : modbus_->fd();

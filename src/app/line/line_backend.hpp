@@ -74,6 +74,15 @@ private:
 };
 
 /// What a back-end in service tells to the link of its line.
-LineBackend::Listeners listeners_of(LineLink& link);
+inline LineBackend::Listeners listeners_of(LineLink& link)
+{
+    return {.is_open = link.port_open,
+            .transceiver = link.transceiver,
+            .frames = *link.trace,
+            .happenings = link.happenings,
+            .settings_changed = link.settings_changed,
+            .changed_settings = link.changed_settings,
+            .ends_by = link.ends_by};
+}
 
 } // namespace dpslave::app

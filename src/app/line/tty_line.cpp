@@ -48,12 +48,15 @@ void TtyLine::reopen()
 
 bool TtyLine::write(Bytes octets)
 {
+    may_have_left_ = false;
     if (!ready()) return false;
     const std::error_code trouble = port_.write(octets);
-    may_have_left_ = trouble && io::this_thread_stalled(); // else only a part of it has gone, or nothing
-    // A port that is only slow, or whose guard is at work, is still there.
-    const bool is_there =
-        !trouble || trouble == std::errc::timed_out || trouble == std::errc::resource_unavailable_try_again;
+    // Without a stall only a part of it has gone, or nothing.
+    may_have_left_ = trouble == std::errc::timed_out && io::this_thread_stalled();
+    // A port that is only slow, or whose guard is at work, or that was not written to, is still there.
+    const bool is_there = !trouble || trouble == std::errc::timed_out ||
+                          trouble == std::errc::operation_canceled ||
+                          trouble == std::errc::resource_unavailable_try_again;
     if (!port_.is_open()) { // its driver enable has failed: ready() says so
         is_open_.store(false, std::memory_order_relaxed);
         is_untold_ = true;

@@ -109,9 +109,9 @@ void SwitchedPort::reopen(Instant now)
 
 std::error_code SwitchedPort::write(Bytes octets)
 {
-    if (!this_thread_may_write()) return std::make_error_code(std::errc::timed_out);
+    if (!this_thread_may_write()) return std::make_error_code(std::errc::operation_canceled);
     port_.tty().discard_output();
-    if (!this_thread_may_write()) return std::make_error_code(std::errc::timed_out);
+    if (!this_thread_may_write()) return std::make_error_code(std::errc::operation_canceled);
     const std::error_code error = write_switched(octets);
     // The call came back long after it was made: nobody knows what has left and when.
     return this_thread_stalled() ? std::make_error_code(std::errc::timed_out) : error;
