@@ -194,7 +194,7 @@ bool Poller::safe_state_pending() const
                        [](const auto& unit) { return unit->safe_state_pending(); });
 }
 
-std::vector<std::uint16_t> Poller::safe_state_left(std::size_t unit) const
+std::vector<ZeroLeft> Poller::safe_state_left(std::size_t unit) const
 {
     return units_[unit]->safe_state_left();
 }

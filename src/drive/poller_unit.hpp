@@ -54,9 +54,9 @@ public:
     {
         return safe_state_.pending() && !(cyclic_.outputs().leaves_port() && link().is_lost());
     }
-    std::vector<std::uint16_t> safe_state_left() const
+    std::vector<ZeroLeft> safe_state_left() const
     {
-        return safe_state_pending() ? safe_state_.pending_tags() : std::vector<std::uint16_t>{};
+        return safe_state_pending() ? safe_state_.zeros_left() : std::vector<ZeroLeft>{};
     }
     const DriveSnapshot& snapshot() const { return snapshot_; }
 

@@ -159,12 +159,14 @@ bool SafeState::pending() const
     return (after_ || zeroes_now_) && std::ranges::find(zeros_, false, &Zero::is_done) != zeros_.end();
 }
 
-std::vector<std::uint16_t> SafeState::pending_tags() const
+std::vector<ZeroLeft> SafeState::zeros_left() const
 {
-    std::vector<std::uint16_t> tags;
+    std::vector<ZeroLeft> left;
     for (const Zero& zero : zeros_)
-        if (!zero.is_done) tags.push_back(zero.row->number);
-    return tags;
+        if (!zero.is_done)
+            left.push_back(
+                {.tag = zero.row->number, .is_written = zero.knowledge == Knowledge::acknowledged});
+    return left;
 }
 
 } // namespace dpslave::drive

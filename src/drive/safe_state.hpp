@@ -66,8 +66,8 @@ public:
     /// none rides, or all are zeroed at once.
     std::optional<Instant> ride_ends() const;
     bool pending() const; ///< one of them waits for its zero, now or after its ride
-    /// The tags of those. Precondition: pending().
-    std::vector<std::uint16_t> pending_tags() const;
+    /// Those, in the order of their layouts. Precondition: pending().
+    std::vector<ZeroLeft> zeros_left() const;
 
 private:
     struct Zero {

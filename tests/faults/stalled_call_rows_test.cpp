@@ -211,6 +211,8 @@ TEST_F(StalledCall, F41_OfADriveLineIsNamedAtTheEndWhichTheOtherLinesAndTheBusDo
     ASSERT_TRUE(has_stalled());
     EXPECT_EQ(gateway->daemon().end(SIGTERM), 0);
     EXPECT_TRUE(gateway->daemon().ever_said("line p3 has stalled in write for "));
+    EXPECT_TRUE(
+        gateway->daemon().ever_said("whether these outputs have their safe state: tag 56, 57 of unwinder"));
     EXPECT_TRUE(gateway->daemon().ever_said("the program ends without it"));
     next_daemon_goes_on();
 }

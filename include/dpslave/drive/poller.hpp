@@ -138,6 +138,13 @@ struct Outcome {
     unsigned questions = 1;     ///< Backend::questions()
 };
 
+/// An output whose safe state is not proven yet.
+struct ZeroLeft {
+    std::uint16_t tag = 0;
+    bool is_written = false; ///< the drive has taken the 0, and it was not read back yet
+    friend bool operator==(const ZeroLeft&, const ZeroLeft&) = default;
+};
+
 /// A watched tag as it was read last. untried: not yet.
 struct Watched {
     std::uint16_t tag = 0;
@@ -256,7 +263,7 @@ public:
     /// Does an output still wait to be written to its safe state, now or when a ride is over?
     bool safe_state_pending() const;
     /// The tags of those of this drive, in the order of their layouts.
-    std::vector<std::uint16_t> safe_state_left(std::size_t unit) const;
+    std::vector<ZeroLeft> safe_state_left(std::size_t unit) const;
 
     const DriveSnapshot& snapshot(std::size_t unit) const;
 

@@ -10,7 +10,6 @@
 #include "dpslave/report/words.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <poll.h>
 #include <spdlog/spdlog.h>
 
@@ -299,10 +298,8 @@ bool DriveThread::is_pending(std::size_t unit) const
 
 std::string DriveThread::not_written(std::size_t unit) const
 {
-    return fmt::format("tag {} {} left; {}", fmt::join(poller_.safe_state_left(unit), ", "),
-                       poller_.safe_state_left(unit).size() == 1 ? "is" : "are",
-                       poller_.snapshot(unit).answers ? "there was no more time"
-                                                      : "the drive does not answer");
+    return zeros_in_words(poller_.safe_state_left(unit)) +
+           (poller_.snapshot(unit).answers ? "; there was no more time" : "; the drive does not answer");
 }
 
 // ---- other drives, another port

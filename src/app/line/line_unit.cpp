@@ -48,6 +48,24 @@ std::vector<drive::DriveSettings> poller_settings(const std::vector<DriveUnit>& 
     return settings;
 }
 
+std::string zeros_in_words(const std::vector<drive::ZeroLeft>& left)
+{
+    std::string words;
+    for (const bool is_written : {false, true}) {
+        std::string tags;
+        unsigned count = 0;
+        for (const drive::ZeroLeft& one : left) {
+            if (one.is_written != is_written) continue;
+            tags += (count++ == 0 ? "" : ", ") + std::to_string(one.tag);
+        }
+        if (count == 0) continue;
+        words += fmt::format("{}tag{} {} {} {}", words.empty() ? "" : "; ", count == 1 ? "" : "s", tags,
+                             count == 1 ? "was" : "were",
+                             is_written ? "written and not read back" : "not written");
+    }
+    return words;
+}
+
 LineUnit::LineUnit(const DriveUnit& made_of)
     : DriveUnit(made_of),
       zero_after_ms_(to_ms(made_of.config->zero_after)),

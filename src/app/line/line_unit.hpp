@@ -20,6 +20,9 @@ namespace dpslave::app {
 std::vector<drive::DriveSettings> poller_settings(const std::vector<DriveUnit>& units,
                                                   const config::LineConfig& line);
 
+/// "tag 56 was not written; tags 57, 58 were written and not read back"
+std::string zeros_in_words(const std::vector<drive::ZeroLeft>& left);
+
 class LineUnit : public DriveUnit {
 public:
     explicit LineUnit(const DriveUnit& made_of);

@@ -166,7 +166,9 @@ ExitStatus run_daemon(const config::Config& config, const std::filesystem::path&
     bus_wake.ring();
     const bool bus_has_left = has_ended(link, begun + kBusLeaves);
     plant.request_end(begun + kDrivesWrite);
-    std::vector<std::string> hanging = plant.end(begun + kAllEnds);
+    std::vector<std::string> hanging;
+    for (const DriveLine* const line : plant.end(begun + kAllEnds))
+        hanging.push_back(words_of_hanging(*line, main_thread.stations(), io::monotonic_now()));
     if (!bus_has_left && !has_ended(link, begun + kAllEnds))
         hanging.push_back("the bus thread hangs in a call of " + config.bus.port);
     else if (bus_thread.join(); !opener.end(remaining(begun + kAllEnds)))

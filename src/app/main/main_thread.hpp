@@ -26,6 +26,8 @@ public:
     /// does not end, a sentence each. False: something does not, as the log and the service manager are told.
     /// The socket is removed then, and this object cannot be destroyed.
     bool end(std::vector<std::string> hanging, Instant limit);
+    /// The stations as they were seen last.
+    std::span<const Station> stations() const { return monitor_.view().stations; }
 
     /// Opens the control socket. The reason of a failure is a sentence.
     std::optional<std::string> open_socket();

@@ -30,6 +30,25 @@ std::vector<StalledLines::News> StalledLines::look(const std::vector<Station>& s
     return news;
 }
 
+std::string words_of_hanging(const DriveLine& line, std::span<const Station> stations, Instant now)
+{
+    std::string outputs;
+    for (const Station& station : stations) {
+        if (station.drive_line.get() != &line) continue;
+        const Layout& layout = station.bus.layout;
+        std::string tags;
+        for (std::size_t i = 0; i < layout.count; ++i)
+            if (layout.parameters[i].writes)
+                tags += (tags.empty() ? "" : ", ") + std::to_string(layout.parameters[i].tag);
+        if (!tags.empty())
+            outputs += fmt::format("{}tag {} of {}", outputs.empty() ? "" : "; ", tags, station.config->name);
+    }
+    const std::string stall = stall_words(line, now - line.link.sign->last());
+    if (outputs.empty()) return stall;
+    return fmt::format("{}, and it is not known whether these outputs have their safe state: {}", stall,
+                       outputs);
+}
+
 LineHappening stall_happening(const std::string& text)
 {
     LineHappening happening{.kind = LineHappening::Kind::port_missing, .severity = Severity::error};

@@ -6,6 +6,7 @@
 #include "app/state/station.hpp"
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,10 @@ public:
 private:
     std::vector<std::shared_ptr<DriveLine>> told_;
 };
+
+/// "line p3 has stalled in write for 4.4 s, and it is not known whether these outputs have their safe state:
+/// tag 56, 57 of unwinder": a line that hangs at the end, with the outputs that the master has chosen last.
+std::string words_of_hanging(const DriveLine& line, std::span<const Station> stations, Instant now);
 
 /// A happening of the line that says so: its drives count as lost.
 LineHappening stall_happening(const std::string& text);

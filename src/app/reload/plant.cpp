@@ -80,9 +80,9 @@ void Plant::request_end(Instant ends_by)
         for (const auto& line : *lines) line->request_stop(io::monotonic_now(), ends_by);
 }
 
-std::vector<std::string> Plant::end(Instant limit)
+std::vector<const DriveLine*> Plant::end(Instant limit)
 {
-    std::vector<std::string> hanging;
+    std::vector<const DriveLine*> hanging;
     for (auto* const lines : {&lines_, &leaving_lines_})
         for (const auto& line : *lines) {
             if (!line->thread.joinable()) continue;
@@ -91,7 +91,7 @@ std::vector<std::string> Plant::end(Instant limit)
             if (has_ended(*line))
                 line->thread.join();
             else
-                hanging.push_back(stall_words(*line, io::monotonic_now() - line->link.sign->last()));
+                hanging.push_back(line.get());
         }
     return hanging;
 }

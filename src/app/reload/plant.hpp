@@ -33,9 +33,8 @@ public:
     void start();
     /// They are to end: the outputs go to their safe state, on all lines at the same time, until `ends_by`.
     void request_end(Instant ends_by);
-    /// After request_end(): waits for them, until `limit` at most. The result: a sentence for each that
-    /// hangs.
-    std::vector<std::string> end(Instant limit);
+    /// After request_end(): waits for them, until `limit` at most. The result: those that hang.
+    std::vector<const DriveLine*> end(Instant limit);
 
     /// In the order of the configuration. The main thread keeps in them what it knows.
     std::vector<Station>& stations() { return stations_; }

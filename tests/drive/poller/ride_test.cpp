@@ -252,7 +252,7 @@ TEST_F(PollerRide, NamesTheTagsThatWaitForTheirZero)
     bench.master_leaves(0);
     bench.poller.cancel_ride_through(0);
     bench.run(2s);
-    EXPECT_EQ(bench.poller.safe_state_left(0), (std::vector<std::uint16_t>{10, 11}));
+    EXPECT_EQ(bench.poller.safe_state_left(0), (std::vector<ZeroLeft>{{10, false}, {11, false}}));
 }
 
 TEST_F(PollerRide, AMasterThatIsLostAfterTheEndOfTheProgramBeganDoesNotRide)
