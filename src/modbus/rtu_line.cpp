@@ -163,7 +163,7 @@ ModbusPort::Heard RtuLine::receive(Instant until)
         const bool in_frame = receiver_.in_frame();
         const Instant at = now();
         const Instant end = in_frame ? std::min(at + gap(), latest) : until;
-        if ((!in_frame || at < end) && fetch(end)) continue;
+        if (fetch(end)) continue; // also what waits in the port when it is too late
         if (!port_.is_open()) return Heard::gone;
         if (!in_frame) return Heard::silence;
         const FrameReceiver::Found found = receiver_.silence();

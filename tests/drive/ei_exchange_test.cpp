@@ -6,9 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace dpslave::drive::ei {
 namespace {
@@ -27,7 +29,14 @@ public:
     Instant asked_at{};
     std::string sent;
     bool is_unplugged = false;
+    std::chrono::nanoseconds no_processor_for{}; ///< behind the next octets
 
+    std::size_t read(std::span<std::uint8_t> into, std::chrono::nanoseconds timeout) override
+    {
+        const std::size_t got = WrittenLine::read(into, timeout);
+        if (got != 0) time += std::exchange(no_processor_for, {});
+        return got;
+    }
     bool write(Bytes octets) override
     {
         if (is_unplugged) return false;
@@ -107,6 +116,32 @@ TEST_F(EiExchange, GivesAnAnswerThatHasBegunTheTimeOfTheLongestOne)
                    kGapAt300 = 666'666'666ns;
     EXPECT_EQ(line.time, begun + kRequestAt300 + kTimeout + k85CharactersAt300 + kGapAt300);
     EXPECT_EQ(exchange->trouble(), "an answer that does not end");
+}
+
+/// The thread had no processor meanwhile: the drive was there.
+TEST_F(EiExchange, JudgesOctetsThatWaitInThePortWhenItComesTooLateToItsOwnWait)
+{
+    leave_owed(kFirst, kOx);
+    line.comes("\x02", 150ms);
+    line.comes(value("ox", ">0001").substr(1) + value("ow", ">0002"), 160ms);
+    line.no_processor_for = 1s;
+
+    EXPECT_EQ(exchange->poll(kFirst, kOw), End::silence) << "it may be a second old";
+
+    EXPECT_EQ(exchange->counts(kFirst).valid_at, line.time);
+    EXPECT_EQ(exchange->counts(kFirst).late, 2U);
+    leave_owed(kFirst, kOx);
+}
+
+TEST_F(EiExchange, ReadsNoMoreThanAPortHoldsWhenItComesTooLateToItsOwnWait)
+{
+    for (int i = 0; i < 100; ++i) line.comes(std::string(60, '\xFF'), 50ms);
+    line.no_processor_for = 1s;
+
+    EXPECT_EQ(exchange->poll(kFirst, kOw), End::silence);
+
+    std::array<std::uint8_t, 64> buffer{};
+    EXPECT_NE(line.read(buffer, 0ns), 0U) << "a line that never stops sending would keep the thread";
 }
 
 TEST_F(EiExchange, AsksNothingOnALineThatDoesNotFallSilentForTheTimeOfTwoAnswers)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The port itself: not there at the start, pulled in service, plugged in again.
+#include "modbus/rtu_line.hpp"
 #include "scripted_slave.hpp"
 
 #include "dpslave/io/clock.hpp"
@@ -222,6 +223,35 @@ TEST(ModbusPort, IsTriedAgainOnlyAfterAWhile)
 
     EXPECT_FALSE(is_open);
     EXPECT_TRUE(socket.slave().requested().empty());
+}
+
+/// The thread had no processor meanwhile. A read gives 256 octets, and the 37th frame begins in the first
+/// one.
+TEST(ModbusPort, AFrameThatWaitsInThePortIsReadThoughItsTimeIsOver)
+{
+    constexpr int kFrames = 40;
+    io::Pty cable;
+    std::atomic<bool> is_open{false};
+    const auto line = RtuLine::open({.port = cable.path()}, is_open);
+    ASSERT_TRUE(line) << line.error();
+    constexpr std::array<std::uint8_t, 5> kReadsRegister1{3, 0, 1, 0, 1};
+    ASSERT_TRUE((*line)->send(1, kReadsRegister1));
+    Octets all;
+    for (int i = 0; i < kFrames; ++i)
+        for (const std::uint8_t octet : framed("01 03 02 00 07")) all.push_back(octet);
+    cable.send(all);
+
+    const Instant over = io::monotonic_now() - 1h;
+    int frames = 0;
+    for (auto heard = ModbusPort::Heard::silence; frames < kFrames;) {
+        pollfd port{.fd = (*line)->fd(), .events = POLLIN, .revents = 0};
+        if (heard == ModbusPort::Heard::silence) {
+            ASSERT_EQ(::poll(&port, 1, 60'000), 1);
+        }
+        heard = (*line)->receive(over);
+        frames += heard == ModbusPort::Heard::frame ? 1 : 0;
+        ASSERT_TRUE(heard == ModbusPort::Heard::frame || heard == ModbusPort::Heard::silence);
+    }
 }
 
 /// At 1200 bit/s a request takes 67 ms; on a pty its answer is there at once.

@@ -203,6 +203,16 @@ void StallJudge::asks_for_diagnosis(std::size_t drive, bool asks, Instant now)
     judge_leaving(drive, "asks for diagnosis", now);
 }
 
+/// It was not heard for so long that it may be gone, and not because of noise alone.
+bool StallJudge::was_unwell(std::size_t drive, Instant now) const
+{
+    const Time after = rules_[drive].after;
+    const Instant from = was_heard(drive, now);
+    return now - from >= after &&
+           (records_[drive].died_at >= from || answers_late_ || line_thread.ran(from, now) >= after ||
+            line_thread.stalls_in(from, now) >= 2);
+}
+
 /// One of these has to be: its line or the main thread stalled for long enough as the bus thread lived it,
 /// the bus thread or the main thread as the line lived it, or its drive was not heard and was not well.
 void StallJudge::judge_leaving(std::size_t drive, const char* what, Instant now)
@@ -221,11 +231,9 @@ void StallJudge::judge_leaving(std::size_t drive, const char* what, Instant now)
             if (end >= since - kLook && with_looks(bus_thread, line_thread.from(), end) >= rules.after)
                 return;
         }
-        const Instant from = was_heard(drive, now);
-        const bool was_unwell = record.died_at >= from || answers_late_ ||
-                                line_thread.ran(from, now) >= rules.after ||
-                                line_thread.stalls_in(from, now) >= 2;
-        if (now - from >= rules.after && was_unwell) return;
+        if (was_unwell(drive, now)) return;
+        // It may have been gone while the bus thread stalled: that is looked at now.
+        if (record.unwell_at >= since && bus_thread.ran(record.unwell_at, now) <= 2 * kLook) return;
     }
     report_violation(now, fmt::format("the station of drive {} {}, and its line and its drive were well: "
                                       "heard {:.3f} s ago",
@@ -285,6 +293,8 @@ void StallJudge::answers(const drive::OperateAnswer& answer, Instant now)
 
 void StallJudge::line_turn(Instant now)
 {
+    for (std::size_t i = 0; i < records_.size(); ++i)
+        if (was_unwell(i, now)) records_[i].unwell_at = now;
     note_heard(now);
     const auto lost = [&](const Timeline& thread, Time limit) {
         return thread.is_stalled() && line_thread.ran(thread.from(), now) >= limit;

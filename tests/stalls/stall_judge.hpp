@@ -97,6 +97,7 @@ private:
         std::optional<Instant> zeroed_at; ///< an output, where no zero was wanted: then it leaves at once
         std::deque<Instant> heard_at;     ///< valid for certain, the newest last
         Instant died_at{};                ///< it was dead then, the last time
+        Instant unwell_at{};              ///< it may have been gone then, the last time
         std::map<std::uint16_t, Output> outputs;
         std::map<std::uint16_t, std::size_t> shown; ///< place in the history of the tag
         std::vector<Demand> demands;
@@ -118,6 +119,7 @@ private:
     void judge_output(std::size_t drive, std::uint16_t tag, std::uint16_t word, Instant handed);
     void judge_demand(std::size_t drive, std::uint16_t word, Instant handed);
     void judge_order(std::size_t drive, std::uint16_t word, Instant handed);
+    bool was_unwell(std::size_t drive, Instant now) const;
     void judge_leaving(std::size_t drive, const char* what, Instant now);
     bool is_overtaken(std::size_t drive, Instant superseded_at, Instant handed) const;
     Instant was_judged_until(std::size_t drive, Instant handed) const;

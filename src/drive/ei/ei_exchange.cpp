@@ -14,6 +14,7 @@ constexpr std::chrono::milliseconds kMinGap{
     20};                                   ///< between characters at 9600 (EI-ASCII reference, section 1)
 constexpr std::size_t kGapCharacters = 20; ///< the same at lower rates
 constexpr std::size_t kLongestAnswer = kMaxAnswerText + 5; ///< STX C1 C2 text ETX BCC
+constexpr std::size_t kPortHolds = 4096;                   ///< octets that were not read yet
 constexpr std::size_t kUsualAnswer = 13; ///< fixed width: the length that an owed answer may have
 
 std::string quoted(Mnemonic mnemonic)
@@ -225,10 +226,17 @@ Exchange::End Exchange::wait(Instant begins_by, WaitsFor what)
     const Instant ends_by = begins_by + duration_of(kLongestAnswer) + gap();
     std::array<std::uint8_t, 64> buffer{};
     std::string octets;
+    std::size_t late = 0; // octets
     for (bool noise = false;; noise = true) {
         const Instant now = line_.now();
         const Instant until = in_frame() ? std::min(now + gap(), ends_by) : begins_by;
-        const std::size_t got = now < until ? line_.read(buffer, until - now) : 0;
+        if (now >= until) { // this thread had no processor: what waits in the port is late
+            owed_.wait_is_over();
+            what = WaitsFor::nothing;
+        }
+        const std::size_t got =
+            late < kPortHolds ? line_.read(buffer, std::max<std::chrono::nanoseconds>(until - now, {})) : 0;
+        if (what == WaitsFor::nothing) late += got;
         octets.clear();
         if (got != 0)
             hear(Bytes{buffer}.first(got), octets);
@@ -236,7 +244,7 @@ Exchange::End Exchange::wait(Instant begins_by, WaitsFor what)
             echo_.silence(octets);
         if (const auto end = take(octets, what)) return *end;
         if (got != 0 || !octets.empty()) continue;
-        if (parser_) return *broken(until < ends_by ? Flaw::none : Flaw::too_long, what);
+        if (parser_) return *broken(until < ends_by ? Flaw::none : Flaw::too_long, WaitsFor::value);
         notes_.no_answer(line_.now());
         if (trouble_.empty()) trouble_ = noise ? "noise and no answer" : "no answer";
         return End::silence;
