@@ -291,6 +291,38 @@ TEST_F(EiAnswers, AStrayEotDoesNotBringADriveBack)
     EXPECT_NE(client.probe(kMissing), AccessError::none);
 }
 
+/// Its EOT names nothing, and EE could be the answer of the other drive.
+TEST_F(EiAnswers, ADriveWithoutSpareMnemonicsIsProvenByATagWhileAnotherOneOwesEe)
+{
+    a.parameters.erase("II");
+    ASSERT_EQ(read(kFirst, input), AccessError::none);
+    b.faults = {Fault::none, Fault::silent};
+    ASSERT_EQ(read(kSecond, word_tag(5)), AccessError::no_answer) << "an EOT, and no EE behind it";
+    b.alive = false;
+
+    EXPECT_EQ(client.probe(kFirst), AccessError::none);
+    EXPECT_EQ(client.counts(kFirst).valid_at, line.time);
+
+    a.alive = false;
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(client.probe(kFirst), AccessError::no_answer);
+    line.comes_by_itself(stray('\x04'), 12ms);
+    EXPECT_EQ(client.probe(kFirst), AccessError::no_answer) << "a stray EOT";
+}
+
+TEST_F(EiAnswers, AWriteToADriveWithoutSpareMnemonicsIsProvenWhileAnotherOneOwesEe)
+{
+    a.parameters.erase("II");
+    ASSERT_EQ(read(kFirst, input), AccessError::none);
+    b.faults = {Fault::silent, Fault::silent};
+    ASSERT_EQ(write(kSecond, output, 1), AccessError::no_answer);
+    b.faults = {Fault::none, Fault::silent};
+    ASSERT_EQ(read(kSecond, word_tag(5)), AccessError::no_answer);
+    b.alive = false;
+
+    ASSERT_EQ(write(kFirst, output, 0x1234), AccessError::none) << client.last_trouble();
+    EXPECT_EQ(a.parameters["ow"].text, ">1234");
+}
+
 TEST_F(EiAnswers, AnEchoBringsNoDriveBackHoweverTheLineIsSet)
 {
     line.echoes = true;

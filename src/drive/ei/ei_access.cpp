@@ -17,6 +17,11 @@ constexpr std::string_view kNoError = ">0000"; ///< any write of EE sets it to "
 /// that it does not have.
 constexpr int kTimesInvalid = 2;
 
+bool is_spare(Mnemonic mnemonic)
+{
+    return mnemonic == kLastError || mnemonic[0] == kIdentity[0] || mnemonic[0] == kVersion[0];
+}
+
 bool is_denial(AccessError error)
 {
     return error == AccessError::invalid_tag || error == AccessError::unsupported_type;
@@ -28,6 +33,7 @@ Access::End Access::poll(UnitAddress unit, Mnemonic mnemonic)
 {
     const End end = exchange_.poll(unit, mnemonic);
     if (end != End::not_asked) ++asked_;
+    if (end == End::value && !is_spare(mnemonic)) gave_.insert_or_assign(number_of(unit), mnemonic);
     if (end == End::value || end == End::older)
         ++values_;
     else
@@ -142,7 +148,19 @@ AccessError Access::clear(UnitAddress unit)
     if (end == End::older) return AccessError::deferred; // it is there, and still owes
     if (end != End::refused) return ended(end);
     without_.insert({number_of(unit), *mnemonic});
-    return *mnemonic == kLastError ? AccessError::not_understood : ask_ee(unit);
+    if (*mnemonic == kLastError) return AccessError::not_understood;
+    const AccessError why = ask_ee(unit);
+    return why == AccessError::deferred ? ask_known(unit) : why;
+}
+
+/// An EOT has come, and EE could be the answer to another question: a tag that the drive has given before
+/// shows that it is there.
+AccessError Access::ask_known(UnitAddress unit)
+{
+    const auto known = gave_.find(number_of(unit));
+    if (known == gave_.end() || exchange_.is_owed(known->second)) return AccessError::deferred;
+    const End end = poll(unit, known->second);
+    return end == End::refused ? AccessError::deferred : ended(end);
 }
 
 /// none: ee_ is what the drive says now; anything else: nothing is known.

@@ -63,6 +63,7 @@ private:
     AccessError ask_ee(UnitAddress unit);
     AccessError set_ee_to_0(UnitAddress unit);
     AccessError clear(UnitAddress unit);
+    AccessError ask_known(UnitAddress unit);
     std::optional<Mnemonic> spare(UnitAddress unit);
     AccessError read_denied(UnitAddress unit, Mnemonic mnemonic);
     AccessError write_refused(UnitAddress unit, Mnemonic mnemonic, std::string_view text, bool once,
@@ -86,7 +87,8 @@ private:
     /// These were read last with an answer that was owed from before, and one still is: the next such value
     /// is older yet.
     std::set<Parameter> older_;
-    std::set<Parameter> without_; ///< spare mnemonics that a drive did not have
+    std::map<DriveNumber, Mnemonic> gave_; ///< the last tag of which it gave a value
+    std::set<Parameter> without_;          ///< spare mnemonics that a drive did not have
 };
 
 } // namespace dpslave::drive::ei
