@@ -13,6 +13,7 @@ Outcome carry_out(const Transaction& transaction, Backend& backend, const UnitAd
             outcome.words = words.first(transaction.count);
             outcome.error = backend.read(drive, *transaction.tag, words.first(transaction.count));
             outcome.answer = backend.last_answer();
+            outcome.may_be_older = backend.may_be_older();
             break;
         case Kind::write:
             outcome.error = transaction.once

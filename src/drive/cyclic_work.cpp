@@ -82,6 +82,16 @@ bool CyclicWork::done(const Transaction& transaction, const Outcome& outcome, Tr
     return false;
 }
 
+bool CyclicWork::was_read() const
+{
+    if (job_.layout != serial_) return false;
+    for (std::size_t i = job_.block.first; i <= job_.block.last; ++i) {
+        const Reading& one = reads_.parameter(i).reading;
+        if (!one.was_read() || !one.tried) return false;
+    }
+    return true;
+}
+
 bool CyclicWork::done_read(const Outcome& outcome, Tries tries, bool compares, Instant now)
 {
     if (outcome.error == AccessError::no_answer) {

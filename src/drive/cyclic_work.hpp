@@ -36,6 +36,10 @@ public:
     std::optional<std::chrono::nanoseconds> begin_round(Instant now);
     Instant next_due() const { return std::min(outputs_.next_due(), reads_.next_due()); }
 
+    /// The parameters of the read given last have a word of this layout, and need no new one since the drive
+    /// was lost.
+    bool was_read() const;
+
     struct Tries {
         int retries = 0;
         bool is_last = false; ///< without an answer the drive is lost

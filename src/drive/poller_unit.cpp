@@ -292,6 +292,8 @@ void Poller::Unit::done(const Transaction& transaction, const Outcome& outcome, 
     if (transaction.kind == Transaction::Kind::read && what.error == AccessError::none &&
         what.words.size() < transaction.count)
         what.error = AccessError::no_answer; // half an answer is none
+    if (outcome.may_be_older && what.error == AccessError::none && must_be_new(transaction.purpose))
+        what.error = AccessError::deferred;
     const AccessError error = what.error = judge(transaction, what);
     if (is_write(transaction) && transaction.tag->once) what.error = end_of_once(what);
     if (what.error == AccessError::deferred) {
@@ -371,6 +373,14 @@ AccessError Poller::Unit::judge(const Transaction& transaction, const Outcome& o
         inputs_changed_ = true;
     }
     return error == AccessError::none && tags_.is_contradicted(tag) ? AccessError::contradicted : error;
+}
+
+/// What is read first in a layout or behind the return of a drive, and what is ordered, is no value from
+/// before that.
+bool Poller::Unit::must_be_new(Purpose purpose) const
+{
+    if (is_cyclic(purpose)) return !cyclic_.was_read();
+    return purpose == Purpose::demand || purpose == Purpose::operate;
 }
 
 /// Where outputs are not compared the answer to a write names nothing (EI-ASCII): it is no proof.

@@ -86,6 +86,7 @@ private:
     void note_scale(const Transaction& transaction, const Outcome& outcome, Instant now);
     AccessError judge(const Transaction& transaction, const Outcome& outcome);
     void defer(const Transaction& transaction, Instant now);
+    bool must_be_new(Purpose purpose) const;
     bool proven_by_reading(const Transaction& transaction) const;
     void note_answer(Instant now);
     void note_silence(Instant began, Instant now);

@@ -185,10 +185,9 @@ bool ModbusClient::Exchange::wait(Bytes request, Instant until)
             case ModbusPort::Heard::gone: trouble_ = "the port has gone"; return false;
         }
     }
-    owed_
-        .wait_is_over(); // this thread had no processor, or a frame took long: what waits in the port is late
-    fall_silent();
     notes_.no_answer(line_.now());
+    owed_.wait_is_over();
+    fall_silent(); // a frame took long, or this thread had no processor: what is in the port is late
     return false;
 }
 

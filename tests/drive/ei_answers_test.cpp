@@ -182,6 +182,19 @@ TEST_F(EiAnswers, ADriveThatOwesThisVeryTagIsAskedForSomethingElseFirst)
     EXPECT_EQ(read(kFirst, output), AccessError::none) << "nothing is owed any more";
 }
 
+TEST_F(EiAnswers, AValueIsSaidToBeMaybeOlderWhereNothingElseCouldBeAskedBetween)
+{
+    for (int i = 0; i < 3; ++i) ASSERT_EQ(client.probe(kMissing), AccessError::no_answer); // II, V0, EE
+    b.faults = {Fault::silent};
+    ASSERT_EQ(read(kSecond, output), AccessError::no_answer);
+
+    EXPECT_EQ(read(kSecond, output), AccessError::none);
+    EXPECT_TRUE(client.may_be_older());
+
+    EXPECT_EQ(read(kSecond, input), AccessError::none);
+    EXPECT_FALSE(client.may_be_older());
+}
+
 TEST_F(EiAnswers, ADebtOfADeadDriveSettlesTenTimeOutsAfterItsQuestion)
 {
     b.alive = false;

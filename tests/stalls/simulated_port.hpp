@@ -73,6 +73,7 @@ public:
         return noted(unit, client_->write_once(unit, tag, word));
     }
     bool has_sent() const override { return client_->has_sent(); }
+    bool may_be_older() const override { return client_->may_be_older(); }
     unsigned questions() const override { return client_->questions(); }
     AccessError probe(drive::UnitAddress unit) override { return noted(unit, client_->probe(unit)); }
     std::string last_trouble() const override { return client_->last_trouble(); }

@@ -79,6 +79,10 @@ public:
     /// The last write has handed its words to the line: whatever its error, the drive may have them.
     virtual bool has_sent() const { return true; }
 
+    /// The value of the last read may answer an earlier question for the same tag: it is newer than all that
+    /// was read before, and may be older than the call.
+    virtual bool may_be_older() const { return false; }
+
     /// Returns how many questions the last call has asked: more than one if something invalid looked like an
     /// answer.
     virtual unsigned questions() const { return 1; }

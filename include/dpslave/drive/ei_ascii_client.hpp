@@ -50,6 +50,7 @@ public:
     AccessError write(UnitAddress unit, const Tag& tag, std::span<const std::uint16_t> words) override;
     AccessError write_once(UnitAddress unit, const Tag& tag, std::span<const std::uint16_t, 1> word) override;
     bool has_sent() const override { return has_sent_; }
+    bool may_be_older() const override;
     unsigned questions() const override;
     AccessError probe(UnitAddress unit) override;
     Sight look(UnitAddress unit, const Look& what) override;

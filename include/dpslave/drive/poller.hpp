@@ -135,6 +135,7 @@ struct Outcome {
     std::string_view answer{};  ///< of a read: what the drive has said (Backend::last_answer())
     std::string_view trouble{}; ///< of a survey: why there is none (Backend::last_trouble())
     bool sent = true;           ///< of a write: Backend::has_sent()
+    bool may_be_older = false;  ///< of a read: Backend::may_be_older()
     unsigned questions = 1;     ///< Backend::questions()
 };
 

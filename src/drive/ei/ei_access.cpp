@@ -71,6 +71,7 @@ AccessError Access::ended(End end)
 /// read before. After that one nothing more is known of the next, until the debt has ended.
 AccessError Access::ended_read(Parameter parameter, End end)
 {
+    value_.may_be_older = end == End::older;
     if (end == End::value) older_.erase(parameter);
     if (end != End::older || older_.insert(parameter).second) return ended(end);
     trouble_ = "an answer that may be older than the question";
@@ -110,7 +111,7 @@ AccessError Access::read_value(UnitAddress unit, Mnemonic mnemonic)
     if (end == End::refused) return read_denied(unit, mnemonic);
     const AccessError error = ended_read({number_of(unit), mnemonic}, end);
     if (error != AccessError::none) return error;
-    text_ = exchange_.answer();
+    value_.text = exchange_.answer();
     denied_.erase({number_of(unit), mnemonic});
     return error;
 }
@@ -150,17 +151,11 @@ AccessError Access::clear(UnitAddress unit)
     without_.insert({number_of(unit), *mnemonic});
     if (*mnemonic == kLastError) return AccessError::not_understood;
     const AccessError why = ask_ee(unit);
-    return why == AccessError::deferred ? ask_known(unit) : why;
-}
-
-/// An EOT has come, and EE could be the answer to another question: a tag that the drive has given before
-/// shows that it is there.
-AccessError Access::ask_known(UnitAddress unit)
-{
+    // EE could be the answer to another question: a tag that the drive has given shows that it is there.
     const auto known = gave_.find(number_of(unit));
-    if (known == gave_.end() || exchange_.is_owed(known->second)) return AccessError::deferred;
-    const End end = poll(unit, known->second);
-    return end == End::refused ? AccessError::deferred : ended(end);
+    if (why != AccessError::deferred || known == gave_.end() || exchange_.is_owed(known->second)) return why;
+    const End given = poll(unit, known->second);
+    return given == End::refused ? AccessError::deferred : ended(given);
 }
 
 /// none: ee_ is what the drive says now; anything else: nothing is known.
@@ -209,7 +204,7 @@ AccessError Access::prove(UnitAddress unit, Mnemonic mnemonic, std::optional<std
         if (end == End::doubtful) return doubtful(unit, mnemonic);
         if (end != End::refused) {
             if (written) return ended(end);
-            text_ = exchange_.answer();
+            value_.text = exchange_.answer();
             return ended_read({number_of(unit), mnemonic}, end);
         }
         const AccessError asked = ask_ee(unit);

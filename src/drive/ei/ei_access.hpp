@@ -19,7 +19,7 @@ class Access {
 public:
     Access(SerialLine& line, EiTiming timing) : exchange_(line, timing) {}
 
-    /// none: text() is the value. deferred: not asked, or the value may be older than the last write.
+    /// none: value() has it. deferred: not asked, or the value may be older than the last write.
     AccessError read(UnitAddress unit, Mnemonic mnemonic);
 
     /// deferred: not proven that the drive has taken it; what it holds now may be in read_back().
@@ -33,7 +33,12 @@ public:
     /// One poll and nothing else.
     Sight look(UnitAddress unit, Mnemonic mnemonic);
 
-    const std::string& text() const { return text_; }
+    /// As it was read last.
+    struct Value {
+        std::string text;
+        bool may_be_older = false; ///< than the question
+    };
+    const Value& value() const { return value_; }
     const std::optional<std::string>& read_back() const { return read_back_; }
     bool has_written() const { return has_written_; }       ///< the last write() got as far as its own text
     std::uint16_t ee() const { return ee_; }                ///< after a refusal
@@ -63,7 +68,6 @@ private:
     AccessError ask_ee(UnitAddress unit);
     AccessError set_ee_to_0(UnitAddress unit);
     AccessError clear(UnitAddress unit);
-    AccessError ask_known(UnitAddress unit);
     std::optional<Mnemonic> spare(UnitAddress unit);
     AccessError read_denied(UnitAddress unit, Mnemonic mnemonic);
     AccessError write_refused(UnitAddress unit, Mnemonic mnemonic, std::string_view text, bool once,
@@ -79,7 +83,7 @@ private:
     unsigned asked_ = 0;         ///< exchanges with whatever drive
     bool asks_anything_ = false; ///< any mnemonic will do
     std::uint16_t ee_ = 0;       ///< as ask_ee() read it last
-    std::string text_;
+    Value value_;
     std::optional<std::string> read_back_;
     std::string trouble_;
     KnownEe known_ee_;

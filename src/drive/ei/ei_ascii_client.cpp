@@ -75,7 +75,7 @@ AccessError EiAsciiClient::read(UnitAddress unit, const Tag& tag, std::span<std:
         return AccessError::invalid_tag;
     }
     const AccessError error = access_->read(unit, *mnemonic);
-    if (error == AccessError::none) return take_value(unit, tag, access_->text(), words[0]);
+    if (error == AccessError::none) return take_value(unit, tag, access_->value().text, words[0]);
     trouble_ = access_->trouble();
     if (error == AccessError::invalid_tag) {
         answer_ = "EE " + hex_text(access_->ee(), 4);
@@ -141,6 +141,11 @@ AccessError EiAsciiClient::write_word(UnitAddress unit, const Tag& tag, std::uin
         return AccessError::none;
     trouble_ = access_->trouble();
     return error;
+}
+
+bool EiAsciiClient::may_be_older() const
+{
+    return access_->value().may_be_older;
 }
 
 unsigned EiAsciiClient::questions() const

@@ -383,6 +383,21 @@ private:
     InputImage image_;
 };
 
+TEST_F(ReportedDrive, IsNotReadyBehindItsReturnWithValuesThatMayBeFromBefore)
+{
+    exchanges();
+    bench.drives[0].alive = false;
+    ASSERT_LT(until([&] { return reported(); }, 60s), 60s);
+    bench.drives[0].is_behind = true;
+    bench.drives[0].alive = true;
+    bench.run(10s);
+    EXPECT_FALSE(ready());
+
+    bench.drives[0].is_behind = false;
+    bench.run(1s);
+    EXPECT_TRUE(ready());
+}
+
 TEST_F(ReportedDrive, TheMasterIsToldAndTheStationStays)
 {
     exchanges();

@@ -67,6 +67,38 @@ TEST_F(PollerHeld, ItIsGoodAgainWithTheNextGoodAnswerAndNotBefore)
     for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(state(i), WordState::good) << i;
 }
 
+TEST_F(PollerHeld, AValueThatMayBeOlderThanItsQuestionIsNewerThanTheOneBefore)
+{
+    drive().is_behind = true;
+    drive().words[2] = 7;
+    asks(2);
+    EXPECT_EQ(seen().words[1], 7);
+    EXPECT_EQ(state(1), WordState::good);
+}
+
+TEST_F(PollerHeld, OfANewLayoutItIsNoValueForItMayBeFromBefore)
+{
+    drive().is_behind = true;
+    bench.layout(0, 2, {1, 2, 3});
+    bench.run(1s);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(state(i), WordState::untried) << i;
+
+    drive().is_behind = false;
+    bench.run(1s);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(state(i), WordState::good) << i;
+}
+
+TEST_F(PollerHeld, OfANewLayoutThatBeginsWhileTheDriveIsLostItIsNoneEither)
+{
+    drive().alive = false;
+    bench.run(5s);
+    bench.layout(0, 2, {1, 2, 3});
+    bench.run(1s);
+    drive().is_behind = drive().alive = true;
+    bench.run(10s);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NE(state(i), WordState::good) << i;
+}
+
 /// Whatever is asked again and again, all reads wait for it.
 TEST_F(PollerHeld, AllThatIsReadIsMarkedWhileTheDriveIsInDoubt)
 {

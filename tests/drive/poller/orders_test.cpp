@@ -69,6 +69,20 @@ TEST_F(PollerOrders, ANewOrderGoesBeforeEverythingElseOfItsDrive)
     ASSERT_FALSE(answers().empty());
 }
 
+/// The value may be from before the order.
+TEST_F(PollerOrders, AReadIsNotAnsweredByAnAnswerThatMayBeToAnEarlierQuestion)
+{
+    bench.drives[0].is_behind = true;
+    order(Kind::read, 50);
+    bench.run(500ms);
+    EXPECT_TRUE(answers().empty());
+    EXPECT_GT(bench.reads_of(50), 1U) << "it is asked again";
+
+    bench.drives[0].is_behind = false;
+    bench.run(500ms);
+    EXPECT_FALSE(answers().empty());
+}
+
 TEST_F(PollerOrders, ANewOrderGoesRightBehindTheRepetitionOfTheOneBefore)
 {
     order(Kind::read, 50);

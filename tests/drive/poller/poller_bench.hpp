@@ -29,6 +29,7 @@ struct MemoryDrive {
     int lost_answers = 0;       ///< so many transactions are done and not answered
     int not_understood = 0;     ///< so many transactions are answered with a NAK and not done
     int longest_read = 125;     ///< tags; a longer block is refused
+    bool is_behind = false;     ///< each answer may be to an earlier question
     bool answers_blocks = true; ///< false: silent to a write of more than one word
     AccessError refuses_blocks = AccessError::none; ///< a write of more than one word, whatever it says
 };
@@ -104,7 +105,10 @@ public:
                        error,
                        began});
         if (error != AccessError::no_answer) poller.heard(transaction->unit, now);
-        poller.done({.error = error, .words = std::span{words}.first(transaction->count), .sent = !unplugged},
+        poller.done({.error = error,
+                     .words = std::span{words}.first(transaction->count),
+                     .sent = !unplugged,
+                     .may_be_older = drives[transaction->unit].is_behind},
                     now);
         return true;
     }
