@@ -2,7 +2,7 @@
 #include "log.hpp"
 
 #include "dpslave/base/printable.hpp"
-#include "dpslave/io/log_stream.hpp"
+#include "dpslave/io/realtime.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/pattern_formatter.h>
@@ -15,7 +15,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
-#include <string_view>
+#include <utility>
 
 namespace dpslave {
 namespace {
@@ -59,14 +59,18 @@ public:
     }
 };
 
-/// What cannot be written now is counted, and said later.
+/// Lines for which there is no room are counted, and their number is said later.
 class StandardError final : public spdlog::sinks::base_sink<std::mutex> {
+public:
+    explicit StandardError(std::shared_ptr<io::LogThread> thread) : thread_(std::move(thread)) {}
+
 private:
     void sink_it_(const spdlog::details::log_msg& message) override
     {
+        lost_ += thread_->take_lost();
         if (lost_ != 0) {
-            const std::string text =
-                fmt::format("{} line(s) of the log were lost: what reads it had stopped", lost_);
+            const std::string text = fmt::format(
+                "{} line(s) of the log were lost: what reads it had stopped, or a disk was full", lost_);
             if (say({message.logger_name, spdlog::level::warn, text})) lost_ = 0;
         }
         if (lost_ != 0 || !say(message)) ++lost_;
@@ -74,36 +78,29 @@ private:
     bool say(const spdlog::details::log_msg& message)
     {
         spdlog::memory_buf_t line;
-        if (is_cut_) line.push_back('\n');
         formatter_->format(message, line);
-        return put({line.data(), line.size()});
+        return thread_->put({line.data(), line.size()});
     }
-    void flush_() override {} // nothing is kept
+    void flush_() override {} // the thread keeps nothing that it can write
 
-    /// False: there was no room for all of it.
-    bool put(std::string_view text)
-    {
-        const std::size_t taken = stream_.put(text);
-        is_cut_ = taken == text.size() ? false : is_cut_ || taken != 0;
-        return taken == text.size();
-    }
-
-    io::LogStream stream_{STDERR_FILENO};
+    std::shared_ptr<io::LogThread> thread_;
     std::uint64_t lost_ = 0;
-    bool is_cut_ = false; ///< the last line has no end
 };
 
 } // namespace
 
-void set_up_log()
+std::shared_ptr<io::LogThread> set_up_log()
 {
-    auto log = std::make_shared<spdlog::logger>("dpslaved", std::make_shared<StandardError>());
+    io::make_stacks_small(); // before the first thread
+    auto thread = std::make_shared<io::LogThread>(STDERR_FILENO);
+    auto log = std::make_shared<spdlog::logger>("dpslaved", std::make_shared<StandardError>(thread));
     auto format = std::make_unique<spdlog::pattern_formatter>();
     format->add_flag<JournalLevel>('*');
     format->add_flag<PrintableMessage>('~');
     format->set_pattern(stderr_is_journal() ? "%*%~" : "%Y-%m-%d %H:%M:%S.%e %l: %~");
     log->set_formatter(std::move(format));
     spdlog::set_default_logger(std::move(log));
+    return thread;
 }
 
 } // namespace dpslave

@@ -36,7 +36,7 @@ int status(ExitStatus status)
 int say_whether_configured(const std::string& file)
 {
     if (!dpslave::app::is_unconfigured(file)) return 0;
-    dpslave::set_up_log();
+    const auto log = dpslave::set_up_log();
     spdlog::warn(
         "{} configures neither bus nor line nor station, so there is nothing to start: delete the # before [bus], [[line]] and [[station]], set the keys below them, and start the service again",
         file);
@@ -48,7 +48,7 @@ int say_whether_configured(const std::string& file)
 int release_drivers(const std::string& file, const std::string& profiles)
 {
     namespace app = dpslave::app;
-    dpslave::set_up_log();
+    const auto log = dpslave::set_up_log();
     auto drivers = app::kept_drivers(app::runtime_folder());
     if (!drivers) {
         const auto config = dpslave::config::load_config(file, profiles);
@@ -101,9 +101,9 @@ int main(int argc, char** argv)
             std::fprintf(stderr, "%s (warning)\n", to_string(without_operator_group(*config)).c_str());
         return 0;
     }
-    dpslave::set_up_log();
+    const auto log = dpslave::set_up_log();
     try {
-        return status(dpslave::app::run_daemon(*config, profiles));
+        return status(dpslave::app::run_daemon(*config, profiles, *log));
     } catch (const std::exception& error) { // no descriptor, no thread or no memory left
         spdlog::critical("ended by a system error: {}", error.what());
         return status(ExitStatus::not_served);

@@ -223,9 +223,10 @@ TEST_F(RowOfTheLog, F36_ThatNobodyReadsHoldsNoThreadUpAndSaysAfterwardsHowManyLi
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
     const int reader = ::open(pipe.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
     ASSERT_GE(reader, 0);
-    ASSERT_GT(::fcntl(reader, F_SETPIPE_SZ, 4096), 0); // full after some twenty lines
+    ASSERT_GT(::fcntl(reader, F_SETPIPE_SZ, 4096),
+              0); // full after some twenty lines, what waits for it after some hundred
     begins_with_log_to(pipe);
-    for (int value = 0; value < 60; ++value) EXPECT_TRUE(operator_writes(value));
+    for (int value = 0; value < 250; ++value) EXPECT_TRUE(operator_writes(value));
     both_sides_work(2);
     gateway->drive().send_line("silence"); // a thread of a drive line has something to say, too
     EXPECT_TRUE(doctor_names("drive.silent"));

@@ -217,5 +217,25 @@ TEST_F(StalledCall, F41_OfADriveLineIsNamedAtTheEndWhichTheOtherLinesAndTheBusDo
     next_daemon_goes_on();
 }
 
+TEST_F(StalledCall, F42_OfTheLogOnADiskThatDoesNotAnswerKeepsNobodyAndNoStop)
+{
+    begins_with(wiring_with("drive-gateway", "log"));
+    stalls();
+    gateway->unplug_drive(); // a line of the log
+    gateway->plug_drive();
+    ASSERT_TRUE(has_stalled());
+    EXPECT_TRUE(exchange_is_back(true));
+    for (int value = 7; value <= 9; ++value) {
+        ASSERT_TRUE(master_wants(value));
+        ASSERT_TRUE(drive_takes(value));
+    }
+    EXPECT_EQ(gateway->dpctl({"status"}).status, 0);
+    EXPECT_EQ(gateway->dpctl({"reload"}).status, 0);
+    EXPECT_EQ(gateway->dpctl({"write", "58", "3", "--yes"}).status, 0);
+    EXPECT_EQ(gateway->daemon().end(SIGTERM), 0);
+    EXPECT_EQ(taken().back(), 0);
+    next_daemon_goes_on();
+}
+
 } // namespace
 } // namespace dpslave::test

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dpslave/config/config.hpp"
+#include "dpslave/io/log_thread.hpp"
 
 #include <filesystem>
 
@@ -18,8 +19,10 @@ enum class ExitStatus : int {
 
 /// Opens the socket and the devices, serves until SIGTERM or SIGINT, leaves the bus and puts the outputs
 /// into their safe state. A device that is missing is opened when it appears; while that is the port of the
-/// bus or its driver enable, the stations are silent. Logs through spdlog's default logger. A thread that
-/// hangs in a system call at the end is left behind: then the process ends here.
-ExitStatus run_daemon(const config::Config& config, const std::filesystem::path& profiles);
+/// bus or its driver enable, the stations are silent. Logs through spdlog's default logger, which gives its
+/// lines to `log`. A thread that hangs in a system call at the end is left behind: then the process ends
+/// here.
+ExitStatus run_daemon(const config::Config& config, const std::filesystem::path& profiles,
+                      io::LogThread& log);
 
 } // namespace dpslave::app

@@ -27,8 +27,8 @@ inline constexpr std::size_t kThreadStack = 128 * 1024;
 /// If the system refuses it they have the usual stack of 8 MiB.
 void make_stacks_small();
 
-/// Makes freed memory stay with the process, and all threads share it. Call it before the first thread
-/// starts, if the memory is to be locked.
+/// Makes freed memory stay with the process, and all threads share it. Call it before another thread
+/// allocates, if the memory is to be locked.
 void keep_memory();
 
 /// Locks all memory of the process, present and future: the complete stacks of all threads are then in

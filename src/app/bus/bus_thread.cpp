@@ -71,7 +71,7 @@ void BusThread::update()
     const Instant now = io::monotonic_now();
     look_at_settings(now);
     stations_.update(now);
-    if (stations_.main_silence() >= kProgramMayStall && link_.end_program != nullptr) link_.end_program();
+    if (stations_.main_silence() >= kProgramMayStall && link_.end_program) link_.end_program();
 }
 
 /// What the stations were told is passed on if it is what the master has said. A port whose settings another

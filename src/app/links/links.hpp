@@ -29,6 +29,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -179,7 +180,7 @@ struct BusLink {
     std::atomic<bool> ended{false};     ///< the bus thread has ended
     /// Is called on the bus thread when the main thread has stalled for kProgramMayStall and no service
     /// manager ends the program; null: one does.
-    void (*end_program)() = nullptr;
+    std::function<void()> end_program;
     /// Main -> bus: the memory is locked, if it is to be. The bus is served before.
     std::atomic<bool> memory_is_ready{true};
     trace::Ring trace; ///< what was heard and sent, bus -> whoever looks

@@ -13,14 +13,13 @@
 #include "dpslave/fdl/transmission.hpp"
 #include "dpslave/io/clock.hpp"
 #include "dpslave/io/driver_enable.hpp"
-#include "dpslave/io/log_stream.hpp"
+#include "dpslave/io/log_thread.hpp"
 #include "dpslave/io/notify.hpp"
 #include "dpslave/io/realtime.hpp"
 #include "dpslave/io/signals.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -94,31 +93,23 @@ std::chrono::milliseconds remaining(Instant until)
                     std::chrono::milliseconds{10});
 }
 
-/// What is said when nobody writes the log any more.
-io::LogStream& last_words()
+/// On the bus thread, when the main thread has stalled for too long: the bus was left, and the drives have
+/// their safe state.
+void end_without_main_thread(io::LogThread& log)
 {
-    static io::LogStream stream{STDERR_FILENO};
-    return stream;
-}
-
-/// On the bus thread, when the main thread has stalled for too long. Nobody reads the log any more; the bus
-/// was left, and the drives have their safe state.
-void end_without_main_thread()
-{
-    last_words().put("dpslaved: the main thread has stalled: the program ends\n");
+    log.say_last("dpslaved: the main thread has stalled: the program ends\n", io::LogThread::kLastWait);
     std::_Exit(static_cast<int>(ExitStatus::not_served));
 }
 
 } // namespace
 
-ExitStatus run_daemon(const config::Config& config, const std::filesystem::path& profiles)
+ExitStatus run_daemon(const config::Config& config, const std::filesystem::path& profiles, io::LogThread& log)
 {
     io::Signals signals; // first: every later thread inherits the blocked signals
+    if (config.realtime.lock_memory) io::keep_memory();
     for (const input::Fault& warning : config.warnings) spdlog::warn("{}", to_string(warning));
 
     // What can end the start comes first, before anything is sent on the bus.
-    io::make_stacks_small(); // before the first threads
-    if (config.realtime.lock_memory) io::keep_memory();
     io::DriverEnable driver{config.bus.driver_enable};
     BusLink link{std::size_t{config.trace.bus_kib} * 1024};
     Plant plant{link, passes_self_test()};
@@ -137,10 +128,7 @@ ExitStatus run_daemon(const config::Config& config, const std::filesystem::path&
     opener.start();
     constexpr std::chrono::seconds kUsually{1}; // a port that opens later is served then
     opener.await_first_try(kUsually);
-    if (!io::Notifier{}.watchdog_interval()) {
-        last_words(); // is made here: the bus thread opens nothing
-        link.end_program = end_without_main_thread;
-    }
+    if (!io::Notifier{}.watchdog_interval()) link.end_program = [&log] { end_without_main_thread(log); };
     BusThread bus(config.bus, opener, driver, plant.bus_stations(), link);
     guard.start(config.realtime.priority);
     io::EventFd bus_wake;
@@ -175,8 +163,10 @@ ExitStatus run_daemon(const config::Config& config, const std::filesystem::path&
         hanging.push_back("the port " + config.bus.port + " does not close");
     main_thread.tell_rest();
     const auto status = by_signal ? ExitStatus::ended_by_signal : ExitStatus::not_served;
-    if (!main_thread.end(std::move(hanging), begun + kAllEnds))
+    if (!main_thread.end(std::move(hanging), begun + kAllEnds)) {
+        log.finish(io::LogThread::kLastWait);
         std::_Exit(static_cast<int>(status)); // what hangs uses objects that cannot be freed
+    }
     spdlog::info("ended");
     return status;
 }

@@ -2,7 +2,7 @@
 // Preloaded into the daemon: a call of a tty does not come back while a file is there, as a USB control
 // transfer that is not answered. The environment says which: STALLED_PORT the tty (a symbolic link),
 // STALLED_CALL the call (open, write, ioctl), STALLED_WHILE the file. STALLED_NOTE is a file that the call
-// makes when it begins to wait.
+// makes when it begins to wait. STALLED_CALL log: the write of the log, as on a disk that does not answer.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/ioctl.h>
@@ -40,6 +40,7 @@ bool is_port(const char* path)
 
 bool is_port(int fd)
 {
+    if (fd == STDERR_FILENO) return true; // of the call "log"
     char name[64];
     return ::ttyname_r(fd, name, sizeof name) == 0 && is_port(name);
 }
@@ -60,7 +61,7 @@ void stall(const char* call, Port port)
 EXPORTED ssize_t write(int fd, const void* octets, size_t count)
 {
     static auto* const real = next<ssize_t(int, const void*, size_t)>("write");
-    stall("write", fd);
+    stall(fd == STDERR_FILENO ? "log" : "write", fd);
     return real(fd, octets, count);
 }
 
@@ -90,6 +91,6 @@ EXPORTED int ioctl(int fd, unsigned long request, ...)
     va_start(more, request);
     void* const argument = va_arg(more, void*);
     va_end(more);
-    if (request != TIOCGWINSZ && request != TCGETS) stall("ioctl", fd);
+    if (request != TIOCGWINSZ && request != TCGETS && fd != STDERR_FILENO) stall("ioctl", fd);
     return real(fd, request, argument);
 }
