@@ -51,6 +51,9 @@ public:
         deferred_ = 0;
         if (began != now) asked_at_ = now;
     }
+    /// Nothing says that it would not answer: it need not wait for its turn among those that do not.
+    void ask_at_once() { asked_at_ = {}; }
+    bool is_asked_at_once() const { return asked_at_ == Instant{}; }
     /// A question had no answer. It counts with the next silence.
     void note_unanswered(const Outcome& outcome, Instant began)
     {

@@ -121,7 +121,7 @@ Instant Poller::probe_due(std::size_t unit) const
                    : a->contact().asked_at() < b->contact().asked_at();
     });
     if (longest->get() != units_[unit].get()) return kNever;
-    if (!probed_at_) return (*longest)->contact().probe_due();
+    if (!probed_at_ || (*longest)->contact().is_asked_at_once()) return (*longest)->contact().probe_due();
     return std::max((*longest)->contact().probe_due(), *probed_at_ + (*longest)->contact().probe_interval());
 }
 

@@ -430,6 +430,7 @@ void Poller::Unit::not_asked(Instant now)
     if (!link().is_lost()) {
         link().lose();
         lose(now);
+        contact_.ask_at_once();
     }
     if (presence().is_supervised()) {
         presence().not_asked(now);

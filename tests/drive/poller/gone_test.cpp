@@ -453,10 +453,25 @@ TEST_F(HeldDrive, ThatWasNotAskedStaysAndNoWordIsGoodBeforeItAnswersAgain)
     EXPECT_EQ(seen().states[1], WordState::stale);
     ASSERT_TRUE(bench.poller.take_inputs(0));
 
-    bench.run(3s);
+    bench.run(200ms);
     EXPECT_FALSE(is_away());
-    EXPECT_TRUE(seen().answers);
+    EXPECT_TRUE(seen().answers) << "it is asked at once";
     EXPECT_EQ(seen().states[1], WordState::good);
+}
+
+TEST(DrivesOfALineThatStalled, AreAllAskedAtOnceAndDeadOnesInTheirTurn)
+{
+    PollerBench bench{{drive_with(WhenLost::hold), drive_with(WhenLost::silent),
+                       drive_with(WhenLost::diagnosis), drive_with(WhenLost::silent)}};
+    bench.drives[3].alive = false;
+    bench.run(30s);
+    for (std::size_t i = 0; i < 4; ++i) bench.poller.not_asked(i, bench.now);
+    bench.log.clear();
+    bench.steps(3);
+    ASSERT_EQ(bench.log.size(), 3U);
+    std::set<std::size_t> asked;
+    for (const Done& one : bench.log) asked.insert(one.unit);
+    EXPECT_EQ(asked, (std::set<std::size_t>{0, 1, 2}));
 }
 
 TEST_F(HeldDrive, NothingFollowsFromALoss)
