@@ -24,8 +24,8 @@ struct DriveLine {
         : config(std::move(line)),
           link(std::size_t{trace.drive_kib} * 1024, std::size_t{trace.samples_kib} * 1024)
     {}
-    /// The safe state is written until `ends_by` at most. An answer that is waited for may come a moment
-    /// longer.
+    /// The safe state is written until `ends_by` at most, kNever: for DriveThread::kSafeStateLimit. An answer
+    /// that is waited for may come a moment longer.
     void request_stop(Instant now, Instant ends_by)
     {
         link.ends_by.store(ends_by, std::memory_order_relaxed);

@@ -260,7 +260,11 @@ void DriveThread::rest(int wake, std::chrono::nanoseconds wait)
 /// none.
 void DriveThread::write_safe_state()
 {
-    const Instant end = link_.ends_by.load(std::memory_order_relaxed);
+    Instant latest = io::monotonic_now() + kSafeStateLimit; // of a line that leaves a program that stays
+    const auto ends_by = [&] {
+        const Instant wanted = link_.ends_by.load(std::memory_order_relaxed);
+        return wanted == kNever ? latest : wanted;
+    };
     fetch();
     orders_.drop_all();
     // Usually the bus has said so; one that hangs or has failed has not.
@@ -268,14 +272,18 @@ void DriveThread::write_safe_state()
         poller_.left_data_exchange(i, {.generation = units_[i].layout()});
         poller_.cancel_ride_through(i); // nothing could zero the outputs later
     }
-    while (poller_.safe_state_pending() && io::monotonic_now() < end) {
+    for (;;) {
         io::give_sign();
-        link_.sign->end_waits(end); // of what is opened
-        if (link_.sign->stall()) recover();
+        link_.sign->end_waits(ends_by()); // of what is opened
+        if (link_.sign->stall()) {
+            recover();
+            latest = io::monotonic_now() + kSafeStateLimit;
+        }
         note_stalls();
-        const Instant now = io::monotonic_now();
+        const Instant now = io::monotonic_now(), end = ends_by();
         std::int64_t waiting = 0;
         for (std::size_t i = 0; i < units_.size(); ++i) waiting += is_pending(i) ? 1 : 0;
+        if (waiting == 0 || now >= end) break;
         const auto share = std::max<std::chrono::nanoseconds>((end - now) / waiting, kLastAnswer);
         link_.sign->end_waits(std::min(end, now + share));
         if (const auto transaction = poller_.next(now))

@@ -311,7 +311,7 @@ void Plant::finish()
     const Instant now = io::monotonic_now();
     for (const auto& line : leaving_lines_)
         if (!line->thread.get_stop_token().stop_requested())
-            line->request_stop(now, now + DriveThread::kSafeStateLimit);
+            line->request_stop(now, kNever); // one that stalls has its time behind its return
 }
 
 bool Plant::has_taken(const DriveLine& line) const
