@@ -202,12 +202,15 @@ ModbusPort::Heard RtuLine::take_heard()
 bool RtuLine::fetch(Instant until)
 {
     if (!port_.tty().wait_readable(std::max<std::chrono::nanoseconds>(until - now(), 0ns))) return false;
-    const io::InCall read{io::PortCall::read};
-    const auto chunk = port_.tty().read(buffer_);
+    const auto chunk = [&] {
+        const io::InCall read{io::PortCall::read};
+        return port_.tty().read(buffer_);
+    }();
     if (!chunk) {
         lose();
         return false;
     }
+    if (io::this_thread_stalled()) return false; // what it brings is no answer, and the port goes
     read_at_ = now();
     heard_ = chunk->octets;
     bad_behind_ = chunk->bad_character;

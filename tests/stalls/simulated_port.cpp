@@ -54,6 +54,16 @@ bool write_as_the_program(World& world, bool& has_unsent, bool& may_have_left, u
     return !may_have_left;
 }
 
+/// False: the call stalls, and what it brings is no answer.
+bool fetches(World& world)
+{
+    {
+        const io::InCall read{io::PortCall::read};
+        world.may_stall(Where::read);
+    }
+    return !io::this_thread_stalled();
+}
+
 /// The end of the slice of a wait.
 Instant slice_end(const World& world, Instant until)
 {
@@ -78,11 +88,7 @@ std::size_t EiPort::read(std::span<std::uint8_t> into, std::chrono::nanoseconds 
         const std::size_t got = line_.read(into, end - line_.time);
         world_.waits_until(line_.time);
         if (io::this_thread_stalled()) return 0;
-        if (got != 0) {
-            const io::InCall read{io::PortCall::read};
-            world_.may_stall(Where::read);
-            return got;
-        }
+        if (got != 0) return fetches(world_) ? got : 0;
         if (world_.now() >= std::min(until, io::waits_of_this_thread_end())) return 0;
     }
 }
@@ -100,11 +106,7 @@ modbus::ModbusPort::Heard FramesPort::receive(Instant until)
         const Heard heard = line_.receive(slice_end(world_, until));
         world_.waits_until(line_.time);
         if (io::this_thread_stalled()) return Heard::silence;
-        if (heard != Heard::silence) {
-            const io::InCall read{io::PortCall::read};
-            world_.may_stall(Where::read);
-            return heard;
-        }
+        if (heard != Heard::silence) return fetches(world_) ? heard : Heard::silence;
         if (world_.now() >= std::min(until, io::waits_of_this_thread_end())) return heard;
     }
 }

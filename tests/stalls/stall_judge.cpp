@@ -223,8 +223,10 @@ void StallJudge::judge_leaving(std::size_t drive, const char* what, Instant now)
     if (!only_diagnosis) end_layout(drive, now);
     const StationRules& rules = rules_[drive];
     const Instant since = record.attached_at - kLook;
-    if (!only_diagnosis && (main_left_at_ >= since || bus_lost_at_ >= since || main_lost_at_ >= since))
-        return;
+    // A line that stalled right behind it says it only now.
+    const Instant lost_at = std::max(bus_lost_at_, main_lost_at_);
+    const bool is_of_line = lost_at >= since || line_thread.ran(lost_at, now) <= 2 * kLook;
+    if (!only_diagnosis && (main_left_at_ >= since || is_of_line)) return;
     if (rules.when != drive::WhenLost::hold) {
         if (line_thread.count() != 0) {
             const Instant end = line_thread.is_stalled() ? now : std::min(now, line_thread.until());
@@ -349,6 +351,32 @@ void StallJudge::judge_zeros(Instant now)
                 report_violation(now, fmt::format("tag {} of drive {} has no safe state {:.3f} s after its "
                                                   "master was lost",
                                                   tag, i, seconds(now - *output.owes_zero)));
+        }
+}
+
+void StallJudge::leaves(Instant now)
+{
+    trace(now, "the line is removed");
+    for (std::size_t i = 0; i < records_.size(); ++i) {
+        records_[i].is_on = false;
+        end_layout(i, now);
+    }
+}
+
+/// Where there was time for it: DriveThread::kSafeStateLimit.
+void StallJudge::has_left(Instant now)
+{
+    constexpr Time kLimit = 2s;
+    std::int64_t outputs = 0;
+    for (const Record& one : records_) outputs += static_cast<std::int64_t>(one.outputs.size());
+    const Time answered = 80 * line_.rules().character + 3 * line_.rules().turnaround + 60ms;
+    if (answers_late_ || (3 * outputs + 4) * answered > kLimit) return;
+    for (std::size_t i = 0; i < records_.size(); ++i)
+        for (const auto& [tag, output] : records_[i].outputs) {
+            const std::uint16_t word = line_.drives[i].find(tag)->now().word;
+            if (output.wanted.size() > 1 && zero_is_allowed(i) && word != 0)
+                report_violation(
+                    now, fmt::format("the line has left, and tag {} of drive {} holds {:04X}", tag, i, word));
         }
 }
 

@@ -58,6 +58,9 @@ public:
     void fails(std::uint32_t number, bool is_known, Instant now);
     void answers(const drive::OperateAnswer& answer, Instant now);
 
+    /// The line is removed from the configuration, and its thread has ended.
+    void leaves(Instant now);
+    void has_left(Instant now);
     /// The line goes round.
     void line_turn(Instant now);
 

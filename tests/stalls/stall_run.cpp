@@ -120,6 +120,7 @@ private:
     void begin_history();
     void begin_to_settle(Instant now);
     void settle();
+    void leave();
     void disturb();
     void operate();
     LineStall line_stall(Instant due);
@@ -129,7 +130,7 @@ private:
     const HistoryOptions& options_;
     std::vector<Instant> returns_at_; ///< of drives that are off
     Instant next_history_;
-    std::optional<Instant> settles_until_;
+    std::optional<Instant> settles_until_, leaves_by_;
 };
 
 void Script::act()
@@ -141,6 +142,7 @@ void Script::act()
         returns_at_[i] = kNever;
         world_.line().returns(i, false);
     }
+    if (leaves_by_) return leave();
     if (settles_until_) return settle();
     if (world_.any_stall()) {
         next_history_ = now + chance_.between(100ms, 8s);
@@ -256,8 +258,22 @@ void Script::settle()
         else
             wrong = world_.judge().not_settled(i);
     }
-    if (wrong.empty()) return world_.stop();
+    if (wrong.empty()) return leave();
     if (world_.now() > *settles_until_) world_.judge().report_violation(world_.now(), "in the end " + wrong);
+}
+
+/// The line is removed, mostly while a call of its port stalls.
+void Script::leave()
+{
+    if (!leaves_by_) {
+        leaves_by_ = world_.now() + 3s;
+        world_.line_stalls(line_stall(world_.now()));
+        return;
+    }
+    if (world_.judge().line_thread.is_stalled() || world_.now() > *leaves_by_) {
+        world_.leave();
+        world_.acts_at = kNever;
+    }
 }
 
 template <class Line, class Port, class Make>

@@ -87,8 +87,8 @@ void World::run(const std::function<void()>& act)
 {
     act_ = act;
     app::DriveThread line{setting_.line, false, units_, drive_line_.link, signs_};
-    drive_line_.link.ends_by.store(Instant{}); // the end of the program is another matter
     line.run(stop_.get_token(), wake_);
+    if (leaves_) judge_.has_left(now_);
 }
 
 bool World::any_stall() const
@@ -135,6 +135,7 @@ bool World::begins_to_stall(Thread& thread)
 void World::bus_turn()
 {
     signs_.bus.give(now_);
+    if (leaves_) return; // the stations of the line are off the bus
     std::vector<dp::State> before;
     for (const auto& one : stations_) before.push_back(one->slave().state());
     set_->update(now_);

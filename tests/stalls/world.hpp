@@ -74,6 +74,14 @@ public:
     /// Runs the loop of the line until stop(). `act`: the script, called at `acts_at`.
     void run(const std::function<void()>& act);
     void stop() { stop_.request_stop(); }
+    /// The line is removed from the configuration.
+    void leave()
+    {
+        leaves_ = true;
+        judge_.leaves(now_);
+        drive_line_.request_stop(now_, kNever);
+        stop();
+    }
     Instant acts_at = kNever;
 
     // The script's.
@@ -138,6 +146,7 @@ private:
     std::optional<LineStall> line_stall_;
     std::optional<Time> open_stall_;
     unsigned times_closed_ = 0;
+    bool leaves_ = false;
 
     app::ProgramSigns signs_;
     Handover<app::BusStations> next_;

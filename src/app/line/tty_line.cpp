@@ -69,12 +69,15 @@ bool TtyLine::write(Bytes octets)
 std::size_t TtyLine::read(std::span<std::uint8_t> into, std::chrono::nanoseconds timeout)
 {
     if (!port_.is_open() || !port_.tty().wait_readable(timeout)) return 0;
-    const io::InCall read{io::PortCall::read};
-    const auto chunk = port_.tty().read(into);
+    const auto chunk = [&] {
+        const io::InCall read{io::PortCall::read};
+        return port_.tty().read(into);
+    }();
     if (!chunk) {
         lose();
         return 0;
     }
+    if (io::this_thread_stalled()) return 0; // it has stalled: what it brings is no answer, and the port goes
     return chunk->octets.size();
 }
 

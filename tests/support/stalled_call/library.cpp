@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Preloaded into the daemon: a call of a tty does not come back while a file is there, as a USB control
 // transfer that is not answered. The environment says which: STALLED_PORT the tty (a symbolic link),
-// STALLED_CALL the call (open, write, ioctl), STALLED_WHILE the file. STALLED_NOTE is a file that the call
-// makes when it begins to wait. STALLED_CALL log: the write of the log, as on a disk that does not answer.
+// STALLED_CALL the call (open, read, write, ioctl), STALLED_WHILE the file. STALLED_NOTE is a file that the
+// call makes when it begins to wait. STALLED_CALL log: the write of the log, as on a disk that does not
+// answer.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/ioctl.h>
@@ -62,6 +63,13 @@ EXPORTED ssize_t write(int fd, const void* octets, size_t count)
 {
     static auto* const real = next<ssize_t(int, const void*, size_t)>("write");
     stall(fd == STDERR_FILENO ? "log" : "write", fd);
+    return real(fd, octets, count);
+}
+
+EXPORTED ssize_t read(int fd, void* octets, size_t count)
+{
+    static auto* const real = next<ssize_t(int, void*, size_t)>("read");
+    stall("read", fd);
     return real(fd, octets, count);
 }
 
