@@ -28,7 +28,11 @@ public:
     bool survey(std::uint32_t number, std::uint16_t tag, std::optional<MnemonicRule> rule);
 
     void set_zero_after(ZeroAfter after) { safe_state_.set_zero_after(after); }
-    void cancel_ride_through() { safe_state_.cancel_ride_through(); }
+    void cancel_ride_through()
+    {
+        safe_state_.cancel_ride_through();
+        contact_.ask_at_once();
+    }
     void end_ride() { safe_state_.end_ride(); }
     void leave_port();
     void port_changed();

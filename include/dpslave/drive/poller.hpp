@@ -228,7 +228,7 @@ public:
     /// From now on, also for a ride that is under way: it counts from the loss. What is zeroed already stays.
     void set_zero_after(std::size_t unit, ZeroAfter after);
     /// The drive is about to leave, or the program to end: what would be zeroed later is zeroed now, also of
-    /// layouts that end afterwards.
+    /// layouts that end afterwards. One that is lost is asked once more at once: it may be back.
     void cancel_ride_through(std::size_t unit);
     /// The master was lost in a way that is not ridden through: what left_data_exchange() has ended, and
     /// would be zeroed later, is zeroed now.

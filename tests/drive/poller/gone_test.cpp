@@ -474,6 +474,25 @@ TEST(DrivesOfALineThatStalled, AreAllAskedAtOnceAndDeadOnesInTheirTurn)
     EXPECT_EQ(asked, (std::set<std::size_t>{0, 1, 2}));
 }
 
+TEST(LostDrive, OfAProgramThatEndsIsAskedOnceMoreAndHasItsSafeStateIfItIsBack)
+{
+    PollerBench bench{{drive_with(WhenLost::hold)}};
+    bench.drives[0].words[3] = 0;
+    bench.run(1s);
+    bench.layout(0, 1, {}, {3});
+    bench.master_writes(0, 3, 300);
+    bench.run(1s);
+    bench.drives[0].alive = false;
+    bench.run(30s);
+    bench.drives[0].alive = true;
+    while (bench.step()) { // until it waits for its turn
+    }
+    bench.master_leaves(0);
+    bench.poller.cancel_ride_through(0);
+    bench.run(200ms);
+    EXPECT_EQ(bench.drives[0].words[3], 0);
+}
+
 TEST_F(HeldDrive, NothingFollowsFromALoss)
 {
     exchanges();

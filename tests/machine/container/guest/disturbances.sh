@@ -15,27 +15,35 @@ stall_thread() {
 }
 is_stopped() { grep -q '^State:.*tracing stop' "/proc/$1/task/$2/status"; }
 
+# How often the drive's output was set to zero.
+zeroes() { grep -c -F "tag 56 written 0.00" /host/drive1.log; }
+zeroes_more_than() { [ "$(zeroes)" -gt "$1" ]; }
+
+# of_thread PID: the thread of this process that stands still.
+main_thread() { echo "$1"; }
 is_woken_by_watchdog() {
-    local pid thread before
+    local of_thread=$1 pid thread before zeroes
     pid=$(main_pid)
-    thread=$(bus_thread "$pid")
+    thread=$("$of_thread" "$pid")
     before=$(restarts)
+    zeroes=$(zeroes)
     mark
     stall_thread "$thread" &
     eventually is_stopped "$pid" "$thread"
-    expect_no_text "$(grep '^State' "/proc/$pid/task/$pid/status")" "stop" # the main thread lives
+    [ "$thread" = "$pid" ] || expect_no_text "$(grep '^State' "/proc/$pid/task/$pid/status")" "stop" # main lives
+    eventually zeroes_more_than "$zeroes"
+    expect_equal "process at the safe state of the drive" "$(main_pid)" "$pid"
+    expect_equal "restarts until then" "$(restarts)" "$before"
     eventually restarted_since "$before"
     eventually has_said "Watchdog timeout"
     eventually exchanging
     expect_other "process" "$(main_pid)" "$pid"
     wait
 }
-prove "given a bus thread that stands still alone, when the watchdog's time is over, then a new one exchanges data" \
-    is_woken_by_watchdog
-
-# How often the drive's output was set to zero.
-zeroes() { grep -c -F "tag 56 written 0.00" /host/drive1.log; }
-zeroes_more_than() { [ "$(zeroes)" -gt "$1" ]; }
+prove "given a bus thread that stands still alone, when the watchdog's time is over, then the drive was safe before, and a new one exchanges data" \
+    is_woken_by_watchdog bus_thread
+prove "given a main thread that stands still alone, when the watchdog's time is over, then the drive was safe before, and a new one exchanges data" \
+    is_woken_by_watchdog main_thread
 
 # The port of a hanging thread cannot be taken away: the program ends without it, and the drive is not left running.
 stops_without_its_bus_thread() {
