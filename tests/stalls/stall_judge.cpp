@@ -357,6 +357,7 @@ void StallJudge::judge_zeros(Instant now)
 void StallJudge::leaves(Instant now)
 {
     trace(now, "the line is removed");
+    removed_at_ = now;
     for (std::size_t i = 0; i < records_.size(); ++i) {
         records_[i].is_on = false;
         end_layout(i, now);

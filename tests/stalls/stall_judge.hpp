@@ -149,6 +149,7 @@ private:
     std::map<std::uint32_t, Order> orders_;
     Instant came_back_at_{}, stalled_from_{};                 ///< of the last call that took so long
     Instant bus_lost_at_{}, main_lost_at_{}, main_left_at_{}; ///< such a stall was long enough then
+    Instant removed_at_ = kNever;                             ///< then the bus judges the line no more
     std::size_t bus_noted_ = 0, main_noted_ = 0;              ///< stalls that count as a loss of the master
     std::uint64_t departures_ = 0;
     std::optional<std::string> violation_;

@@ -24,7 +24,7 @@ Instant StallJudge::was_judged_until(std::size_t drive, Instant handed) const
 {
     if (line_thread.count() == 0 || line_thread.is_stalled() || line_thread.until() > handed)
         return Instant{};
-    const Time silent = bus_thread.ran(line_thread.from(), line_thread.until());
+    const Time silent = bus_thread.ran(line_thread.from(), std::min(line_thread.until(), removed_at_));
     return silent > rules_[drive].after + 2 * kLook ? line_thread.until() : Instant{};
 }
 
