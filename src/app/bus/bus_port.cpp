@@ -30,10 +30,9 @@ void BusPort::take(fdl::Layer2& layer2)
     port_ = opener_.lent();
     if (port_ == nullptr) return;
     layer2.set_port(opener_.rates(), driver_.edge_time()); // the driver goes on before the first bit
-    if (!std::exchange(was_open_, true))
-        backlog_ = BacklogAge{port_->opened()};
-    else
-        report(PortEvent::back);
+    const bool is_first = !std::exchange(was_open_, true);
+    if (is_first) backlog_ = BacklogAge{port_->opened()};
+    if (!is_first || opener_.was_missing()) report(PortEvent::back);
     guard_reported_ = false;
     static_cast<void>(layer2.take_baud_change()); // it is set here
     if (port_->settings().baud != static_cast<std::uint32_t>(layer2.baud())) set_baud(layer2.baud());

@@ -145,6 +145,7 @@ bool BusPortOpener::open(Instant now)
         driver_.detach();
         port_.refuse(now, port_.path() + ": " + *refused);
     }
+    was_missing_ = true;
     tell_trouble();
     return false;
 }

@@ -46,6 +46,8 @@ public:
     }
     /// The rates that the port can do, where the rate is searched. While it is lent.
     const std::bitset<kBauds.size()>& rates() const { return rates_; }
+    /// It could not be opened at first. While it is lent.
+    bool was_missing() const { return was_missing_; }
     /// The port has gone: it is closed, and opened again as Port::lose() has it.
     void give_back() noexcept { give_back(State::lost); }
     /// It can be opened and is of no use: Port::refuse().
@@ -91,7 +93,7 @@ private:
     std::bitset<kBauds.size()> rates_ = std::bitset<kBauds.size()>{}.set();
     std::string rates_missing_; ///< in words; empty: none that is searched
     std::string why_;           ///< of State::refused
-    bool was_open_ = false;
+    bool was_open_ = false, was_missing_ = false;
     bool stack_is_small_ = false;
     std::atomic<State> state_{State::closed};
     std::atomic<bool> has_tried_{false};

@@ -248,6 +248,7 @@ TEST_F(ReopenedPort, ThatIsMissingAtTheStartIsServedWhenItHasCome)
     EXPECT_THAT(hears_trouble(), HasSubstr("is not there: check `port` in the configuration"));
     plug();
 
+    ASSERT_TRUE(reports(PortEvent::back));
     ASSERT_TRUE(eventually([this] { return snapshot().port_open; }));
     start_up(kStation);
     drive_reads(kStation, 7);
