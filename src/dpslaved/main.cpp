@@ -8,6 +8,7 @@
 #include "dpslave/arguments/options.hpp"
 #include "dpslave/arguments/standard_descriptors.hpp"
 #include "dpslave/config/config.hpp"
+#include "dpslave/io/port_users.hpp"
 
 #include <CLI/CLI.hpp>
 #include <spdlog/spdlog.h>
@@ -60,6 +61,21 @@ int release_drivers(const std::string& file, const std::string& profiles)
     return 0;
 }
 
+/// Who else has the ports of the configuration, as far as this user may look. A daemon that serves them has
+/// them too.
+void warn_of_users(const dpslave::config::Config& config)
+{
+    const auto warn = [&](const std::string& port, unsigned line) {
+        dpslave::io::PortUsers found = dpslave::io::users_of_port(port);
+        std::erase_if(found.users, [](const auto& one) { return one.name == "dpslaved"; });
+        if (!found.is_shared()) return;
+        std::fprintf(stderr, "%s:%u: %s is used by others: %s; see dpctl tune %s (warning)\n",
+                     config.file.c_str(), line, port.c_str(), found.in_words().c_str(), port.c_str());
+    };
+    warn(config.bus.port, config.bus.port_line);
+    for (const auto& line : config.lines) warn(line.port, line.port_line);
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -99,6 +115,7 @@ int main(int argc, char** argv)
             std::fprintf(stderr, "%s (warning)\n", to_string(warning).c_str());
         if (!dpslave::config::operator_group_of(config->control))
             std::fprintf(stderr, "%s (warning)\n", to_string(without_operator_group(*config)).c_str());
+        warn_of_users(*config);
         return 0;
     }
     const auto log = dpslave::set_up_log();

@@ -245,6 +245,26 @@ TEST_F(Doctor, NamesWhatAnotherProgramHasChangedOfAPort)
               "settings of /dev/ttyS2 were changed 1 time in the last minute: ISTRIP is on");
 }
 
+TEST_F(Doctor, NamesWhoElseHasThePortsBeforeWhatFollowsFromIt)
+{
+    replies.ports = {{.port = "/dev/ttyS1", .users = {}, .is_console = true},
+                     {.port = "/dev/ttyS2", .users = {{812, "agetty"}, {90, "cat"}}},
+                     {.port = "/dev/ttyS3", .users = {{7, "minicom"}}}};
+    drive_was_never_heard();
+    EXPECT_THAT(found(), ElementsAre("bus.shared", "drive.shared", "drive.never", "board.internal"));
+    EXPECT_EQ(evidence("bus.shared"), "/dev/ttyS1: it is the console of the kernel");
+    EXPECT_EQ(evidence("drive.shared"), "/dev/ttyS2: process 812 (agetty), process 90 (cat)");
+}
+
+TEST_F(Doctor, SaysThatItMayNotSeeWhoHasAPort)
+{
+    replies.ports = {{.port = "/dev/ttyS1", .users = {}, .hidden = 31},
+                     {.port = "/dev/ttyS2", .users = {}, .hidden = 31}};
+    EXPECT_THAT(found(), IsEmpty());
+    EXPECT_THAT(found(true), ElementsAre("bus.not_seen")) << "a note";
+    EXPECT_EQ(evidence("bus.not_seen"), "the files of 31 processes of other users cannot be seen");
+}
+
 TEST_F(Doctor, SaysWhyTheBusPortCannotBeHad)
 {
     bus().port_open = false;

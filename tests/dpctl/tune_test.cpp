@@ -118,7 +118,7 @@ protected:
     }
     TuneFacts facts() const
     {
-        return {io::read_machine(tree.root()), io::read_port(tree.root(), port_), bus_};
+        return {io::read_machine(tree.root()), io::read_port(tree.root(), port_), users_, bus_};
     }
     std::vector<RateJudgment> rates() const { return judge_rates(facts()); }
     std::vector<Verdict> verdicts() const
@@ -151,8 +151,28 @@ protected:
 
     test::MachineTree tree;
     std::string port_;
+    io::PortUsers users_{};
     std::optional<BusFacts> bus_;
 };
+
+TEST_F(Tune, NamesWhoElseHasThePortAndSaysWhereItMayNotLook)
+{
+    on(test::stock_pc, "/dev/ttyS1");
+    users_ = {.port = "/dev/ttyS1", .users = {{812, "agetty"}}, .is_console = true, .hidden = 9};
+    EXPECT_EQ(shared_port(users_)->severity, Severity::mend);
+    EXPECT_EQ(shared_port(users_)->what,
+              "/dev/ttyS1 is used by others: process 812 (agetty), and it is the console of the kernel");
+    const auto all = tune_findings(facts(), rates());
+    EXPECT_TRUE(std::ranges::any_of(all, [](const auto& one) { return one.name == "port.shared"; }));
+
+    users_ = {.port = "/dev/ttyS1", .users = {}, .hidden = 9};
+    EXPECT_EQ(shared_port(users_)->severity, Severity::know);
+    EXPECT_THAT(shared_port(users_)->what,
+                HasSubstr("the files of 9 processes of other users cannot be seen"));
+
+    users_ = {.port = "/dev/ttyS1", .users = {}};
+    EXPECT_FALSE(shared_port(users_));
+}
 
 // 16550A, trigger 8, stock kernel: 44 T_bit and 2500 us; its clock makes 115200 and fractions.
 TEST_F(Tune, AStockPcHoldsTheTwoRatesThatItsClockMakes)

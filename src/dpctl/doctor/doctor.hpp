@@ -6,6 +6,7 @@
 #include "dpctl/cli/fields.hpp"
 #include "dpctl/cli/table.hpp"
 
+#include "dpslave/io/port_users.hpp"
 #include "dpslave/report/replies.hpp"
 
 #include <array>
@@ -27,6 +28,7 @@ struct Replies {
     report::GetLedsReply leds{};
     report::GetTecReply tec{};
     report::GetIoReply io{};
+    std::vector<io::PortUsers> ports{}; ///< of the bus and of each line, as far as dpctl may look
 };
 
 /// Whose troubleshooting table counts.

@@ -179,8 +179,8 @@ std::span<const Rule> rules()
 {
     static const std::vector<Rule> all = [] {
         std::vector<Rule> joined;
-        for (const auto table : {bus_rules(), drive_rules(), station_rules(), board_rules(), box_rules(),
-                                 controller_rules(), lamp_rules()})
+        for (const auto table : {port_rules(), bus_rules(), drive_rules(), station_rules(), board_rules(),
+                                 box_rules(), controller_rules(), lamp_rules()})
             joined.insert(joined.end(), table.begin(), table.end());
         return joined;
     }();

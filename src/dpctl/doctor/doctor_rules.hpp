@@ -10,6 +10,7 @@
 
 namespace dpslave::dpctl {
 
+std::span<const Rule> port_rules();
 std::span<const Rule> bus_rules();
 std::span<const Rule> drive_rules();
 std::span<const Rule> board_rules();

@@ -8,6 +8,7 @@
 #include "machine.hpp"
 
 #include "dpslave/base/units.hpp"
+#include "dpslave/io/port_users.hpp"
 #include "dpslave/report/replies.hpp"
 
 #include <array>
@@ -51,6 +52,7 @@ struct BusFacts {
 struct TuneFacts {
     io::MachineFacts machine;
     io::PortFacts port;
+    io::PortUsers users; ///< of the port, without the daemon
     std::optional<BusFacts> bus;
 };
 
@@ -93,6 +95,8 @@ struct TuneFinding {
     std::string cost;               ///< in bit times where they are known; empty = nothing
     std::vector<std::string> steps; ///< what to do next, with the command to type
 };
+/// Another program has the port, or the kernel; or whether one has it cannot be seen. Nothing: nobody has.
+std::optional<TuneFinding> shared_port(const io::PortUsers& users);
 /// Those to mend first.
 std::vector<TuneFinding> tune_findings(const TuneFacts& facts, const std::vector<RateJudgment>& rates);
 

@@ -399,6 +399,7 @@ std::vector<TuneFinding> tune_findings(const TuneFacts& facts, const std::vector
         uart(facts, out);
         usb(facts, baud, out);
     }
+    if (auto shared = shared_port(facts.users)) out.push_back(std::move(*shared));
     kernel(facts, baud, out);
     processors(facts, baud, out);
     threads(facts, out);

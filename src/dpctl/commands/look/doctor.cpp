@@ -87,6 +87,16 @@ int search_for_drive(const DoctorOptions& options, Session& session)
     return now.answering.empty() ? kNo : kFine;
 }
 
+/// Of each port once; the daemon may have them.
+std::vector<io::PortUsers> port_users(const report::GetStatusReply& status)
+{
+    std::vector<io::PortUsers> all{io::users_of_port(status.bus.port, static_cast<int>(status.pid))};
+    for (const report::Station& one : status.stations)
+        if (std::ranges::find(all, one.drive.port, &io::PortUsers::port) == all.end())
+            all.push_back(io::users_of_port(one.drive.port, static_cast<int>(status.pid)));
+    return all;
+}
+
 int run(const DoctorOptions& options, Session& session)
 {
     Terminal& terminal = session.terminal();
@@ -121,6 +131,7 @@ int run(const DoctorOptions& options, Session& session)
                              : fmt::format("dpctl: there is no station '{}'\n", options.station));
         return options.station.empty() ? kNo : kUsage;
     }
+    replies.ports = port_users(replies.status);
     const std::vector<Finding> findings = diagnose(replies, options.station);
     const std::vector<Earlier> earlier = earlier_troubles(replies, options.station);
     session.print(doctor_json(replies, findings, earlier), [&] {

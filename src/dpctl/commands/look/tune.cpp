@@ -68,6 +68,7 @@ int run(const TuneOptions& options, Session& session)
     if (path.empty()) path = served;
     facts.machine = io::read_machine("/");
     facts.port = io::read_port("/", path);
+    facts.users = io::users_of_port(path, static_cast<int>(status.pid));
     if (!served.empty() && same_port(path, served)) {
         facts.bus = bus_facts(status.bus, quietly<report::GetInfoReply>(session, "GetInfo"),
                               quietly<report::GetCountersReply>(session, "GetCounters"));
