@@ -131,5 +131,54 @@ TEST_F(RowOfAPort, F24_ThatComesBackAsAnotherTerminalBehindTheSameLinkIsOpenedAg
     EXPECT_NE(terminal_of("drive-gateway"), drive_before);
 }
 
+/// A command of a shell, with the terminal behind it.
+void run_with(const std::string& command, const std::filesystem::path& terminal)
+{
+    ASSERT_EQ(std::system((command + " <" + terminal.string()).c_str()), 0) << command;
+}
+
+TEST_F(RowOfAPort, F43_OfADriveLineThatAnotherProgramHasIsSetAgainAndTheProgramIsNamed)
+{
+    begins();
+    {
+        const KeptOpen other{terminal_of("drive-gateway")};
+        run_with("stty sane", terminal_of("drive-gateway"));
+        EXPECT_TRUE(doctor_names("drive.settings"));
+        EXPECT_TRUE(doctor_names("drive.shared"));
+        EXPECT_THAT(gateway->dpctl({"doctor"}).out, ::testing::HasSubstr("(test_faults)"));
+        EXPECT_THAT(gateway->dpctl({"tune", terminal_of("drive-gateway")}).out,
+                    ::testing::HasSubstr("(test_faults)"));
+    }
+    fault_ends();
+    EXPECT_TRUE(doctor_names("drive.shared", false));
+    drive_shows(9);
+    EXPECT_TRUE(exchange_is_back(true));
+    EXPECT_TRUE(master_wants(9));
+    EXPECT_TRUE(drive_takes(9));
+    EXPECT_TRUE(master_sees(9));
+    recovered();
+    EXPECT_TRUE(never_an_older_one(seen()));
+}
+
+TEST_F(RowOfAPort, F43_OfTheBusThatAnotherProgramHasIsSetAgainAndTheProgramIsNamed)
+{
+    begins();
+    ASSERT_TRUE(master_wants(7));
+    ASSERT_TRUE(drive_takes(7));
+    {
+        const KeptOpen other{terminal_of("bus-gateway")};
+        run_with("stty sane", terminal_of("bus-gateway"));
+        EXPECT_TRUE(doctor_names("bus.settings"));
+        EXPECT_TRUE(doctor_names("bus.shared"));
+    }
+    fault_ends();
+    EXPECT_TRUE(doctor_names("bus.shared", false));
+    EXPECT_TRUE(master->does("start 30s"));
+    EXPECT_TRUE(master_wants(9));
+    EXPECT_TRUE(drive_takes(9));
+    recovered();
+    EXPECT_EQ(taken().back(), 9);
+}
+
 } // namespace
 } // namespace dpslave::test

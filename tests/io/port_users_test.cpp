@@ -85,6 +85,23 @@ TEST_F(PortUsersOf, APortThatIsNotThereHasNone)
     EXPECT_FALSE(users_of_port("/etc/passwd", 0, proc).is_shared()) << "nor has a file";
 }
 
+/// A simulated line keeps the end of the daemon open, so that it is there when nobody has it.
+TEST(PortUsersOfThisMachine, WhoHasMadeAPtyIsNone)
+{
+    const Pty pty;
+    const Fd kept{::open(pty.path().c_str(), O_RDWR | O_NOCTTY)};
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) { // it has both ends
+        ::pause();
+        ::_exit(0);
+    }
+    const PortUsers found = users_of_port(pty.path());
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    EXPECT_FALSE(found.is_shared()) << found.in_words();
+}
+
 /// By the real /proc: another process has the other end of a pty.
 TEST(PortUsersOfThisMachine, AreThoseThatHaveItOpen)
 {

@@ -237,7 +237,7 @@ constexpr std::array kBusRules = std::to_array<Rule>({
     {"bus.settings", Rank::recent,
      "another program has changed settings of the port of the bus, or raised its RTS",
      "Another program uses the port of the bus",
-     "Find that program: sudo fuser -v PORT. A login prompt, a console, ModemManager and brltty do this.\n"
+     "Find that program: sudo dpctl doctor names it while it has the port open. A login prompt, a console, ModemManager and brltty do this.\n"
      "Keep it away from this port: docs/guide/hardware.md. The gateway sets its settings again each time.\n"
      "Check whether `settings_changed` still grows: dpctl counters",
      kGateway, seen_settings},

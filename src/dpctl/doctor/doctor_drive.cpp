@@ -309,7 +309,7 @@ constexpr std::array kDriveRules = std::to_array<Rule>({
     {"drive.settings", Rank::recent,
      "another program has changed settings of the port of the drive line, or raised its RTS",
      "Another program uses the port of the drive line",
-     "Find that program: sudo fuser -v PORT. A login prompt, a console, ModemManager and brltty do this.\n"
+     "Find that program: sudo dpctl doctor names it while it has the port open. A login prompt, a console, ModemManager and brltty do this.\n"
      "Keep it away from this port: docs/guide/hardware.md. The gateway sets its settings again each time.\n"
      "Check whether `line_settings_changed` still grows: dpctl counters",
      kGateway, seen_line_settings},

@@ -59,15 +59,30 @@ unsigned long terminal_number(dev_t device)
            ((minor_number & ~0xFFUL) << 12U);
 }
 
-/// Returns nothing where this user may not look.
+/// A file of a process is the other end of this pty, as a simulated line has it.
+bool is_other_end(const fs::path& process, const fs::path& file, dev_t device)
+{
+    constexpr unsigned kFirst = 136, kLast = 143; // the major numbers of ptys (devices.txt of Linux)
+    if (major(device) < kFirst || major(device) > kLast) return false;
+    const unsigned long index = (major(device) - kFirst) * 256UL + minor(device);
+    std::ifstream info{process / "fdinfo" / file.filename()};
+    for (std::string line; std::getline(info, line);)
+        if (line == "tty-index:\t" + std::to_string(index)) return true;
+    return false;
+}
+
+/// Returns nothing where this user may not look. Who has made the pty is no other user of it.
 std::optional<bool> has_open(const fs::path& process, dev_t device)
 {
     std::error_code error;
     fs::directory_iterator files{process / "fd", error};
     if (error == std::errc::permission_denied) return std::nullopt;
-    for (; !error && files != fs::directory_iterator{}; files.increment(error))
-        if (device_of(files->path()) == device) return true;
-    return false;
+    bool is_open = false;
+    for (; !error && files != fs::directory_iterator{}; files.increment(error)) {
+        is_open = is_open || device_of(files->path()) == device;
+        if (is_other_end(process, files->path(), device)) return false;
+    }
+    return is_open;
 }
 
 /// "ttyS0 -W- (EC p a) 4:64": a console of the kernel with its device.
