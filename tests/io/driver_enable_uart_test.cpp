@@ -197,6 +197,39 @@ TEST_F(OnAUart, TheDriverOfTheUartSwitchesWithRtsOnSendAndNoDelays)
                 AllOf(HasSubstr("TIOCSRS485, read back"), HasSubstr("asserted while sending")));
 }
 
+TEST_F(OnAUart, AnotherProgramThatChangesTheModeIsNamedAndTheModeIsSetAgain)
+{
+    uart.takes_rs485 = true;
+    for (const auto direction : {Direction::kernel, Direction::none}) {
+        DriverEnable driver = opened(direction);
+        ASSERT_FALSE(driver.attach(*tty));
+        EXPECT_FALSE(tty->changed_settings()) << "what the driver enable has set is wanted";
+        const auto wanted = uart.rs485.flags;
+
+        uart.rs485.flags ^= SER_RS485_ENABLED;
+        const auto changed = tty->changed_settings();
+        ASSERT_TRUE(changed);
+        EXPECT_TRUE(changed->harms_octets);
+        EXPECT_STREQ(changed->words.data(), direction == Direction::kernel
+                                                ? "the RS-485 mode of the UART is off"
+                                                : "the RS-485 mode of the UART is on");
+        EXPECT_FALSE(tty->set_again(*changed));
+        EXPECT_EQ(uart.rs485.flags, wanted);
+        EXPECT_FALSE(tty->changed_settings());
+        driver.detach();
+    }
+}
+
+TEST_F(OnAUart, AnotherDelayOfTheModeIsAChangeToo)
+{
+    uart.takes_rs485 = true;
+    DriverEnable driver = opened(Direction::kernel);
+    ASSERT_FALSE(driver.attach(*tty));
+    uart.rs485.delay_rts_after_send = 5;
+    ASSERT_TRUE(tty->changed_settings());
+    EXPECT_STREQ(tty->changed_settings()->words.data(), "the RS-485 mode of the UART is another one");
+}
+
 TEST_F(OnAUart, TheDriverOfTheUartGoesOnSwitchingWhenWeHaveEnded)
 {
     uart.takes_rs485 = true;

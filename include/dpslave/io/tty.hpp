@@ -86,9 +86,11 @@ public:
     /// Tries all of them and goes back to the present one. Octets that come meanwhile are lost.
     TtyBauds bauds();
 
-    /// Returns how the settings differ from those that open() and set_baud() made: another program has
-    /// changed them. nullopt: they do not, or the port has gone. It waits for nothing but the change itself,
-    /// and allocates nothing.
+    /// The settings in force are wanted: behind a change of the RS-485 mode, which is not this object's.
+    void keep_settings() const noexcept;
+    /// Returns how the settings differ from those that open(), set_baud() and keep_settings() left: another
+    /// program has changed them. nullopt: they do not, or the port has gone. It waits for nothing but the
+    /// change itself, and allocates nothing.
     std::optional<ChangedSettings> changed_settings() const noexcept;
     /// Sets them again. If octets were harmed, those that have come are discarded, and what waits to be sent.
     /// An error: the driver does not take them.

@@ -2,6 +2,7 @@
 #include "kept_settings.hpp"
 
 #include <asm/termbits.h>
+#include <linux/serial.h>
 #include <linux/tty.h>
 #include <sys/ioctl.h>
 
@@ -15,7 +16,8 @@ namespace dpslave::io {
 
 struct KeptSettings::Settings {
     termios2 flags{};
-    bool is_known = false;
+    serial_rs485 rs485{};
+    bool is_known = false, has_rs485 = false; ///< the driver says so
 };
 
 namespace {
@@ -124,11 +126,28 @@ void add_format(tcflag_t flags, Words& words)
     words << bits << parity << ((flags & CSTOPB) != 0 ? "2" : "1");
 }
 
-ChangedSettings compare(const termios2& wanted, const termios2& found)
+bool is_same(const serial_rs485& a, const serial_rs485& b)
+{
+    return a.flags == b.flags && a.delay_rts_before_send == b.delay_rts_before_send &&
+           a.delay_rts_after_send == b.delay_rts_after_send;
+}
+
+/// Says how the mode differs in which the UART itself switches the transceiver.
+std::string_view words_of(const serial_rs485& wanted, const serial_rs485& found)
+{
+    if (((wanted.flags ^ found.flags) & SER_RS485_ENABLED) == 0)
+        return "the RS-485 mode of the UART is another one";
+    return (found.flags & SER_RS485_ENABLED) != 0 ? "the RS-485 mode of the UART is on"
+                                                  : "the RS-485 mode of the UART is off";
+}
+
+/// `rs485`: how that mode differs; empty: it does not.
+ChangedSettings compare(const termios2& wanted, const termios2& found, std::string_view rs485)
 {
     ChangedSettings changed;
     Words words{changed.words};
-    bool harms = false;
+    bool harms = !rs485.empty();
+    if (harms) words.next() << rs485;
     if (!is_same_rate(wanted, found)) {
         harms = true;
         words.next() << (found.c_ispeed != wanted.c_ispeed ? found.c_ispeed : found.c_ospeed)
@@ -175,14 +194,18 @@ void KeptSettings::note(int fd) noexcept
     if (::ioctl(fd, TCGETS2, &now) < 0) return;
     noted_->flags = now;
     noted_->is_known = true;
+    noted_->has_rs485 = ::ioctl(fd, TIOCGRS485, &noted_->rs485) == 0;
 }
 
 std::optional<ChangedSettings> KeptSettings::changed(int fd) const noexcept
 {
     termios2 now{};
-    if (::ioctl(fd, TCGETS2, &now) < 0 || !noted_->is_known || is_same(noted_->flags, now))
-        return std::nullopt;
-    return compare(noted_->flags, now);
+    if (::ioctl(fd, TCGETS2, &now) < 0 || !noted_->is_known) return std::nullopt;
+    serial_rs485 mode{};
+    const bool is_moved =
+        noted_->has_rs485 && ::ioctl(fd, TIOCGRS485, &mode) == 0 && !is_same(noted_->rs485, mode);
+    if (is_same(noted_->flags, now) && !is_moved) return std::nullopt;
+    return compare(noted_->flags, now, is_moved ? words_of(noted_->rs485, mode) : std::string_view{});
 }
 
 std::error_code KeptSettings::set_again(int fd, std::uint32_t baud) const noexcept
@@ -195,6 +218,11 @@ std::error_code KeptSettings::set_again(int fd, std::uint32_t baud) const noexce
     if (now.c_line != wanted.c_line && ::ioctl(fd, TIOCSETD, &discipline) < 0)
         return last_error_of_settings();
     static_cast<void>(::ioctl(fd, TCFLSH, TCOFLUSH));
+    serial_rs485 mode = noted_->rs485;
+    if (noted_->has_rs485 && ::ioctl(fd, TIOCGRS485, &mode) == 0 && !is_same(noted_->rs485, mode)) {
+        mode = noted_->rs485;
+        if (::ioctl(fd, TIOCSRS485, &mode) < 0) return last_error_of_settings();
+    }
     wanted.c_cflag &= ~kRateFlags;
     wanted.c_cflag |= BOTHER;
     wanted.c_ispeed = wanted.c_ospeed = baud; // what the driver made of it may not make the same again

@@ -21,7 +21,8 @@ public:
 
     /// Those in force now are the ones that are wanted. A port that has gone changes nothing.
     void note(int fd) noexcept;
-    /// One system call, and no allocation. Nothing: they are as they were noted, or the port has gone.
+    /// Two system calls, one where the UART has no RS-485 mode, and no allocation. Nothing: they are as they
+    /// were noted, or the port has gone.
     std::optional<ChangedSettings> changed(int fd) const noexcept;
     /// Sets those that were noted, with the rate as it was asked for, and reads them back. What waits to be
     /// sent is discarded.

@@ -194,6 +194,11 @@ TtyBauds Tty::bauds()
     return found;
 }
 
+void Tty::keep_settings() const noexcept
+{
+    kept_->note(fd());
+}
+
 std::optional<ChangedSettings> Tty::changed_settings() const noexcept
 {
     const InCall look{PortCall::set};
