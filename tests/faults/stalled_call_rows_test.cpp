@@ -203,6 +203,33 @@ TEST_F(StalledCall, F39_OfADriveLineIsNamedByEachReloadAndTheLineTakesTheNewestB
     EXPECT_TRUE(never_an_older_one(seen()));
 }
 
+TEST_F(StalledCall, F39_OfADriveLineWhosePortDoesNotCloseForAReloadIsThatOfTheOthers)
+{
+    Wiring wiring = wiring_with("drive-gateway", "close");
+    wiring.when_drive_lost = "silent";
+    begins_with(std::move(wiring));
+    ASSERT_TRUE(master_wants(7));
+    ASSERT_TRUE(drive_takes(7));
+    std::string text = gateway->config_text();
+    const std::string key = "protocol = \"ei-ascii\"\n";
+    stalls();
+    write_file(gateway->config(), text.insert(text.find(key), "settle_ms = 2500\n"));
+    EXPECT_EQ(gateway->dpctl({"reload", "--yes"}).status, 0);
+    ASSERT_TRUE(has_stalled());
+    EXPECT_TRUE(master->does("wait 30s for state not data-exchange"));
+    EXPECT_TRUE(status_says("line p3 has stalled in close for "));
+    EXPECT_TRUE(doctor_names("drive.stalled"));
+
+    fault_ends();
+    comes_back();
+    EXPECT_TRUE(exchange_is_back(true));
+    ASSERT_TRUE(master_wants(9));
+    EXPECT_TRUE(drive_takes(9));
+    recovered();
+    EXPECT_TRUE(doctor_names("drive.stalled", false));
+    EXPECT_TRUE(never_an_older_one(seen()));
+}
+
 TEST_F(StalledCall, F41_OfADriveLineIsNamedAtTheEndWhichTheOtherLinesAndTheBusDoNotWaitFor)
 {
     begins_with(wiring_with("drive-gateway", "write"));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Preloaded into the daemon: a call of a tty does not come back while a file is there, as a USB control
 // transfer that is not answered. The environment says which: STALLED_PORT the tty (a symbolic link),
-// STALLED_CALL the call (open, read, write, ioctl), STALLED_WHILE the file. STALLED_NOTE is a file that the
-// call makes when it begins to wait. STALLED_CALL log: the write of the log, as on a disk that does not
-// answer.
+// STALLED_CALL the call (open, close, read, write, ioctl), STALLED_WHILE the file. STALLED_NOTE is a file
+// that the call makes when it begins to wait. STALLED_CALL log: the write of the log, as on a disk that does
+// not answer.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/ioctl.h>
@@ -42,6 +42,7 @@ bool is_port(const char* path)
 bool is_port(int fd)
 {
     if (fd == STDERR_FILENO) return true; // of the call "log"
+    if (fd < 0) return false;
     char name[64];
     return ::ttyname_r(fd, name, sizeof name) == 0 && is_port(name);
 }
@@ -53,7 +54,7 @@ void stall(const char* call, Port port)
     const char* const file = std::getenv("STALLED_WHILE");
     if (wanted == nullptr || std::strcmp(call, wanted) != 0 || !is_there(file) || !is_port(port)) return;
     if (const char* const note = std::getenv("STALLED_NOTE"))
-        ::close(::creat(note, 0600)); // not by open(): that may be the call
+        next<int(int)>("close")(::creat(note, 0600)); // not by open() and close(): they may be the call
     while (is_there(file)) ::usleep(5'000);
 }
 
@@ -71,6 +72,13 @@ EXPORTED ssize_t read(int fd, void* octets, size_t count)
     static auto* const real = next<ssize_t(int, void*, size_t)>("read");
     stall("read", fd);
     return real(fd, octets, count);
+}
+
+EXPORTED int close(int fd)
+{
+    static auto* const real = next<int(int)>("close");
+    stall("close", fd);
+    return real(fd);
 }
 
 EXPORTED int open(const char* path, int flags, ...)
