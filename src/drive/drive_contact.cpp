@@ -33,6 +33,7 @@ Instant DriveContact::decides_at() const
 Instant DriveContact::probe_due() const
 {
     if (presence_.is_returning()) return decides_at();
+    if (is_asked_at_once_) return Instant{};
     const bool is_watched = presence_.is_supervised() && link_.is_certain();
     return asked_at_ + (is_watched ? std::min<std::chrono::nanoseconds>(probe_interval_, kSupervisedEvery)
                                    : probe_interval_);
@@ -40,6 +41,7 @@ Instant DriveContact::probe_due() const
 
 bool DriveContact::defer(Instant now)
 {
+    is_asked_at_once_ = false; // it has had its turn
     if (++deferred_ >= kDeferredAtOnce) rests_until_ = now + kDeferredRest;
     return link_.is_in_doubt() || (presence_.is_supervised() && now >= probe_due());
 }

@@ -35,8 +35,8 @@ public:
     /// When it may be probed next, as far as it alone is concerned.
     Instant probe_due() const;
     std::chrono::nanoseconds probe_interval() const { return probe_interval_; }
-    /// End of the last question.
-    Instant asked_at() const { return asked_at_; }
+    /// End of the last question; of one that is asked at once, before all others.
+    Instant asked_at() const { return is_asked_at_once_ ? Instant{} : asked_at_; }
     /// Nothing can be asked before, as far as is known.
     Instant rests_until() const { return rests_until_; }
 
@@ -49,11 +49,13 @@ public:
     void asked(Instant began, Instant now)
     {
         deferred_ = 0;
-        if (began != now) asked_at_ = now;
+        if (began == now) return;
+        asked_at_ = now;
+        is_asked_at_once_ = false;
     }
-    /// Nothing says that it would not answer: it need not wait for its turn among those that do not.
-    void ask_at_once() { asked_at_ = {}; }
-    bool is_asked_at_once() const { return asked_at_ == Instant{}; }
+    /// One that is lost, and may answer: once it need not wait for its turn among those that do not.
+    void ask_at_once() { is_asked_at_once_ = link_.is_lost(); }
+    bool is_asked_at_once() const { return is_asked_at_once_; }
     /// A question had no answer. It counts with the next silence.
     void note_unanswered(const Outcome& outcome, Instant began)
     {
@@ -69,7 +71,8 @@ private:
     Presence presence_;
     Instant began_at_{}; ///< the last question
     Instant asked_at_{}; ///< its end
-    int deferred_ = 0;   ///< transactions in a row
+    bool is_asked_at_once_ = false;
+    int deferred_ = 0; ///< transactions in a row
     Instant rests_until_{};
 };
 

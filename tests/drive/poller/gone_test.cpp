@@ -474,6 +474,18 @@ TEST(DrivesOfALineThatStalled, AreAllAskedAtOnceAndDeadOnesInTheirTurn)
     EXPECT_EQ(asked, (std::set<std::size_t>{0, 1, 2}));
 }
 
+/// All that it could be asked for is owed: it is not asked again and again without a pause.
+TEST(LostDrive, ThatIsAskedAtOnceAndCannotBeAskedWaitsForItsTurn)
+{
+    PollerBench bench{{drive_with(WhenLost::hold)}};
+    bench.run(1s);
+    bench.poller.not_asked(0, bench.now);
+    ASSERT_TRUE(bench.poller.next(bench.now));
+    bench.poller.done({AccessError::deferred, {}}, bench.now);
+    EXPECT_FALSE(bench.poller.next(bench.now));
+    EXPECT_GT(bench.poller.next_deadline(), bench.now);
+}
+
 TEST(LostDrive, OfAProgramThatEndsIsAskedOnceMoreAndHasItsSafeStateIfItIsBack)
 {
     PollerBench bench{{drive_with(WhenLost::hold)}};
