@@ -86,9 +86,9 @@ public:
     /// Tries all of them and goes back to the present one. Octets that come meanwhile are lost.
     TtyBauds bauds();
 
-    /// The settings in force are wanted: behind a change of the RS-485 mode, which is not this object's.
-    void keep_settings() const noexcept;
-    /// Returns how the settings differ from those that open(), set_baud() and keep_settings() left: another
+    /// The RS-485 mode in force is wanted. Who sets it, or has found it right, says so.
+    void keep_rs485_mode() const noexcept;
+    /// Returns how the settings differ from those that open(), set_baud() and keep_rs485_mode() left: another
     /// program has changed them. nullopt: they do not, or the port has gone. It waits for nothing but the
     /// change itself, and allocates nothing.
     std::optional<ChangedSettings> changed_settings() const noexcept;

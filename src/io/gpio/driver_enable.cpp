@@ -231,7 +231,7 @@ std::optional<std::string> DriverEnable::attach(const Tty& port)
     if (!trouble && h.settings.direction == Direction::rts) trouble = h.attach_rts(port.fd());
     if (h.settings.direction == Direction::kernel) trouble = h.attach_kernel(port.fd());
     if (trouble) return "driver enable: " + *trouble;
-    port.keep_settings();
+    port.keep_rs485_mode();
 
     const std::lock_guard lock(h.exchange_mutex);
     h.port = port.fd();

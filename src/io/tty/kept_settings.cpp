@@ -194,6 +194,10 @@ void KeptSettings::note(int fd) noexcept
     if (::ioctl(fd, TCGETS2, &now) < 0) return;
     noted_->flags = now;
     noted_->is_known = true;
+}
+
+void KeptSettings::note_rs485(int fd) noexcept
+{
     noted_->has_rs485 = ::ioctl(fd, TIOCGRS485, &noted_->rs485) == 0;
 }
 

@@ -21,6 +21,8 @@ public:
 
     /// Those in force now are the ones that are wanted. A port that has gone changes nothing.
     void note(int fd) noexcept;
+    /// The same of the RS-485 mode; before the first call nothing is wanted of it.
+    void note_rs485(int fd) noexcept;
     /// Two system calls, one where the UART has no RS-485 mode, and no allocation. Nothing: they are as they
     /// were noted, or the port has gone.
     std::optional<ChangedSettings> changed(int fd) const noexcept;

@@ -194,9 +194,9 @@ TtyBauds Tty::bauds()
     return found;
 }
 
-void Tty::keep_settings() const noexcept
+void Tty::keep_rs485_mode() const noexcept
 {
-    kept_->note(fd());
+    kept_->note_rs485(fd());
 }
 
 std::optional<ChangedSettings> Tty::changed_settings() const noexcept
