@@ -18,7 +18,7 @@ public:
     /// `fd` is not closed, and outlives the program's last line. Throws std::system_error when the system has
     /// no thread or no descriptor left.
     explicit LogThread(int fd);
-    /// Waits for what is to be written as finish(kLastWait) does, and leaves a thread that hangs to itself.
+    /// Waits for what is to be written as finish(kEndWait) does, and leaves a thread that hangs to itself.
     ~LogThread();
     LogThread(const LogThread&) = delete;
     LogThread& operator=(const LogThread&) = delete;
@@ -33,7 +33,8 @@ public:
     /// stand still while it has one. `line` lives as long as the program.
     bool say_last(const char* line, std::chrono::milliseconds limit);
 
-    static constexpr std::chrono::milliseconds kLastWait{200};
+    static constexpr std::chrono::milliseconds kLastWait{200}; ///< where all the time of the end is used up
+    static constexpr std::chrono::seconds kEndWait{2};         ///< a machine without time writes it, too
 
 private:
     struct Shared;

@@ -119,7 +119,7 @@ LogThread::LogThread(int fd) : shared_(std::make_shared<Shared>(fd))
 
 LogThread::~LogThread()
 {
-    finish(kLastWait);
+    finish(kEndWait);
     shared_->ends.store(true);
     shared_->bell.ring();
 }
